@@ -1,0 +1,217 @@
+"""What the service answers. Every figure is recomputed by the mechanics."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from schemas.base import Model
+from schemas.outputs import Hodographs, OrdersComparison, Stages
+from schemas.quantities import (
+    Degrees,
+    KilogramMetres,
+    Kilograms,
+    Metres,
+    Milliseconds,
+    Name,
+    NewtonMetres,
+    Newtons,
+)
+
+WebLimit = Literal["max_mass", "sector"]
+MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
+
+
+class Counterweight(Model):
+    """One counterweight on one web."""
+
+    web: Name = Field(description="name of the web", examples=["1a"])
+    mass_kg: Kilograms = Field(description="mass", examples=[24.5])
+    angle_deg: Degrees = Field(
+        description="angle as drawn at shaft angle 0, from 0 up to 360; 0 where the mass is 0", examples=[180.0]
+    )
+    mass_radius_kg_m: KilogramMetres = Field(description="mass times radius", examples=[6.125])
+    x_kg_m: KilogramMetres = Field(description="x component of mass times radius", examples=[-6.125])
+    y_kg_m: KilogramMetres = Field(description="y component of mass times radius", examples=[0.0])
+    active_limits: tuple[WebLimit, ...] = Field(
+        description="limits of this web that the counterweight touches", examples=[["max_mass"]]
+    )
+
+
+class ForceEllipse(Model):
+    """The first-order force over a turn: an ellipse, exact."""
+
+    peak_N: Newtons = Field(description="largest force over a turn, the major semi-axis", examples=[4997.4])
+    minor_N: Newtons = Field(description="smallest force over a turn, the minor semi-axis", examples=[0.0])
+    major_axis_deg: Degrees = Field(description="direction of the major axis, 0 to 180", examples=[0.0])
+    peak_x_N: Newtons = Field(description="largest x component over a turn", examples=[4997.4])
+    peak_y_N: Newtons = Field(description="largest y component over a turn", examples=[0.0])
+    co_rotating_N: Newtons = Field(description="magnitude of the phasor that turns with the shaft", examples=[2498.7])
+    counter_rotating_N: Newtons = Field(
+        description="magnitude of the phasor that turns against the shaft", examples=[2498.7]
+    )
+
+
+class MomentEllipse(Model):
+    """The first-order moment over a turn: the couple in the plane of the forces, an ellipse, exact."""
+
+    peak_Nm: NewtonMetres = Field(description="largest moment over a turn, the major semi-axis", examples=[19494.0])
+    minor_Nm: NewtonMetres = Field(description="smallest moment over a turn, the minor semi-axis", examples=[0.0])
+    major_axis_deg: Degrees = Field(description="direction of the major axis, 0 to 180", examples=[0.0])
+    peak_x_Nm: NewtonMetres = Field(description="largest x component over a turn", examples=[19494.0])
+    peak_y_Nm: NewtonMetres = Field(description="largest y component over a turn", examples=[0.0])
+    co_rotating_Nm: NewtonMetres = Field(
+        description="magnitude of the phasor that turns with the shaft", examples=[9747.0]
+    )
+    counter_rotating_Nm: NewtonMetres = Field(
+        description="magnitude of the phasor that turns against the shaft", examples=[9747.0]
+    )
+
+
+class FirstOrder(Model):
+    """First-order force and moment on the frame."""
+
+    force: ForceEllipse = Field(description="force on the frame", examples=[{"peak_N": 4997.4}])
+    moment: MomentEllipse = Field(
+        description="moment about the reference plane, as a couple in the plane of the forces",
+        examples=[{"peak_Nm": 19494.0}],
+    )
+
+
+class Residual(Model):
+    """First order without and with counterweights."""
+
+    before: FirstOrder = Field(description="without counterweights", examples=[{"force": {"peak_N": 9994.7}}])
+    after: FirstOrder | None = Field(
+        description="with the counterweights; null where there are none to show (infeasible)",
+        examples=[{"force": {"peak_N": 4997.4}}],
+    )
+
+
+class Floor(Model):
+    """What remains however large the counterweights: the counter-rotating phasors."""
+
+    force_N: Newtons = Field(description="smallest peak force that counterweights could reach", examples=[2498.7])
+    moment_Nm: NewtonMetres = Field(
+        description="smallest peak moment that counterweights could reach", examples=[9747.0]
+    )
+
+
+class Certificate(Model):
+    """The proof: a lower bound in closed form that no counterweights within the limits can beat."""
+
+    objective: float = Field(description="objective of the returned counterweights, recomputed", examples=[30345.0])
+    lower_bound: float = Field(
+        description="no counterweights within the limits have a smaller objective", examples=[30344.97]
+    )
+    gap: float = Field(description="objective minus lower bound", examples=[0.03])
+    relative_gap: float = Field(description="gap over the objective without counterweights", examples=[5e-7])
+    objective_without_counterweights: float = Field(description="objective with no counterweights", examples=[60690.0])
+    mass_lower_bound_kg: Kilograms | None = Field(
+        description="no optimum has a smaller total mass; null if least mass was not asked for", examples=[41.2]
+    )
+    mass_relative_gap: float | None = Field(
+        description="total mass above that bound, relative to the total mass", examples=[2e-9]
+    )
+    method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
+
+
+class EffectUse(Model):
+    """Whether an effect was simulated, for which outputs, and how long it took."""
+
+    simulated: bool = Field(description="whether the effect was simulated", examples=[True])
+    needed_by: tuple[str, ...] = Field(description="outputs that asked for it", examples=[["residual"]])
+    time_ms: Milliseconds = Field(description="time it took; 0 where it was not simulated", examples=[0.1])
+
+
+class Timing(Model):
+    """Where the time went, in process."""
+
+    total_ms: Milliseconds = Field(description="whole computation after validation", examples=[4.1])
+    solve_ms: Milliseconds = Field(description="the convex program, both stages", examples=[2.9])
+    mechanics_ms: Milliseconds = Field(description="machine to baseline and influence", examples=[0.3])
+    certificate_ms: Milliseconds = Field(description="lower bounds", examples=[0.3])
+    report_ms: Milliseconds = Field(description="residuals and other outputs", examples=[0.6])
+
+
+class Closest(Model):
+    """The counterweights whose largest excess over the ceilings is smallest."""
+
+    counterweights: tuple[Counterweight, ...] = Field(description="the counterweights", examples=[[]])
+    first_order: FirstOrder = Field(description="what they leave", examples=[{"force": {"peak_N": 4997.4}}])
+
+
+class Infeasibility(Model):
+    """Why no counterweights satisfy the ceilings, and what can be reached."""
+
+    conflict: tuple[Literal["force_ceiling_N", "moment_ceiling_Nm"], ...] = Field(
+        description="the ceilings that cannot be met, alone or together", examples=[["force_ceiling_N"]]
+    )
+    smallest_force_N: Newtons = Field(
+        description="smallest peak force within the limits, the moment left free", examples=[2498.7]
+    )
+    smallest_moment_Nm: NewtonMetres = Field(
+        description="smallest peak moment within the limits, the force left free", examples=[9747.0]
+    )
+    smallest_force_lower_bound_N: Newtons = Field(
+        description="certified: no counterweights within the limits have a smaller peak force", examples=[2498.7]
+    )
+    smallest_moment_lower_bound_Nm: NewtonMetres = Field(
+        description="certified: no counterweights within the limits have a smaller peak moment", examples=[9747.0]
+    )
+    closest: Closest = Field(description="the best compromise with the ceilings", examples=[{"counterweights": []}])
+
+
+class OptimizeAnswer(Model):
+    """Certified counterweights."""
+
+    status: Literal["optimal", "inaccurate", "infeasible"] = Field(
+        description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported; "
+        "infeasible: no counterweights satisfy the ceilings",
+        examples=["optimal"],
+    )
+    counterweights: tuple[Counterweight, ...] = Field(
+        description="one for each web, in the machine's order; empty if infeasible", examples=[[]]
+    )
+    total_mass_kg: Kilograms | None = Field(
+        description="total mass of the counterweights; null if infeasible", examples=[41.2]
+    )
+    active_limits: tuple[MachineLimit, ...] = Field(
+        (), description="limits of the whole machine that the answer touches", examples=[["max_total_mass"]]
+    )
+    residual: Residual = Field(description="first order before and after", examples=[{"before": {}, "after": {}}])
+    floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 2498.7}])
+    certificate: Certificate | None = Field(
+        description="the proof; null if infeasible", examples=[{"objective": 30345.0}]
+    )
+    infeasibility: Infeasibility | None = Field(
+        None, description="which ceilings conflict; only if infeasible", examples=[None]
+    )
+    reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
+    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
+    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
+    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
+    effects: dict[str, EffectUse] = Field(
+        description="every effect, whether it was simulated, for which outputs, and its time",
+        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
+    )
+    timing: Timing = Field(description="where the time went", examples=[{"total_ms": 4.1}])
+
+
+class AnalyzeAnswer(Model):
+    """The machine as it stands, or with given counterweights."""
+
+    counterweights: tuple[Counterweight, ...] = Field(
+        description="the counterweights on the machine, one for each web", examples=[[]]
+    )
+    total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
+    floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 2498.7}])
+    reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
+    residual: Residual | None = Field(None, description="first order before and after, if asked for", examples=[None])
+    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
+    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
+    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
+    effects: dict[str, EffectUse] = Field(
+        description="every effect, whether it was simulated, for which outputs, and its time",
+        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
+    )
+    timing: Timing = Field(description="where the time went", examples=[{"total_ms": 1.2}])

@@ -1,0 +1,63 @@
+"""The base of every model, and cross-field errors that point at one field."""
+
+from collections.abc import Iterable
+from typing import NamedTuple
+
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+
+class Model(BaseModel):
+    """Frozen, refuses unknown fields, NaN and infinities."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        hide_input_in_errors=True,
+        use_attribute_docstrings=False,
+    )
+
+
+class NotEmpty:
+    """Annotation of a tuple that holds at least one thing.
+
+    pydantic's own min_length counts the things that are valid, and so reports a tuple as too short
+    because one of them is not.
+    """
+
+    @staticmethod
+    def _check(value: tuple[object, ...]) -> tuple[object, ...]:
+        if not value:
+            raise PydanticCustomError("too_short", "must hold at least one item")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_after_validator_function(self._check, handler(source))
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {**handler(schema), "minItems": 1}
+
+
+class FieldProblem(NamedTuple):
+    """One thing wrong with one field; ``path`` is relative to the model that found it."""
+
+    path: tuple[str | int, ...]
+    message: str
+
+
+def raise_problems(problems: Iterable[FieldProblem]) -> None:
+    """Raise one error that carries every problem found by a cross-field check.
+
+    pydantic places an error raised by a model validator at the model; the paths in the context
+    let the door (``service.errors``, the command line) point at the very field.
+
+    Raises
+    ------
+    PydanticCustomError
+        if ``problems`` is not empty; type ``cross_field``, context ``{"problems": [...]}``.
+    """
+    found = list(problems)
+    if found:
+        raise PydanticCustomError("cross_field", "{summary}", {"summary": found[0].message, "problems": found})

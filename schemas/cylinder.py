@@ -1,0 +1,83 @@
+"""Gas data of a cylinder. Whether they are complete is asked by the effect that needs them."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field, Strict, model_validator
+
+from schemas.base import FieldProblem, Model, raise_problems
+from schemas.quantities import Area, Length, Pressure
+from schemas.units import Unit, non_negative, positive
+
+Exponent = Annotated[float, Strict(), positive(10.0)]
+Clearance = Annotated[float, Strict(), non_negative(100.0)]
+
+
+class GasState(Model):
+    """Pressures, clearance and exponents of a chamber."""
+
+    suction_pressure_Pa: Annotated[Pressure | None, Unit("Pa")] = Field(
+        None, description="absolute pressure in the cylinder during suction", examples=[286000.0]
+    )
+    discharge_pressure_Pa: Annotated[Pressure | None, Unit("Pa")] = Field(
+        None, description="absolute pressure in the cylinder during discharge", examples=[852000.0]
+    )
+    relative_clearance: Clearance | None = Field(
+        None, description="clearance volume as a share of the swept volume", examples=[0.1]
+    )
+    expansion_exponent: Exponent | None = Field(
+        None, description="polytropic exponent of the re-expansion", examples=[1.4]
+    )
+    compression_exponent: Exponent | None = Field(
+        None, description="polytropic exponent of the compression", examples=[1.4]
+    )
+
+    def pressure_problems(self, path: tuple[str | int, ...] = ()) -> Iterator[FieldProblem]:
+        low, high = self.suction_pressure_Pa, self.discharge_pressure_Pa
+        if low is not None and high is not None and high < low:
+            yield FieldProblem((*path, "discharge_pressure_Pa"), "must not be below the suction pressure")
+
+
+class Cylinder(GasState):
+    """One cylinder; ``head`` and ``crank`` replace the common data for one side."""
+
+    bore_m: Annotated[Length | None, Unit("m")] = Field(None, description="cylinder bore", examples=[0.73])
+    piston_rod_diameter_m: Annotated[float | None, non_negative(1e9), Unit("m")] = Field(
+        None, description="diameter of the piston rod; 0 where there is none", examples=[0.11]
+    )
+    head_area_m2: Annotated[Area | None, Unit("m2")] = Field(
+        None, description="piston area on the head side, in place of the diameters", examples=[0.41729]
+    )
+    crank_area_m2: Annotated[Area | None, Unit("m2")] = Field(
+        None, description="piston area on the crank side, in place of the diameters", examples=[0.41092]
+    )
+    acting: Literal["double", "head", "crank"] = Field(
+        "double", description="which sides of the piston compress gas", examples=["double"]
+    )
+    ambient_pressure_Pa: Annotated[Pressure | None, Unit("Pa")] = Field(
+        None, description="absolute pressure on the open side of a single-acting piston", examples=[101325.0]
+    )
+    head: GasState | None = Field(
+        None, description="data of the head side where they differ", examples=[{"relative_clearance": 0.1}]
+    )
+    crank: GasState | None = Field(
+        None, description="data of the crank side where they differ", examples=[{"relative_clearance": 0.12}]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "Cylinder":
+        raise_problems(self._problems())
+        return self
+
+    def _problems(self) -> Iterator[FieldProblem]:
+        yield from self.pressure_problems()
+        for side, state in (("head", self.head), ("crank", self.crank)):
+            if state is not None:
+                yield from state.pressure_problems((side,))
+        rod, bore = self.piston_rod_diameter_m, self.bore_m
+        if rod is not None and bore is not None and not rod < bore:
+            yield FieldProblem(("piston_rod_diameter_m",), "must be smaller than the bore")
+        if bore is not None:
+            for area in ("head_area_m2", "crank_area_m2"):
+                if getattr(self, area) is not None:
+                    yield FieldProblem((area,), "give either the bore or the piston areas")

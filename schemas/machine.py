@@ -1,0 +1,205 @@
+"""The machine: throws, rows, webs. Frame and signs: docs/mathematics.md section 1."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.cylinder import Cylinder
+from schemas.quantities import Angle, Count, Fraction, Length, Mass, Name, Position, Speed
+from schemas.units import Unit, positive
+
+MAX_THROWS = 500
+MAX_ROWS = 60
+MAX_WEBS = 500
+
+
+class ConnectingRod(Model):
+    """The connecting rod of a row; its mass is shared between crosshead and crank pin."""
+
+    length_m: Annotated[Length | None, Unit("m")] = Field(
+        description="length between centres; null is an infinite rod (scotch yoke, Oldham ring)", examples=[0.7]
+    )
+    mass_kg: Mass = Field(0.0, description="mass of the whole rod", examples=[86.025])
+    reciprocating_share: Fraction = Field(
+        1 / 3,
+        description="share of the rod's mass that reciprocates; the rest turns with the crank pin",
+        examples=[0.3],
+    )
+
+
+class Row(Model):
+    """One cylinder axis and the masses that reciprocate along it."""
+
+    name: Name | None = Field(None, description="name of the row, unique on its throw", examples=["I"])
+    axis_deg: Angle = Field(
+        description="direction of the cylinder axis towards outer dead centre, counter-clockwise from +x",
+        examples=[0.0],
+    )
+    offset_m: Position = Field(
+        0.0, description="axial distance of the row's plane from its throw's plane", examples=[0.0]
+    )
+    reciprocating_mass_kg: Mass = Field(
+        description="piston, piston rod and crosshead, without the connecting rod", examples=[277.79]
+    )
+    connecting_rod: ConnectingRod | None = Field(
+        None,
+        description="the connecting rod; needed only when an output asks for more than the first order",
+        examples=[{"length_m": 0.7, "mass_kg": 86.025, "reciprocating_share": 0.3}],
+    )
+    cylinder: Cylinder | None = Field(
+        None, description="gas data; needed only when an output asks for gas effects", examples=[None]
+    )
+
+
+class Throw(Model):
+    """One crank throw with the rows that share its pin."""
+
+    name: Name | None = Field(None, description="name of the throw, unique in the machine", examples=["1"])
+    position_m: Position = Field(description="plane of the throw along the shaft (z)", examples=[0.175])
+    crank_radius_m: Length = Field(description="crank radius, half the stroke", examples=[0.14])
+    crank_angle_deg: Angle = Field(
+        description="direction of the crank as drawn at shaft angle 0, counter-clockwise from +x", examples=[0.0]
+    )
+    rotating_mass_kg: Mass = Field(
+        0.0,
+        description="unbalanced rotating mass referred to the crank radius, without rods and counterweights",
+        examples=[12.0],
+    )
+    rows: tuple[Row, ...] = Field(
+        (),
+        max_length=MAX_ROWS,
+        description="rows on this throw; none makes a purely rotating unbalance",
+        examples=[[{"name": "I", "axis_deg": 0, "reciprocating_mass_kg": 277.79}]],
+    )
+
+
+class Sector(Model):
+    """The angles that a counterweight may take: centre plus or minus half the opening."""
+
+    centre_deg: Angle = Field(description="middle of the sector, as drawn at shaft angle 0", examples=[180.0])
+    half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
+        description="half the opening of the sector, above 0 and at most 90 degrees", examples=[60.0]
+    )
+
+
+class Web(Model):
+    """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
+
+    name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
+    position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])
+    counterweight_radius_m: Length = Field(description="radius of the counterweight's centre of mass", examples=[0.25])
+    max_mass_kg: Mass = Field(description="largest counterweight that fits; 0 allows none", examples=[60.0])
+    sector: Sector | None = Field(
+        None,
+        description="angles that the counterweight may take; null allows every angle",
+        examples=[{"centre_deg": 180, "half_angle_deg": 60}],
+    )
+
+
+class Rotor(Model):
+    """What every machine has: a shaft, its speed, and the places for counterweights."""
+
+    name: Name | None = Field(None, description="name of the machine", examples=["2D12-90/2-20"])
+    description: str | None = Field(
+        None, max_length=2000, description="free text, such as which data are assumed", examples=["row spacing assumed"]
+    )
+    speed_rpm: Speed = Field(description="speed of the shaft", examples=[500.0])
+    rotation: Literal["ccw", "cw"] = Field(
+        "ccw", description="sense of rotation seen from +z looking at the origin", examples=["ccw"]
+    )
+    reference_plane_m: Annotated[Position | None, Unit("m")] = Field(
+        None, description="plane of moments; null is midway between the outermost throws", examples=[None]
+    )
+    webs: tuple[Web, ...] = Field(
+        (),
+        max_length=MAX_WEBS,
+        description="places where counterweights can sit",
+        examples=[[{"name": "1a", "position_m": 0.28, "counterweight_radius_m": 0.25, "max_mass_kg": 60}]],
+    )
+    max_total_mass_kg: Annotated[Mass | None, Unit("kg")] = Field(
+        None, description="largest total mass of all counterweights; null is no limit", examples=[None]
+    )
+
+    def _web_problems(self) -> Iterator[FieldProblem]:
+        yield from duplicate_names(("webs",), [web.name for web in self.webs])
+
+
+class ReciprocatingMachine(Rotor):
+    """A reciprocating compressor or engine of any layout."""
+
+    kind: Literal["reciprocating"] = Field(description="kind of machine", examples=["reciprocating"])
+    throws: Annotated[tuple[Throw, ...], NotEmpty()] = Field(
+        max_length=MAX_THROWS,
+        description="the throws of the crankshaft",
+        examples=[[{"name": "1", "position_m": 0.175, "crank_radius_m": 0.14, "crank_angle_deg": 0}]],
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "ReciprocatingMachine":
+        raise_problems([*self._web_problems(), *self._throw_problems()])
+        return self
+
+    def _throw_problems(self) -> Iterator[FieldProblem]:
+        yield from duplicate_names(("throws",), [throw.name for throw in self.throws])
+        for t, throw in enumerate(self.throws):
+            yield from duplicate_names(("throws", t, "rows"), [row.name for row in throw.rows])
+            for i, row in enumerate(throw.rows):
+                length = row.connecting_rod.length_m if row.connecting_rod else None
+                if length is not None and not length > throw.crank_radius_m:
+                    path = ("throws", t, "rows", i, "connecting_rod", "length_m")
+                    yield FieldProblem(path, "the connecting rod must be longer than the crank radius")
+
+
+class OldhamRing(Model):
+    """A ring that reciprocates along its axis with the amplitude of the orbit."""
+
+    type: Literal["oldham"] = Field(description="an Oldham ring", examples=["oldham"])
+    mass_kg: Mass = Field(description="mass of the ring", examples=[0.35])
+    axis_deg: Angle = Field(description="direction in which the ring slides", examples=[90.0])
+    position_m: Position = Field(description="plane of the ring along the shaft", examples=[0.03])
+
+
+class CrankPins(Model):
+    """Small crank pins in frame and orbiting scroll that keep the scroll from turning."""
+
+    type: Literal["crank_pins"] = Field(description="crank pins", examples=["crank_pins"])
+    count: Count = Field(ge=1, le=1000, description="number of evenly spaced pins", examples=[3])
+    pin_circle_radius_m: Length = Field(description="radius of the circle through the pins", examples=[0.05])
+    eccentric_mass_kg: Mass = Field(
+        0.0, description="rotating unbalanced mass of one pin, referred to the orbit radius", examples=[0.02]
+    )
+    position_m: Position = Field(description="plane of the pins' unbalance along the shaft", examples=[0.03])
+
+
+class ScrollMachine(Rotor):
+    """A scroll compressor or expander; the eccentric points along +x at shaft angle 0."""
+
+    kind: Literal["scroll"] = Field(description="kind of machine", examples=["scroll"])
+    orbit_radius_m: Length = Field(description="radius of the orbit", examples=[0.005])
+    orbiting_mass_kg: Mass = Field(description="orbiting scroll with its bearing", examples=[1.2])
+    orbiting_position_m: Position = Field(description="plane of the orbiting scroll's centre of mass", examples=[0.05])
+    anti_rotation: Annotated[OldhamRing | CrankPins, Field(discriminator="type")] = Field(
+        description="what keeps the scroll from turning",
+        examples=[{"type": "crank_pins", "count": 3, "pin_circle_radius_m": 0.05, "position_m": 0.03}],
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "ScrollMachine":
+        raise_problems(self._web_problems())
+        return self
+
+
+Machine = Annotated[ReciprocatingMachine | ScrollMachine, Field(discriminator="kind")]
+
+
+def duplicate_names(path: tuple[str | int, ...], names: list[str | None]) -> Iterator[FieldProblem]:
+    """One problem for every name that already stands earlier in the list; None is no name."""
+    seen: set[str] = set()
+    for index, name in enumerate(names):
+        if name is None:
+            continue
+        if name in seen:
+            yield FieldProblem((*path, index, "name"), "this name is taken already; names must be unique")
+        seen.add(name)

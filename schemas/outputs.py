@@ -1,0 +1,125 @@
+"""Outputs beyond the first-order residual: hodograph, orders, stages."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from schemas.base import Model
+from schemas.quantities import Degrees, NewtonMetres, Newtons
+
+
+class Hodograph(Model):
+    """First-order force and moment over one turn of the shaft."""
+
+    force_x_N: tuple[Newtons, ...] = Field(description="x component of the force", examples=[[9994.7]])
+    force_y_N: tuple[Newtons, ...] = Field(description="y component of the force", examples=[[0.0]])
+    moment_x_Nm: tuple[NewtonMetres, ...] = Field(description="x component of the couple", examples=[[38989.0]])
+    moment_y_Nm: tuple[NewtonMetres, ...] = Field(description="y component of the couple", examples=[[0.0]])
+
+
+class Hodographs(Model):
+    """Hodographs without and with counterweights, over shaft angles with the end point not repeated."""
+
+    angle_deg: tuple[Degrees, ...] = Field(description="shaft angles", examples=[[0.0, 1.0]])
+    before: Hodograph = Field(description="without counterweights", examples=[{"force_x_N": [9994.7]}])
+    after: Hodograph | None = Field(
+        description="with the counterweights; null if infeasible", examples=[{"force_x_N": [4997.4]}]
+    )
+
+
+class ForcePhasor(Model):
+    """A rotating force; real and imaginary part are its x and y components at shaft angle 0."""
+
+    real_N: Newtons = Field(description="real part", examples=[2498.7])
+    imag_N: Newtons = Field(description="imaginary part", examples=[0.0])
+    magnitude_N: Newtons = Field(description="magnitude", examples=[2498.7])
+    phase_deg: Degrees = Field(description="phase, -180 to 180; 0 where the magnitude is 0", examples=[0.0])
+
+
+class MomentPhasor(Model):
+    """A rotating couple; real and imaginary part are its x and y components at shaft angle 0."""
+
+    real_Nm: NewtonMetres = Field(description="real part", examples=[9747.0])
+    imag_Nm: NewtonMetres = Field(description="imaginary part", examples=[0.0])
+    magnitude_Nm: NewtonMetres = Field(description="magnitude", examples=[9747.0])
+    phase_deg: Degrees = Field(description="phase, -180 to 180; 0 where the magnitude is 0", examples=[0.0])
+
+
+class ForceOrder(Model):
+    """Force of one order: F = co e^{j s k theta} + counter e^{-j s k theta}."""
+
+    co_rotating: ForcePhasor = Field(description="phasor that turns with the shaft", examples=[{"real_N": 2498.7}])
+    counter_rotating: ForcePhasor = Field(
+        description="phasor that turns against the shaft", examples=[{"real_N": 2498.7}]
+    )
+    peak_N: Newtons = Field(description="largest force of this order over a turn", examples=[4997.4])
+
+
+class MomentOrder(Model):
+    """Moment of one order, the couple in the plane of the forces."""
+
+    co_rotating: MomentPhasor = Field(description="phasor that turns with the shaft", examples=[{"real_Nm": 9747.0}])
+    counter_rotating: MomentPhasor = Field(
+        description="phasor that turns against the shaft", examples=[{"real_Nm": 9747.0}]
+    )
+    peak_Nm: NewtonMetres = Field(description="largest moment of this order over a turn", examples=[19494.0])
+
+
+class Order(Model):
+    """Force and moment at one multiple of the shaft speed."""
+
+    order: int = Field(description="multiple of the shaft speed", examples=[2])
+    force: ForceOrder = Field(description="force on the frame", examples=[{"peak_N": 1998.9}])
+    moment: MomentOrder = Field(description="moment about the reference plane", examples=[{"peak_Nm": 7797.8}])
+
+
+class OrdersComparison(Model):
+    """Orders 1, 2, 4 and 6 without and with counterweights."""
+
+    before: tuple[Order, ...] = Field(description="without counterweights", examples=[[{"order": 1}]])
+    after: tuple[Order, ...] | None = Field(
+        description="with the counterweights; null if infeasible", examples=[[{"order": 1}]]
+    )
+
+
+class RuleOfThumb(Model):
+    """A classic partial balance beside the optimum, for comparison."""
+
+    name: str = Field(description="which rule", examples=["transfer 20 % of the first-order force"])
+    source: str = Field(description="where the rule is from", examples=["seed 002, single row, vertical"])
+    transferred_share: float = Field(description="share k of the force or moment turned across", examples=[0.25])
+    total_mass_radius_kg_m: float = Field(
+        description="total mass times radius that the rule asks for",
+        examples=[2.8],
+        json_schema_extra={"x-unit": "kg m"},
+    )
+    peak: float = Field(description="peak that it leaves, in the unit of the stage", examples=[7496.0])
+    peak_along: float = Field(description="peak along the direction of the unbalance", examples=[7496.0])
+    peak_across: float = Field(description="peak across it", examples=[2498.7])
+
+
+class Stage(Model):
+    """One of the eight balancing stages of seed 002."""
+
+    stage: Literal["I", "II", "III", "IV", "V", "VI", "VII", "VIII"] = Field(
+        description="number of the stage", examples=["III"]
+    )
+    title: str = Field(description="what the stage is about", examples=["first-order forces of reciprocating masses"])
+    quantity: str = Field(description="what the value is", examples=["peak force"])
+    formula: str = Field(description="formula of the value", examples=["|A1| + |B1|"])
+    value: float = Field(description="value without counterweights", examples=[9994.7])
+    unit: str = Field(description="unit of value and remaining", examples=["N"])
+    plane: str = Field(description="direction or plane in which it acts", examples=["along 0.0 deg"])
+    frequency: str = Field(
+        description="frequency in multiples of the shaft speed n and in Hz", examples=["n (8.33 Hz)"]
+    )
+    balanceable: Literal["fully", "partly", "no"] = Field(
+        description="whether counterweights on the shaft can balance it", examples=["partly"]
+    )
+    remaining: float | None = Field(description="what the counterweights leave; null if infeasible", examples=[4997.4])
+    rules_of_thumb: tuple[RuleOfThumb, ...] = Field(
+        (), description="classic partial balances for comparison", examples=[[]]
+    )
+
+
+Stages = tuple[Stage, ...]

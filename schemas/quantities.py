@@ -1,0 +1,31 @@
+"""The kinds of number a machine is made of, with the range in which the arithmetic cannot overflow."""
+
+from typing import Annotated
+
+from pydantic import Strict, StringConstraints
+
+from schemas.units import Unit, non_negative, positive, symmetric
+
+Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
+
+Position = Annotated[float, symmetric(1e9), Unit("m")]
+Length = Annotated[float, positive(1e9), Unit("m")]
+Area = Annotated[float, positive(1e12), Unit("m2")]
+Mass = Annotated[float, non_negative(1e15), Unit("kg")]
+Angle = Annotated[float, symmetric(1e6), Unit("deg")]
+Speed = Annotated[float, positive(1e9), Unit("rpm")]
+Pressure = Annotated[float, non_negative(1e12), Unit("Pa")]
+Force = Annotated[float, non_negative(1e30), Unit("N")]
+Moment = Annotated[float, non_negative(1e30), Unit("N m")]
+Fraction = Annotated[float, Strict(), non_negative(1.0)]
+Weight = Annotated[float, Strict(), non_negative(1e30)]
+Flag = Annotated[bool, Strict()]
+Count = Annotated[int, Strict()]
+
+Kilograms = Annotated[float, Unit("kg")]
+Metres = Annotated[float, Unit("m")]
+KilogramMetres = Annotated[float, Unit("kg m")]
+Degrees = Annotated[float, Unit("deg")]
+Newtons = Annotated[float, Unit("N")]
+NewtonMetres = Annotated[float, Unit("N m")]
+Milliseconds = Annotated[float, Unit("ms")]

@@ -1,0 +1,170 @@
+"""What a client asks: optimise or analyse a machine."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field, Strict, model_validator
+
+from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.machine import MAX_WEBS, Machine
+from schemas.quantities import Angle, Flag, Force, Mass, Moment, Name, Weight
+from schemas.units import Unit
+
+Output = Literal["residual", "hodograph", "orders", "stages"]
+Outputs = Annotated[tuple[Output, ...], Field(max_length=32), NotEmpty()]
+
+
+class DirectionWeights(Model):
+    """Weights of the force and moment components across the shaft."""
+
+    x: Weight = Field(1.0, description="weight of the x components", examples=[1.0])
+    y: Weight = Field(1.0, description="weight of the y components", examples=[1.0])
+
+    @model_validator(mode="after")
+    def _check(self) -> "DirectionWeights":
+        if self.x == 0 and self.y == 0:
+            raise_problems([FieldProblem(("y",), "only one of the two direction weights may be 0")])
+        return self
+
+
+class Objective(Model):
+    """What is to be small: w_F peak force and w_M peak moment."""
+
+    combine: Literal["sum", "max"] = Field(
+        "sum", description="minimise the sum of the two weighted peaks, or the larger of them", examples=["sum"]
+    )
+    force_weight: Weight = Field(1.0, description="weight of the peak force w_F [1/N]", examples=[1.0])
+    moment_weight: Weight | None = Field(
+        None,
+        description="weight of the peak moment w_M [1/(N m)]; null is 1/L, L the axial span of throws and webs",
+        examples=[2.5],
+    )
+    direction_weights: DirectionWeights = Field(
+        DirectionWeights(),
+        description="weights of the components across the shaft; 0 is allowed for one of them",
+        examples=[{"x": 1, "y": 1}],
+    )
+    force_ceiling_N: Annotated[Force | None, Unit("N")] = Field(
+        None, description="hard limit on the first-order peak force", examples=[5000.0]
+    )
+    moment_ceiling_Nm: Annotated[Moment | None, Unit("N m")] = Field(
+        None, description="hard limit on the first-order peak moment", examples=[20000.0]
+    )
+    least_mass: Flag = Field(
+        True, description="among all optima take the one with the least total mass", examples=[True]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "Objective":
+        if self.force_weight == 0 and self.moment_weight == 0:
+            raise_problems([FieldProblem(("moment_weight",), "only one of the two weights may be 0")])
+        return self
+
+
+class Accuracy(Model):
+    """How close to the optimum the answer has to be."""
+
+    relative_gap: Annotated[float, Strict()] = Field(
+        1e-6,
+        ge=1e-12,
+        le=1,
+        description="certified gap asked for, relative to the objective without counterweights",
+        examples=[1e-6],
+    )
+
+
+class Angles(Model):
+    """Where sampled outputs are sampled."""
+
+    step_deg: Annotated[float, Field(ge=0.01, le=120), Unit("deg")] = Field(
+        1.0, description="step of the shaft angle; a turn must hold a whole number of them", examples=[1.0]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "Angles":
+        steps = 360 / self.step_deg
+        if abs(steps - round(steps)) > 1e-9 * steps:
+            raise_problems([FieldProblem(("step_deg",), "360 degrees must be a whole number of steps")])
+        return self
+
+    @property
+    def count(self) -> int:
+        """Number of samples in one turn, the end point not counted twice."""
+        return round(360 / self.step_deg)
+
+
+class Fidelity(Model):
+    """How closely effects are simulated."""
+
+    kinematics: Literal["exact", "order_2"] = Field(
+        "exact",
+        description="exact slider-crank kinematics, or its series cut off after the second order",
+        examples=["exact"],
+    )
+
+
+class Scene(Model):
+    """A machine and what is asked about it; decides which effects are simulated."""
+
+    machine: Machine = Field(
+        description="the machine",
+        examples=[
+            {
+                "kind": "reciprocating",
+                "speed_rpm": 500,
+                "throws": [
+                    {
+                        "position_m": 0.0,
+                        "crank_radius_m": 0.14,
+                        "crank_angle_deg": 0,
+                        "rows": [{"axis_deg": 0, "reciprocating_mass_kg": 100}],
+                    }
+                ],
+            }
+        ],
+    )
+    outputs: Outputs = Field(("residual",), description="what the answer shall hold", examples=[["residual"]])
+    angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
+    fidelity: Fidelity = Field(Fidelity(), description="how closely to simulate", examples=[{"kinematics": "exact"}])
+
+
+class OptimizeRequest(Scene):
+    """Choose the counterweights of a machine."""
+
+    objective: Objective = Field(Objective(), description="what is to be small", examples=[{"combine": "sum"}])
+    accuracy: Accuracy = Field(Accuracy(), description="how close to the optimum", examples=[{"relative_gap": 1e-6}])
+
+
+class FittedCounterweight(Model):
+    """A counterweight that is on the machine."""
+
+    web: Name = Field(description="name of the web that carries it", examples=["1a"])
+    mass_kg: Mass = Field(description="mass of the counterweight", examples=[24.5])
+    angle_deg: Angle = Field(description="angle of the counterweight as drawn at shaft angle 0", examples=[180.0])
+
+
+class AnalyzeRequest(Scene):
+    """The machine as it stands, or with given counterweights."""
+
+    counterweights: tuple[FittedCounterweight, ...] = Field(
+        (),
+        max_length=MAX_WEBS,
+        description="counterweights on the machine, at most one for each web",
+        examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "AnalyzeRequest":
+        raise_problems(self._problems())
+        return self
+
+    def _problems(self) -> Iterator[FieldProblem]:
+        names = {web.name for web in self.machine.webs}
+        seen: set[str] = set()
+        for index, counterweight in enumerate(self.counterweights):
+            path = ("counterweights", index, "web")
+            if counterweight.web not in names:
+                yield FieldProblem(path, "the machine has no web of this name")
+            elif counterweight.web in seen:
+                yield FieldProblem(path, "this web carries a counterweight already")
+            seen.add(counterweight.web)
