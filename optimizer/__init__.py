@@ -1,0 +1,1 @@
+"""From a machine definition to certified counterweights."""

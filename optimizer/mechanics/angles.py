@@ -1,0 +1,48 @@
+"""Directions from angles in degrees, exact where they can be."""
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.response import Complex, Real
+
+
+def direction(angle_deg: Real) -> Complex:
+    """Unit vector e^{j angle} for angles in degrees.
+
+    The angle is first reduced to an eighth of a turn, in degrees, where the reduction is exact. So
+    angles 90, 120 or 180 degrees apart give unit vectors whose sum is exactly zero, and a machine
+    that balances itself does so in the numbers as well.
+
+    Parameters
+    ----------
+    angle_deg : (...) degrees.
+
+    Returns
+    -------
+    (...) complex, dimensionless.
+    """
+    turn = np.mod(np.asarray(angle_deg, dtype=float), 360.0)
+    quadrant = np.floor(turn / 90.0)
+    rest = turn - 90.0 * quadrant
+    cosine, sine = _cosine(rest), _cosine(90.0 - rest)
+    return (cosine + 1j * sine) * np.asarray([1, 1j, -1, -1j])[quadrant.astype(int) % 4]
+
+
+def _cosine(angle_deg: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Cosine on [0, 90] degrees; cos 60 = 1/2 and cos 90 = 0 exactly."""
+    small = np.cos(np.deg2rad(angle_deg))
+    large = np.sin(np.deg2rad(90.0 - angle_deg))
+    value = np.where(angle_deg <= 45.0, small, large)
+    return np.where(angle_deg == 60.0, 0.5, value)
+
+
+def angle_deg(vector: Complex) -> Real:
+    """Angle of a vector in degrees, in [0, 360); 0 for the zero vector.
+
+    Parameters
+    ----------
+    vector : (...) complex, any unit.
+    """
+    value = np.rad2deg(np.angle(vector))
+    value = np.where(value < 0.0, value + 360.0, value)
+    return np.where((value >= 360.0) | (vector == 0), 0.0, value)

@@ -1,0 +1,99 @@
+"""Inertia forces on the frame as phasors by order, and their couples.
+
+Everything is divided by omega^2: forces are kg m, couples kg m^2. Couples C = sum (z - z_ref) F lie
+in the plane of the forces; the moment vector is j C.
+"""
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.slider_crank import acceleration_harmonic
+from optimizer.response import Complex, Phasors, Real, Response, total
+
+
+class Wrench(NamedTuple):
+    """Force and its couple about the reference plane, each a pair of phasors (...)."""
+
+    force: Phasors
+    moment: Phasors
+
+    def plus(self, other: "Wrench") -> "Wrench":
+        return Wrench(self.force + other.force, self.moment + other.moment)
+
+    def times(self, factor: Real) -> "Wrench":
+        return Wrench(self.force * factor, self.moment * factor)
+
+
+def rotating(layout: Layout) -> Wrench:
+    """First-order force of the rotating masses, m r e^{jd}: co-rotating only.
+
+    Source: seed 000 eqs (12)-(18); docs/mathematics.md section 2.
+    """
+    masses = layout.rotating
+    co = masses.mass * masses.radius * masses.direction
+    return _wrench(layout, co, np.zeros_like(co), masses.position)
+
+
+def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Real] = acceleration_harmonic) -> Wrench:
+    """Force of one order of the reciprocating masses.
+
+    A row pushes along its axis g with m r A_k cos k(theta + s (d - g)), which is the pair
+    co = (m r A_k / 2) e^{j(k d - (k-1) g)}, counter = (m r A_k / 2) e^{j((k+1) g - k d)}.
+    Source: seed 000 eqs (1)-(11); docs/mathematics.md section 2.
+
+    Parameters
+    ----------
+    order : k >= 1.
+    harmonic : (order, rod ratio) -> A_k; exact by default.
+    """
+    rows = layout.reciprocating
+    # A_1 = 1 whatever the rod, so that the first order needs no rod
+    size = 0.5 * rows.mass * rows.crank_radius
+    if order > 1:
+        size = size * harmonic(order, rows.rod_ratio)
+    crank, axis = rows.crank_direction**order, rows.axis
+    co = size * crank * np.conj(axis) ** (order - 1)
+    counter = size * np.conj(crank) * axis ** (order + 1)
+    return _wrench(layout, co, counter, rows.position)
+
+
+def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
+    """First-order force of counterweights: co-rotating only.
+
+    Parameters
+    ----------
+    unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
+    """
+    return _wrench(layout, unbalance, np.zeros_like(unbalance), layout.webs.position)
+
+
+def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, Response]:
+    """Force and moment as responses to the unbalance of the counterweights.
+
+    A counterweight in plane z adds u to the co-rotating force and (z - z_ref) u to the
+    co-rotating moment (docs/mathematics.md section 2).
+
+    Parameters
+    ----------
+    baseline : first-order force and moment without counterweights.
+    """
+    arm = layout.webs.position - layout.reference_plane[..., None]
+    return (
+        Response("force", baseline.force, np.ones_like(arm)),
+        Response("moment", baseline.moment, arm),
+    )
+
+
+def _wrench(layout: Layout, co: Complex, counter: Complex, position: Real) -> Wrench:
+    """Sum of forces in planes; couples are summed about the centre, where the arms are short.
+
+    Moving them to the reference plane afterwards costs no digits where the force vanishes.
+    """
+    arm = position - layout.centre_plane[..., None]
+    shift = layout.centre_plane - layout.reference_plane
+    force = Phasors(total(co), total(counter))
+    couple = Phasors(total(arm * co), total(arm * counter))
+    return Wrench(force, couple + force * shift)

@@ -1,0 +1,117 @@
+"""The waist: what the machine answers to unbalance, baseline + influence @ unbalance.
+
+Mechanics ends here and the convex program begins here; neither knows the other. Vectors across the
+shaft are complex, x + jy. A response of order k over the shaft angle theta is
+F(theta) = co e^{j s k theta} + counter e^{-j s k theta}, s the sense of rotation: an ellipse.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Real = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+#: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
+_ROUNDING = 16 * np.finfo(float).eps
+
+
+def total(terms: Complex) -> Complex:
+    """Sum over the last axis; exactly zero where the terms cancel up to rounding.
+
+    A machine that balances itself then has a baseline of zero, not of 1e-13 N, and is the
+    ordinary case that it should be.
+
+    Parameters
+    ----------
+    terms : (..., n) complex.
+
+    Returns
+    -------
+    (...) complex.
+    """
+    value = np.sum(terms, axis=-1)
+    noise = _ROUNDING * np.sum(np.abs(terms), axis=-1)
+    return np.where(np.abs(value) <= noise, 0.0, value)
+
+
+@dataclass(frozen=True)
+class Phasors:
+    """A pair of rotating vectors; ``co`` turns with the shaft, ``counter`` against it. (...) complex."""
+
+    co: Complex
+    counter: Complex
+
+    def __add__(self, other: "Phasors") -> "Phasors":
+        return Phasors(self.co + other.co, self.counter + other.counter)
+
+    def __mul__(self, factor: Real) -> "Phasors":
+        return Phasors(self.co * factor, self.counter * factor)
+
+    __rmul__ = __mul__
+
+    @property
+    def peak(self) -> Real:
+        """Largest magnitude over a turn, the major semi-axis |co| + |counter| (docs/mathematics.md section 3)."""
+        return np.abs(self.co) + np.abs(self.counter)
+
+    @property
+    def minor(self) -> Real:
+        """Smallest magnitude over a turn, the minor semi-axis."""
+        return np.abs(np.abs(self.co) - np.abs(self.counter))
+
+    @property
+    def major_axis_deg(self) -> Real:
+        """Direction of the major axis in [0, 180) degrees; 0 for a circle, which has none."""
+        both = (self.co != 0) & (self.counter != 0)
+        axis = np.rad2deg(0.5 * (np.angle(self.co) + np.angle(self.counter)))
+        axis = np.mod(axis, 180.0)
+        return np.where(both & (axis < 180.0), axis, 0.0)
+
+    def peak_along(self, direction: Complex) -> Real:
+        """Largest component along a direction over a turn, |co + e^{2j g} conj(counter)| for e^{j g}.
+
+        Parameters
+        ----------
+        direction : (...) unit vectors; 1 gives the x component, 1j the y component.
+        """
+        return np.abs(self.co + direction**2 * np.conj(self.counter))
+
+    def at(self, angle_rad: Real, order: int = 1) -> Complex:
+        """The vector at shaft angles s*theta.
+
+        Parameters
+        ----------
+        angle_rad : (..., n) shaft angle times sense of rotation.
+
+        Returns
+        -------
+        (..., n) complex.
+        """
+        turn = np.exp(1j * order * angle_rad)
+        return self.co[..., None] * turn + self.counter[..., None] * np.conj(turn)
+
+
+@dataclass(frozen=True)
+class Response:
+    """A first-order response that is affine in the unbalance u of the counterweights.
+
+    name : what it is, "force" or "moment".
+    baseline : without counterweights; kg m for forces, kg m^2 for moments (divided by omega^2).
+    influence : (..., webs) real, change of the co-rotating phasor for one kg m on each web.
+    """
+
+    name: str
+    baseline: Phasors
+    influence: Real
+
+    def to(self, unbalance: Complex) -> Phasors:
+        """Response with counterweights, baseline + influence @ unbalance.
+
+        Parameters
+        ----------
+        unbalance : (..., webs) complex mass-radius products m R e^{ja}, kg m.
+        """
+        change = np.sum(self.influence * unbalance, axis=-1)
+        return Phasors(self.baseline.co + change, self.baseline.counter)
