@@ -1,0 +1,66 @@
+"""Where the counterweights may be: mass, sector, budget."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.response import Complex, Real
+
+
+@dataclass(frozen=True)
+class Limits:
+    """0 <= m_k <= max_mass_k, |u_k| <= R_k m_k, u_k in its sector, sum m_k <= max_total_mass.
+
+    A web without a sector has ``free`` set, centre 1 and half-angle 90 degrees.
+    """
+
+    radius: Real  # (..., K) m
+    max_mass: Real  # (..., K) kg
+    free: np.ndarray  # (..., K) bool
+    centre: Complex  # (..., K) unit vectors
+    half_angle_cos: Real  # (..., K)
+    half_angle_sin: Real  # (..., K)
+    max_total_mass: Real  # (...) kg, inf where there is no budget
+
+    @property
+    def reach(self) -> Real:
+        """Largest |u_k| that the limits allow, kg m (..., K)."""
+        return self.radius * np.minimum(self.max_mass, self.max_total_mass[..., None])
+
+    def into_sectors(self, u: Complex) -> Complex:
+        """The nearest unbalance inside the sectors, kg m (..., K)."""
+        v = u * np.conj(self.centre)
+        edge = self.half_angle_cos + 1j * np.where(v.imag < 0, -1.0, 1.0) * self.half_angle_sin
+        along = np.maximum((v * np.conj(edge)).real, 0.0)
+        inside = self.free | (np.abs(v.imag) * self.half_angle_cos <= v.real * self.half_angle_sin)
+        return np.where(inside, u, along * edge * self.centre)
+
+    def into(self, u: Complex) -> Complex:
+        """An unbalance within all limits, close to one that is nearly so, kg m (..., K)."""
+        u = self.into_sectors(u)
+        size = np.abs(u)
+        largest = self.radius * self.max_mass
+        u = u * np.where(size > largest, largest / np.where(size > 0, size, 1.0), 1.0)
+        mass = np.sum(np.abs(u) / self.radius, axis=-1)
+        over = mass > self.max_total_mass
+        return u * np.where(over, self.max_total_mass / np.where(over, mass, 1.0), 1.0)[..., None]
+
+    def support(self, g: Complex) -> Real:
+        """Largest Re(conj(g_k) v) over unit-disc vectors v in sector k (docs/mathematics.md section 5), (..., K)."""
+        rotated = g * np.conj(self.centre)
+        across = np.abs(rotated.imag)
+        inside = across * self.half_angle_cos <= rotated.real * self.half_angle_sin
+        edge = rotated.real * self.half_angle_cos + across * self.half_angle_sin
+        return np.where(self.free | inside, np.abs(g), np.maximum(edge, 0.0))
+
+    def only(self, webs: np.ndarray) -> "Limits":
+        """The limits of some of the webs, for one program (no leading axes)."""
+        return Limits(
+            self.radius[webs],
+            self.max_mass[webs],
+            self.free[webs],
+            self.centre[webs],
+            self.half_angle_cos[webs],
+            self.half_angle_sin[webs],
+            self.max_total_mass,
+        )

@@ -1,0 +1,112 @@
+"""From physical units to a program of order one, and back.
+
+What each step repairs (docs/mathematics.md section 4): terms divided by their size without
+counterweights (lopsided weights, nearly balanced machines), columns in units of each web's reach
+(limits of all sizes side by side), reaches clipped where they cannot matter (limits of 1e12),
+sectors as cuts in sine and cosine (half-angles near 90 degrees and near 0).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.program.certificate import Multipliers
+from optimizer.program.cone import ScaledData, ScaledSolution, Shape, Stage
+from optimizer.program.statement import Norms, Statement
+from optimizer.response import Complex, Real
+
+
+@dataclass(frozen=True)
+class Scaling:
+    """Units of one program: u_k = reach_k e^{j c_k} (x_k + j sine_k y_k)."""
+
+    objective: float  # unit of the objective
+    reach: Real  # (K,) unit of each web, kg m
+    value: float  # unit of what is minimised: the objective's, or kg in stage "mass"
+
+    def unbalance(self, statement: Statement, solution: ScaledSolution) -> Complex:
+        """Unbalance of a scaled solution, kg m (K,)."""
+        limits = statement.limits
+        return self.reach * limits.centre * (solution.x + 1j * limits.half_angle_sin * solution.y)
+
+    def multipliers(self, statement: Statement, solution: ScaledSolution) -> Multipliers:
+        """Multipliers in units of what is minimised per unit of objective or response."""
+        per_objective = self.value / self.objective
+        return Multipliers(
+            term=solution.term * per_objective,
+            row=solution.row * per_objective,
+            ceiling=solution.ceiling * self.value / statement.ceilings.size,
+        )
+
+
+def natural_reach(statement: Statement) -> float:
+    """Size of the smallest unbalance that comes closest to cancelling every term, kg m.
+
+    Far larger counterweights are never needed; limits beyond a multiple of it are as good as none.
+    """
+    norms, ceilings = statement.norms, statement.ceilings.norms
+    influence = np.concatenate([norms.influence, ceilings.influence])
+    constant = np.concatenate([norms.constant, ceilings.constant])
+    size = np.max(np.abs(influence), axis=1, initial=0.0)
+    known = size > 0
+    if not np.any(known):
+        return 0.0
+    influence, constant = influence[known] / size[known, None], constant[known] / size[known]
+    least_squares = np.linalg.lstsq(influence, constant, rcond=1e-9)[0]
+    return float(max(np.max(np.abs(least_squares)), np.max(np.abs(constant))))
+
+
+def scale(
+    statement: Statement,
+    stage: Stage,
+    clip: float,
+    margin: float = 0.0,
+    target: float = 0.0,
+    mass_unit: float = 1.0,
+) -> tuple[ScaledData, Scaling]:
+    """The scaled program of a statement.
+
+    Parameters
+    ----------
+    clip : largest reach worth considering, kg m.
+    margin : ceilings are lowered by this share of their size, so that the answer keeps them.
+    target : stage "mass": largest objective allowed, in units of the objective.
+    mass_unit : stage "mass": a mass of the size of the answer, kg.
+    """
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    reach = np.minimum(limits.reach, clip)
+    unit = float(np.sum(np.abs(norms.constant)))
+    if unit == 0.0:
+        unit = float(np.sum(np.abs(norms.influence) * reach)) or 1.0
+    budget = bool(np.sum(reach / limits.radius) > limits.max_total_mass)
+    sectors = not bool(np.all(limits.free))
+    count, cap = len(ceilings.names), ceilings.cap / ceilings.size
+    data = ScaledData(
+        shape=Shape(stage, reach.size, tuple(int(r) for r in statement.row), count, sectors, budget),
+        constant=_parts(norms.constant / unit),
+        matrix=_matrix(Norms(norms.constant, norms.influence / unit), statement, reach),
+        floor=(statement.floor - np.max(statement.floor)) / unit,
+        ceiling_constant=_parts(ceilings.norms.constant / ceilings.size),
+        ceiling_matrix=_matrix(
+            Norms(ceilings.norms.constant, ceilings.norms.influence / ceilings.size[:, None]), statement, reach
+        ),
+        ceiling_cap=cap - np.clip(cap, 0.0, margin),
+        sine=limits.half_angle_sin,
+        cosine=limits.half_angle_cos,
+        slack=np.where(limits.free, 2.0, 0.0),
+        mass=reach / limits.radius / mass_unit,
+        budget=reach / limits.radius / limits.max_total_mass if budget else np.zeros_like(reach),
+        target=float((target - np.max(statement.floor)) / unit),
+    )
+    return data, Scaling(unit, reach, unit if stage == "objective" else mass_unit)
+
+
+def _parts(vectors: Complex) -> Real:
+    return np.array([vectors.real, vectors.imag])
+
+
+def _matrix(norms: Norms, statement: Statement, reach: Real) -> Real:
+    """(2 J, 2 K) matrix from (x, y) to the real and then the imaginary parts of H u."""
+    along = norms.influence * reach * statement.limits.centre
+    across = 1j * along * statement.limits.half_angle_sin
+    return np.block([[along.real, across.real], [along.imag, across.imag]])

@@ -1,0 +1,136 @@
+"""The program in physical units: what is to be small, under which limits.
+
+minimise    P(u) = max_r ( floor_r + sum_{j in r} |c_j + H_j u| )
+subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.program.limits import Limits
+from optimizer.response import Complex, Real, Response, total
+
+
+@dataclass(frozen=True)
+class Norms:
+    """Terms |c_j + H_j u|."""
+
+    constant: Complex  # (..., J)
+    influence: Real  # (..., J, K)
+
+    def at(self, u: Complex) -> Complex:
+        """Vectors c_j + H_j u, (..., J)."""
+        return self.constant + np.sum(self.influence * u[..., None, :], axis=-1)
+
+    def only(self, webs: np.ndarray) -> "Norms":
+        return Norms(self.constant, self.influence[..., webs])
+
+
+@dataclass(frozen=True)
+class WeightedPeak:
+    """One weighted peak over a turn, as a floor and norm terms."""
+
+    floor: float
+    norms: Norms
+
+
+@dataclass(frozen=True)
+class Ceilings:
+    """Hard limits |c_i + H_i u| <= cap_i; a cap below 0 cannot be met."""
+
+    names: tuple[str, ...]
+    norms: Norms
+    cap: Real  # (..., I)
+
+    def excess(self, u: Complex) -> Real:
+        """How far each response is above its ceiling, relative to the size of both; <= 0 if met."""
+        return (np.abs(self.norms.at(u)) - self.cap) / self.size
+
+    @property
+    def size(self) -> Real:
+        """What an excess is measured by: the larger of ceiling and response without counterweights."""
+        size = np.maximum(np.abs(self.norms.constant), np.abs(self.cap))
+        return np.where(size > 0, size, 1.0)
+
+
+@dataclass(frozen=True)
+class Statement:
+    """A program to solve."""
+
+    norms: Norms
+    row: np.ndarray  # (J,) row of the objective to which a term belongs
+    floor: Real  # (..., rows)
+    ceilings: Ceilings
+    limits: Limits
+
+    @property
+    def membership(self) -> Real:
+        """(rows, J) matrix that sums the terms of a row."""
+        return (self.row[None, :] == np.arange(self.floor.shape[-1])[:, None]).astype(float)
+
+    def objective(self, u: Complex) -> Real:
+        """P(u), exact (..., )."""
+        rows = self.floor + np.sum(self.membership * np.abs(self.norms.at(u))[..., None, :], axis=-1)
+        return np.max(rows, axis=-1)
+
+    def mass(self, u: Complex) -> Real:
+        """Total counterweight mass, kg."""
+        return np.sum(np.abs(u) / self.limits.radius, axis=-1)
+
+    def only(self, webs: np.ndarray) -> "Statement":
+        """The program with some of the webs, for one program (no leading axes)."""
+        ceilings = Ceilings(self.ceilings.names, self.ceilings.norms.only(webs), self.ceilings.cap)
+        return Statement(self.norms.only(webs), self.row, self.floor, ceilings, self.limits.only(webs))
+
+
+def weighted_peak(response: Response, weight: float, weight_x: float = 1.0, weight_y: float = 1.0) -> WeightedPeak:
+    """Weighted peak of a response over a turn, exactly (docs/mathematics.md section 3).
+
+    With p = (w_x + w_y)/2 and q = (w_x - w_y)/2 the weighted vector is the pair of phasors
+    p f + q conj(b) and p b + q conj(f), so its peak is |p f + q conj b| + |q f + p conj b|; both are
+    affine in u with real factors. With equal weights the second is the constant p |b|.
+    """
+    p, q = 0.5 * weight * (weight_x + weight_y), 0.5 * weight * (weight_x - weight_y)
+    f, b = response.baseline.co, np.conj(response.baseline.counter)
+    if q == 0.0:
+        return WeightedPeak(float(p * np.abs(b)), Norms(np.array([p * f]), p * response.influence[None, :]))
+    constant = total(np.array([[p * f, q * b], [q * f, p * b]]))
+    return WeightedPeak(0.0, Norms(constant, np.array([[p], [q]]) * response.influence))
+
+
+def statement(
+    peaks: Sequence[WeightedPeak], combine: str, ceilings: Sequence[tuple[Response, float]], limits: Limits
+) -> Statement:
+    """Put a program together.
+
+    Parameters
+    ----------
+    peaks : the weighted peaks to be small, at least one.
+    combine : "sum" or "max" of them.
+    ceilings : responses with the largest peak allowed, in the units of the response.
+    """
+    floors = np.array([peak.floor for peak in peaks])
+    owner = np.repeat(np.arange(len(peaks)), [peak.norms.constant.size for peak in peaks])
+    webs = limits.radius.shape[-1]
+    return Statement(
+        norms=_join([peak.norms for peak in peaks], webs),
+        row=owner if combine == "max" else np.zeros_like(owner),
+        floor=floors if combine == "max" else floors.sum(keepdims=True),
+        ceilings=Ceilings(
+            names=tuple(response.name for response, _ in ceilings),
+            norms=_join(
+                [Norms(response.baseline.co[None], response.influence[None, :]) for response, _ in ceilings], webs
+            ),
+            # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
+            cap=np.array([ceiling - np.abs(response.baseline.counter) for response, ceiling in ceilings]),
+        ),
+        limits=limits,
+    )
+
+
+def _join(norms: Sequence[Norms], webs: int) -> Norms:
+    constant = np.concatenate([np.zeros(0, complex), *(part.constant for part in norms)])
+    influence = np.concatenate([np.zeros((0, webs)), *(part.influence for part in norms)])
+    return Norms(constant, influence)

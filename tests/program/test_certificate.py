@@ -1,0 +1,90 @@
+"""The bound is true whatever the multipliers, and sharp for the right ones."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.optimize import linprog
+
+from optimizer.program.certificate import Multipliers, _least_over_limits, mass_lower_bound, objective_lower_bound
+from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement
+
+
+def _random_multipliers(rng: np.random.Generator, problem) -> Multipliers:
+    terms, rows, ceilings = problem.row.size, problem.floor.size, len(problem.ceilings.names)
+    wild = rng.choice([0.1, 1.0, 30.0])
+    return Multipliers(
+        term=wild * (rng.normal(size=(terms, 2)) @ [1, 1j]),
+        row=rng.normal(size=rows) + 0.5,
+        ceiling=wild * (rng.normal(size=(ceilings, 2)) @ [1, 1j]) if ceilings else np.zeros(0, complex),
+    )
+
+
+@given(seed=st.integers(0, 10**6), case=st.sampled_from(COMBINATIONS))
+def test_bounds_never_exceed_the_value_of_an_admissible_point(seed: int, case: tuple) -> None:
+    problem = random_statement(seed, *case)
+    rng = np.random.default_rng(seed + 1)
+    u = random_point(rng, problem.limits)
+    if np.any(problem.ceilings.excess(u) > 0):
+        return  # the bound speaks only of points that keep the ceilings
+    for _ in range(5):
+        multipliers = _random_multipliers(rng, problem)
+        value = float(problem.objective(u))
+        assert objective_lower_bound(problem, multipliers) <= value + 1e-12 * abs(value)
+        price = 10.0 ** rng.uniform(-3, 3)
+        bound = mass_lower_bound(problem, multipliers.times(np.asarray(price)), np.asarray(value))
+        assert bound <= float(problem.mass(u)) * (1 + 1e-12)
+
+
+@pytest.mark.parametrize("budget", [False, True])
+@pytest.mark.parametrize("seed", range(20))
+def test_least_over_limits_is_the_knapsack(seed: int, budget: bool) -> None:
+    # independent: the same linear program by HiGHS, over the mass of each web in its best direction
+    rng = np.random.default_rng(seed)
+    limits = random_limits(rng, 5, sectors=True, budget=budget)
+    slope, cost = rng.normal(size=(5, 2)) @ [1, 1j], rng.uniform(0, 0.5, 5)
+    value = cost - limits.radius * limits.support(-slope)
+    constraint = {"A_ub": np.ones((1, 5)), "b_ub": [limits.max_total_mass]} if budget else {}
+    expected = linprog(value, bounds=[(0, m) for m in limits.max_mass], **constraint).fun
+    least, _ = _least_over_limits(slope, cost, limits)
+    assert least == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def test_bounds_broadcast_over_designs() -> None:
+    """A block of designs gets the bounds that each gets by itself (needed by sweeps)."""
+    problems = [random_statement(seed, "max", (1.0, 0.3), True, True, True, webs=4) for seed in range(6)]
+    rng = np.random.default_rng(0)
+    singles = [_random_multipliers(rng, problem) for problem in problems]
+    block = _stack(problems)
+    multipliers = Multipliers(*(np.stack([getattr(m, name) for m in singles]) for name in ("term", "row", "ceiling")))
+    expected = [objective_lower_bound(p, m) for p, m in zip(problems, singles, strict=True)]
+    np.testing.assert_allclose(objective_lower_bound(block, multipliers), expected, rtol=1e-14)
+    target = np.full(6, 2.0)
+    expected = [mass_lower_bound(p, m, np.asarray(2.0)) for p, m in zip(problems, singles, strict=True)]
+    np.testing.assert_allclose(mass_lower_bound(block, multipliers, target), expected, rtol=1e-14)
+
+
+def _stack(problems):
+    """One statement with a leading axis of designs."""
+    from dataclasses import fields, replace
+
+    def stack(parts):
+        first = parts[0]
+        if isinstance(first, np.ndarray):
+            return np.stack(parts)
+        if hasattr(first, "__dataclass_fields__"):
+            names = [f.name for f in fields(first)]
+            return replace(first, **{n: stack([getattr(p, n) for p in parts]) for n in names})
+        assert all(a == b for a, b in pairwise(parts))
+        return first
+
+    return replace(stack(problems), row=problems[0].row)
+
+
+def test_multipliers_of_zero_prove_nothing() -> None:
+    problem = random_statement(0, "sum", (1.0, 1.0), False, False, False)
+    zero = Multipliers(np.zeros(2, complex), np.zeros(1), np.zeros(0, complex))
+    assert objective_lower_bound(problem, zero) == -np.inf
+    assert mass_lower_bound(problem, zero, np.asarray(1.0)) == 0.0

@@ -1,0 +1,40 @@
+import numpy as np
+import pytest
+
+from optimizer.mechanics.angles import direction
+from optimizer.program.limits import Limits
+from tests.program.cases import random_limits, random_point
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_points_are_brought_within_every_limit(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    limits = random_limits(rng, 6, sectors=True, budget=True)
+    u = random_point(rng, limits)
+    rotated = u * np.conj(limits.centre)
+    mass = np.abs(u) / limits.radius
+    assert np.all(mass <= limits.max_mass * (1 + 1e-15))
+    assert mass.sum() <= limits.max_total_mass * (1 + 1e-15)
+    outside = np.abs(rotated.imag) * limits.half_angle_cos - rotated.real * limits.half_angle_sin
+    assert np.all(outside[~limits.free] <= 1e-15)
+    np.testing.assert_allclose(limits.into(u), u, rtol=1e-14, atol=1e-16)
+
+
+@pytest.mark.parametrize("half_angle", [1e-6, 1.0, 30.0, 89.999, 90.0])
+def test_support_is_the_largest_projection_on_the_sector(half_angle: float) -> None:
+    # independent: the sector's arc on a fine grid of angles
+    edge = direction(half_angle)
+    one = np.ones(1)
+    limits = Limits(one, one, np.array([False]), direction(np.array([25.0])), one * edge.real, one * edge.imag,
+                    np.asarray(np.inf))  # fmt: skip
+    arc = np.concatenate([[0.0], direction(25.0 + np.linspace(-half_angle, half_angle, 20001))])
+    for angle in np.linspace(0, 360, 73):
+        g = 1.7 * direction(np.array([angle]))
+        expected = np.max((np.conj(g) * arc).real)
+        assert limits.support(g)[0] == pytest.approx(expected, abs=2e-8)
+
+
+def test_support_without_a_sector_is_the_magnitude() -> None:
+    one = np.ones(1)
+    limits = Limits(one, one, np.array([True]), one + 0j, 0 * one, one, np.asarray(np.inf))
+    assert limits.support(np.array([-3.0 - 4.0j]))[0] == 5.0  # analytic
