@@ -1,0 +1,78 @@
+"""From machine, objective and responses to the statement of the convex program."""
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from optimizer.mechanics.angles import direction
+from optimizer.program.limits import Limits
+from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.response import Response
+from schemas.machine import Machine, ReciprocatingMachine
+from schemas.requests import Objective
+
+
+def limits(machine: Machine) -> Limits:
+    """Limits of the counterweights on the webs of a machine (K,)."""
+    webs, budget = machine.webs, machine.max_total_mass_kg
+    free = np.array([web.sector is None for web in webs], dtype=bool)
+    centre = np.array([web.sector.centre_deg if web.sector else 0.0 for web in webs], dtype=float)
+    half_angle = np.array([web.sector.half_angle_deg if web.sector else 90.0 for web in webs], dtype=float)
+    edge = direction(half_angle)
+    return Limits(
+        radius=np.array([web.counterweight_radius_m for web in webs], dtype=float),
+        max_mass=np.array([web.max_mass_kg for web in webs], dtype=float),
+        free=free,
+        centre=direction(centre),
+        half_angle_cos=edge.real,
+        half_angle_sin=edge.imag,
+        max_total_mass=np.asarray(np.inf if budget is None else budget),
+    )
+
+
+def span(machine: Machine) -> float:
+    """Axial span L of throws and webs, m; 1 m if that is zero (docs/api.md)."""
+    if isinstance(machine, ReciprocatingMachine):
+        planes = [throw.position_m for throw in machine.throws]
+    else:
+        planes = [machine.orbiting_position_m, machine.anti_rotation.position_m]
+    planes += [web.position_m for web in machine.webs]
+    return (max(planes) - min(planes)) or 1.0
+
+
+def weights(machine: Machine, objective: Objective) -> Mapping[str, float]:
+    """Weight of each response, by name: w_F [1/N] and w_M [1/(N m)]."""
+    moment = 1.0 / span(machine) if objective.moment_weight is None else objective.moment_weight
+    return {"force": objective.force_weight, "moment": moment}
+
+
+def ceilings(objective: Objective) -> Mapping[str, float]:
+    """Hard limits on the peaks, by response: N and N m."""
+    given = {"force": objective.force_ceiling_N, "moment": objective.moment_ceiling_Nm}
+    return {name: ceiling for name, ceiling in given.items() if ceiling is not None}
+
+
+def formulate(
+    machine: Machine, objective: Objective, responses: tuple[Response, ...], omega_squared: float
+) -> Statement:
+    """The program in mass-radius products: forces over omega^2, so that speed plays no part."""
+    wanted, across = weights(machine, objective), objective.direction_weights
+    return statement(
+        [
+            weighted_peak(response, wanted[response.name], across.x, across.y)
+            for response in responses
+            if wanted[response.name] > 0
+        ],
+        objective.combine,
+        [
+            (response, ceilings(objective)[response.name] / omega_squared)
+            for response in responses
+            if response.name in ceilings(objective)
+        ],
+        limits(machine),
+    )
+
+
+def smallest_peak(response: Response, machine: Machine) -> Statement:
+    """The program for one peak alone, without ceilings."""
+    return statement([weighted_peak(response, 1.0)], "sum", [], limits(machine))

@@ -1,0 +1,156 @@
+"""From request to answer: machine -> responses -> program -> counterweights -> report."""
+
+import time
+
+import numpy as np
+
+from optimizer.formulate import ceilings, formulate, smallest_peak
+from optimizer.outputs import outputs
+from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.solve import Solution, Solver
+from optimizer.program.statement import Statement
+from optimizer.report.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.report.first_order import first_order, floor
+from optimizer.response import Complex
+from optimizer.scene import Prepared, prepare
+from schemas.answers import (
+    Certificate,
+    Closest,
+    Counterweight,
+    Infeasibility,
+    MachineLimit,
+    OptimizeAnswer,
+    Timing,
+)
+from schemas.requests import OptimizeRequest
+
+#: an answer whose total mass is not certified this closely is called inaccurate
+MASS_GAP = 1e-4
+_TOUCHED = 1e-4
+
+# compiled programs of this process; they are lent to one thread at a time
+_SOLVER = Solver()
+
+
+def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnswer:
+    """Counterweights that minimise the weighted first-order peaks, with a certificate.
+
+    Every figure is evaluated by the mechanics from the returned masses and angles.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what a requested output needs.
+    """
+    start = time.perf_counter()
+    scene = prepare(request, always=("residual",))
+    solving = time.perf_counter()
+    statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    outcome = optimum(statement, request.accuracy.relative_gap, request.objective.least_mass, solver)
+
+    reporting = time.perf_counter()
+    if isinstance(outcome, Unreachable):
+        fields = _infeasible(request, scene, statement, outcome, solver)
+    else:
+        fields = _certified(request, scene, statement, outcome)
+    end = time.perf_counter()
+    return OptimizeAnswer(
+        **fields,
+        floor=floor(scene.first_order()),
+        reference_plane_m=float(scene.layout.reference_plane),
+        effects=scene.simulated.uses,
+        timing=Timing(
+            total_ms=(end - start) * 1e3,
+            solve_ms=(reporting - solving - outcome.certify_s) * 1e3,
+            mechanics_ms=scene.mechanics_ms,
+            certificate_ms=outcome.certify_s * 1e3,
+            report_ms=(end - reporting) * 1e3,
+        ),
+    )
+
+
+def _fitted(request: OptimizeRequest, scene: Prepared, u: Complex) -> tuple[tuple[Counterweight, ...], Complex]:
+    """Counterweights for an unbalance, and the unbalance that their masses and angles really make."""
+    radius = scene.layout.webs.radius
+    mass, angle = masses_and_angles(u, radius)
+    return counterweights(request.machine, mass, angle), unbalance(mass, angle, radius)
+
+
+def _certified(
+    request: OptimizeRequest, scene: Prepared, statement: Statement, solution: Solution
+) -> dict[str, object]:
+    fitted, u = _fitted(request, scene, solution.unbalance)
+    square, goal = scene.omega_squared, request.objective
+    value, rest = float(statement.objective(u)), float(statement.objective(np.zeros_like(u)))
+    # a value below the bound by rounding is as certified as can be
+    gap = max(value - solution.lower_bound, 0.0)
+    relative_gap = gap / rest if rest > 0 else 0.0
+    mass = float(sum(counterweight.mass_kg for counterweight in fitted))
+    mass_bound = min(solution.mass_lower_bound, mass) if goal.least_mass else None
+    mass_gap = None if mass_bound is None else ((mass - mass_bound) / mass if mass > 0 else 0.0)
+    certified = (
+        solution.keeps_ceilings
+        and relative_gap <= request.accuracy.relative_gap
+        and (mass_gap is None or mass_gap <= MASS_GAP)
+    )
+    return {
+        "status": "optimal" if certified else "inaccurate",
+        "counterweights": fitted,
+        "total_mass_kg": mass,
+        "active_limits": _touched(request, scene, u, mass),
+        "certificate": Certificate(
+            objective=value * square,
+            lower_bound=solution.lower_bound * square,
+            gap=gap * square,
+            relative_gap=relative_gap,
+            objective_without_counterweights=rest * square,
+            mass_lower_bound_kg=mass_bound,
+            mass_relative_gap=mass_gap,
+            method=solution.method,
+        ),
+        **outputs(scene, u),
+    }
+
+
+def _touched(request: OptimizeRequest, scene: Prepared, u: Complex, mass: float) -> tuple[MachineLimit, ...]:
+    """Limits of the whole machine that the counterweights touch."""
+    touched: list[MachineLimit] = []
+    budget = request.machine.max_total_mass_kg
+    if budget is not None and mass >= budget * (1.0 - _TOUCHED):
+        touched.append("max_total_mass")
+    allowed, after = ceilings(request.objective), scene.first_order(u)
+    if "force" in allowed and after.force.peak >= allowed["force"] * (1.0 - _TOUCHED):
+        touched.append("force_ceiling")
+    if "moment" in allowed and after.moment.peak >= allowed["moment"] * (1.0 - _TOUCHED):
+        touched.append("moment_ceiling")
+    return tuple(touched)
+
+
+def _infeasible(
+    request: OptimizeRequest, scene: Prepared, statement: Statement, proof: Unreachable, solver: Solver
+) -> dict[str, object]:
+    """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
+    square, allowed = scene.omega_squared, ceilings(request.objective)
+    smallest, bound = {}, {}
+    for response in scene.responses:
+        alone = optimum(smallest_peak(response, request.machine), 1e-9, False, solver)
+        assert isinstance(alone, Solution)  # without ceilings nothing is unreachable
+        smallest[response.name], bound[response.name] = alone.objective * square, alone.lower_bound * square
+    impossible = [name for name in allowed if bound[name] > allowed[name]]
+    field = {"force": "force_ceiling_N", "moment": "moment_ceiling_Nm"}
+    fitted, u = _fitted(request, scene, proof.closest)
+    return {
+        "status": "infeasible",
+        "counterweights": (),
+        "total_mass_kg": None,
+        "certificate": None,
+        "infeasibility": Infeasibility(
+            conflict=tuple(field[name] for name in (impossible or allowed)),
+            smallest_force_N=smallest["force"],
+            smallest_moment_Nm=smallest["moment"],
+            smallest_force_lower_bound_N=bound["force"],
+            smallest_moment_lower_bound_Nm=bound["moment"],
+            closest=Closest(counterweights=fitted, first_order=first_order(scene.first_order(u))),
+        ),
+        **outputs(scene, None),
+    }

@@ -1,0 +1,75 @@
+"""`make bench`: where the time of one optimisation goes, case by case, side by side in one run."""
+
+import argparse
+import socket
+import statistics
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+from rich.console import Console
+from rich.table import Table
+
+from tests.benchmarks.cases import CASES
+from tests.benchmarks.phases import PHASES, measure
+
+READY_WITHIN_S = 60.0
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--repeats", type=int, default=60, help="warm repeats of every case")
+    repeats = parser.parse_args().repeats
+    console = Console(width=120)
+    phases(console, repeats)
+    console.print(f"service, from start to ready: {start_to_ready():.2f} s")
+
+
+def phases(console: Console, repeats: int) -> None:
+    """Warm medians; the cases take turns, so that a slow moment of the machine meets them all."""
+    bodies = {name: build() for name, build in CASES.items()}
+    samples: dict[str, list[dict[str, float]]] = {name: [] for name in bodies}
+    for body in bodies.values():
+        measure(body)
+    for _ in range(repeats):
+        for name, body in bodies.items():
+            samples[name].append(measure(body))
+    table = Table(title=f"warm median of {repeats}, milliseconds, in process")
+    for heading in ("case", *PHASES):
+        table.add_column(heading, justify="left" if heading == "case" else "right")
+    for name, taken in samples.items():
+        table.add_row(name, *(f"{statistics.median(one[phase] for one in taken):.2f}" for phase in PHASES))
+    console.print(table)
+
+
+def start_to_ready() -> float:
+    """Seconds from starting the service to its first positive answer on /readyz."""
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    command = [str(Path(sys.executable).with_name("counterweight")), "serve", "--port", str(port)]
+    start = time.perf_counter()
+    with subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as service:
+        try:
+            while time.perf_counter() - start < READY_WITHIN_S:
+                if ready(port):
+                    return time.perf_counter() - start
+                time.sleep(0.02)
+            raise TimeoutError(f"the service was not ready within {READY_WITHIN_S} s")
+        finally:
+            service.terminate()
+
+
+def ready(port: int) -> bool:
+    try:
+        with urllib.request.urlopen(f"http://127.0.0.1:{port}/readyz", timeout=5) as answer:
+            return bool(answer.status == 200)
+    except (urllib.error.URLError, ConnectionError):
+        return False
+
+
+if __name__ == "__main__":
+    main()
