@@ -82,8 +82,9 @@ def _certified(
     fitted, u = _fitted(request, scene, solution.unbalance)
     square, goal = scene.omega_squared, request.objective
     value, rest = float(statement.objective(u)), float(statement.objective(np.zeros_like(u)))
-    # a value below the bound by rounding is as certified as can be
-    gap = max(value - solution.lower_bound, 0.0)
+    # a bound above the value by rounding, or by what a ceiling is exceeded within its tolerance, is lowered to it
+    bound = min(solution.lower_bound, value)
+    gap = value - bound
     relative_gap = gap / rest if rest > 0 else 0.0
     mass = float(sum(counterweight.mass_kg for counterweight in fitted))
     mass_bound = min(solution.mass_lower_bound, mass) if goal.least_mass else None
@@ -100,7 +101,7 @@ def _certified(
         "active_limits": _touched(request, scene, u, mass),
         "certificate": Certificate(
             objective=value * square,
-            lower_bound=solution.lower_bound * square,
+            lower_bound=bound * square,
             gap=gap * square,
             relative_gap=relative_gap,
             objective_without_counterweights=rest * square,

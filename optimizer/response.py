@@ -15,6 +15,8 @@ Complex = NDArray[np.complex128]
 
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
 _ROUNDING = 16 * np.finfo(float).eps
+#: nothing real is this small; below it quotients lose their digits and then overflow
+SMALLEST = 1e-250
 
 
 def total(terms: Complex) -> Complex:
@@ -32,7 +34,7 @@ def total(terms: Complex) -> Complex:
     (...) complex.
     """
     value = np.sum(terms, axis=-1)
-    noise = _ROUNDING * np.sum(np.abs(terms), axis=-1)
+    noise = np.maximum(_ROUNDING * np.sum(np.abs(terms), axis=-1), SMALLEST)
     return np.where(np.abs(value) <= noise, 0.0, value)
 
 

@@ -4,16 +4,16 @@ from typing import Annotated
 
 from pydantic import Strict, StringConstraints
 
-from schemas.units import Unit, non_negative, positive, symmetric
+from schemas.units import Unit, between, non_negative, positive, symmetric
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
 
 Position = Annotated[float, symmetric(1e9), Unit("m")]
-Length = Annotated[float, positive(1e9), Unit("m")]
+Length = Annotated[float, between(1e-12, 1e9), Unit("m")]
 Area = Annotated[float, positive(1e12), Unit("m2")]
 Mass = Annotated[float, non_negative(1e15), Unit("kg")]
 Angle = Annotated[float, symmetric(1e6), Unit("deg")]
-Speed = Annotated[float, positive(1e9), Unit("rpm")]
+Speed = Annotated[float, between(1e-9, 1e9), Unit("rpm")]
 Pressure = Annotated[float, non_negative(1e12), Unit("Pa")]
 Force = Annotated[float, non_negative(1e30), Unit("N")]
 Moment = Annotated[float, non_negative(1e30), Unit("N m")]

@@ -117,6 +117,11 @@ def positive(largest: float) -> Any:
     return Field(gt=0, le=largest)
 
 
+def between(smallest: float, largest: float) -> Any:
+    """Constraint smallest <= value <= largest."""
+    return Field(ge=smallest, le=largest)
+
+
 def non_negative(largest: float) -> Any:
     """Constraint 0 <= value <= largest."""
     return Field(ge=0, le=largest)

@@ -170,7 +170,8 @@ class Solver:
         """
         size = ceilings.size
         norms = Norms(ceilings.norms.constant / size, ceilings.norms.influence / size[:, None])
-        none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), np.zeros(0))
+        nothing = np.zeros(0)
+        none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), nothing, nothing)
         return self.smallest_objective(
             Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits), 0.1 * CEILING_TOLERANCE
         )

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.program.limits import Limits
-from optimizer.response import Complex, Real, Response, total
+from optimizer.response import SMALLEST, Complex, Real, Response, total
 
 
 @dataclass(frozen=True)
@@ -23,6 +23,12 @@ class Norms:
     def at(self, u: Complex) -> Complex:
         """Vectors c_j + H_j u, (..., J)."""
         return self.constant + np.sum(self.influence * u[..., None, :], axis=-1)
+
+    @property
+    def largest_influence(self) -> Real:
+        """Largest |H_jk| over the webs, (..., J); 1 where no web has any."""
+        largest = np.max(np.abs(self.influence), axis=-1, initial=0.0)
+        return np.where(largest > 0, largest, 1.0)
 
     def only(self, webs: np.ndarray) -> "Norms":
         return Norms(self.constant, self.influence[..., webs])
@@ -43,16 +49,14 @@ class Ceilings:
     names: tuple[str, ...]
     norms: Norms
     cap: Real  # (..., I)
+    size: Real  # (..., I) > 0, what an excess is measured by
 
     def excess(self, u: Complex) -> Real:
-        """How far each response is above its ceiling, relative to the size of both; <= 0 if met."""
+        """How far each response is above its ceiling, relative to its size; <= 0 if met."""
         return (np.abs(self.norms.at(u)) - self.cap) / self.size
 
-    @property
-    def size(self) -> Real:
-        """What an excess is measured by: the larger of ceiling and response without counterweights."""
-        size = np.maximum(np.abs(self.norms.constant), np.abs(self.cap))
-        return np.where(size > 0, size, 1.0)
+    def only(self, webs: np.ndarray) -> "Ceilings":
+        return Ceilings(self.names, self.norms.only(webs), self.cap, self.size)
 
 
 @dataclass(frozen=True)
@@ -81,8 +85,7 @@ class Statement:
 
     def only(self, webs: np.ndarray) -> "Statement":
         """The program with some of the webs, for one program (no leading axes)."""
-        ceilings = Ceilings(self.ceilings.names, self.ceilings.norms.only(webs), self.ceilings.cap)
-        return Statement(self.norms.only(webs), self.row, self.floor, ceilings, self.limits.only(webs))
+        return Statement(self.norms.only(webs), self.row, self.floor, self.ceilings.only(webs), self.limits.only(webs))
 
 
 def weighted_peak(response: Response, weight: float, weight_x: float = 1.0, weight_y: float = 1.0) -> WeightedPeak:
@@ -95,7 +98,7 @@ def weighted_peak(response: Response, weight: float, weight_x: float = 1.0, weig
     p, q = 0.5 * weight * (weight_x + weight_y), 0.5 * weight * (weight_x - weight_y)
     f, b = response.baseline.co, np.conj(response.baseline.counter)
     if q == 0.0:
-        return WeightedPeak(float(p * np.abs(b)), Norms(np.array([p * f]), p * response.influence[None, :]))
+        return WeightedPeak(float(p * np.abs(b)), Norms(total(np.array([[p * f]])), p * response.influence[None, :]))
     constant = total(np.array([[p * f, q * b], [q * f, p * b]]))
     return WeightedPeak(0.0, Norms(constant, np.array([[p], [q]]) * response.influence))
 
@@ -113,21 +116,25 @@ def statement(
     """
     floors = np.array([peak.floor for peak in peaks])
     owner = np.repeat(np.arange(len(peaks)), [peak.norms.constant.size for peak in peaks])
-    webs = limits.radius.shape[-1]
+    norms = _join([peak.norms for peak in peaks], limits.radius.shape[-1])
     return Statement(
-        norms=_join([peak.norms for peak in peaks], webs),
+        norms=norms,
         row=owner if combine == "max" else np.zeros_like(owner),
         floor=floors if combine == "max" else floors.sum(keepdims=True),
-        ceilings=Ceilings(
-            names=tuple(response.name for response, _ in ceilings),
-            norms=_join(
-                [Norms(response.baseline.co[None], response.influence[None, :]) for response, _ in ceilings], webs
-            ),
-            # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
-            cap=np.array([ceiling - np.abs(response.baseline.counter) for response, ceiling in ceilings]),
-        ),
+        ceilings=_ceilings(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
     )
+
+
+def _ceilings(ceilings: Sequence[tuple[Response, float]], objective: Norms, webs: int) -> Ceilings:
+    norms = _join([Norms(response.baseline.co[None], response.influence[None, :]) for response, _ in ceilings], webs)
+    # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
+    cap = np.array([ceiling - np.abs(response.baseline.counter) for response, ceiling in ceilings])
+    size = np.maximum(np.abs(norms.constant), np.abs(cap))
+    # where both vanish: what the unbalance that the objective calls for does to the response
+    called_for = np.max(np.abs(objective.constant) / objective.largest_influence, initial=0.0)
+    size = np.where(size > SMALLEST, size, norms.largest_influence * called_for)
+    return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, np.where(size > SMALLEST, size, 1.0))
 
 
 def _join(norms: Sequence[Norms], webs: int) -> Norms:

@@ -193,6 +193,7 @@ def _in_other_units(problem: Statement, mass_radius: float, weight: float) -> St
         problem.ceilings,
         norms=replace(problem.ceilings.norms, constant=problem.ceilings.norms.constant * mass_radius),
         cap=problem.ceilings.cap * mass_radius,
+        size=problem.ceilings.size * mass_radius,
     )
     limits = replace(
         problem.limits,

@@ -1,0 +1,1 @@
+"""The door: REST service and command line around the optimiser."""

@@ -1,0 +1,31 @@
+"""The documents that go in and come out, by name, with their JSON schemas."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.base import Model
+from schemas.problem import Problem
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+
+
+@dataclass(frozen=True)
+class Document:
+    """A document: its model, which way it goes, and what it is."""
+
+    model: type[Model]
+    mode: Literal["validation", "serialization"]
+    meaning: str
+
+    def json_schema(self) -> dict[str, Any]:
+        return self.model.model_json_schema(mode=self.mode)
+
+
+DOCUMENTS: Mapping[str, Document] = {
+    "optimize": Document(OptimizeRequest, "validation", "request of /v1/optimize"),
+    "optimize-answer": Document(OptimizeAnswer, "serialization", "answer of /v1/optimize"),
+    "analyze": Document(AnalyzeRequest, "validation", "request of /v1/analyze"),
+    "analyze-answer": Document(AnalyzeAnswer, "serialization", "answer of /v1/analyze"),
+    "problem": Document(Problem, "serialization", "what any error is answered with"),
+}

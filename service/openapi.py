@@ -1,0 +1,79 @@
+"""What the OpenAPI document says beyond what the framework finds out by itself.
+
+Bodies are read by :mod:`service.computing` and errors are written by :mod:`service.errors`, so their
+schemas are added here.
+"""
+
+import json
+from typing import Any
+
+from fastapi import FastAPI
+from pydantic.json_schema import models_json_schema
+
+from schemas.base import Model
+from schemas.problem import Problem
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from service.errors import PROBLEM_JSON
+from service.examples import load, names
+
+#: statuses that every computing route may answer with
+COMPUTE_PROBLEMS = (400, 413, 415, 422, 503)
+
+_REF = "#/components/schemas/{model}"
+_DESCRIPTIONS: dict[int | str, str] = {
+    400: "unreadable JSON",
+    404: "no such resource",
+    413: "body too large",
+    415: "the body is not announced as JSON",
+    422: "invalid machine or request; `errors` names the fields",
+    503: "not ready; `Retry-After` says when to try again",
+    "default": "any other failure",
+}
+
+
+def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """Responses with problem details: those of the statuses, and any other failure."""
+    content = {PROBLEM_JSON: {"schema": _ref(Problem)}}
+    listed: tuple[int | str, ...] = (*statuses, "default")
+    return {status: {"description": _DESCRIPTIONS[status], "content": content} for status in listed}
+
+
+def request_body(model: type[Model]) -> dict[str, Any]:
+    """The body of a computing route, with the examples that fit it."""
+    content = {"schema": _ref(model), "examples": _examples(model)}
+    return {"requestBody": {"required": True, "content": {"application/json": content}}}
+
+
+def example_body(model: type[Model]) -> dict[int | str, dict[str, Any]]:
+    """A response that is the body of a request."""
+    content = {"application/json": {"schema": _ref(model)}}
+    return {200: {"description": "a request body", "content": content}}
+
+
+class Documented(FastAPI):
+    """An application whose document holds the schemas of bodies and problems too."""
+
+    def openapi(self) -> dict[str, Any]:
+        document = super().openapi()
+        known = document["components"]["schemas"]
+        # the framework keeps the document and makes a new one when routes are added
+        if Problem.__name__ not in known:
+            models: list[type[Model]] = [OptimizeRequest, AnalyzeRequest, Problem]
+            _, schemas = models_json_schema([(model, "validation") for model in models], ref_template=_REF)
+            known |= schemas["$defs"]
+        return document
+
+
+def _ref(model: type[Model]) -> dict[str, str]:
+    return {"$ref": _REF.format(model=model.__name__)}
+
+
+def _examples(model: type[Model]) -> dict[str, Any]:
+    bodies = {name: json.loads(load(name)) for name in names()}
+    return {
+        name: {
+            "summary": body["machine"].get("name", name),
+            "value": {key: value for key, value in body.items() if key in model.model_fields},
+        }
+        for name, body in bodies.items()
+    }

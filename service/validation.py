@@ -1,0 +1,172 @@
+"""From bytes to a checked request; what is wrong is said field by field, for REST and command line alike."""
+
+import json
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import islice
+from typing import TypeVar
+
+from pydantic import ValidationError
+from pydantic_core import ErrorDetails
+
+from schemas.base import FieldProblem, Model
+
+Request = TypeVar("Request", bound=Model)
+Path = tuple[str | int, ...]
+
+MAX_ERRORS = 50
+#: pydantic reports every bad item of every list, so the number of items bounds its work
+MAX_LIST_ITEMS = 50_000
+_LONGEST_NAME = 64
+_LONGEST_INTEGER = 400
+_DISCRIMINATORS = ("kind", "type")
+
+_MESSAGES = {
+    "missing": "this field is required",
+    "extra_forbidden": "unknown field",
+    "model_type": "must be an object",
+    "model_attributes_type": "must be an object",
+    "tuple_type": "must be a list",
+    "float_type": "must be a number",
+    "int_type": "must be a whole number",
+    "int_from_float": "must be a whole number",
+    "bool_type": "must be true or false",
+    "string_type": "must be a string",
+    "string_unicode": "must be valid Unicode text",
+    "string_pattern_mismatch": "must not contain control characters",
+    "union_tag_not_found": "this field is required",
+    "union_tag_invalid": "must be one of {expected_tags}",
+}
+_SUBJECT = re.compile(r"^\w+ should")
+_AFTERTHOUGHT = re.compile(r" after validation.*")
+
+
+class UnreadableJson(ValueError):
+    """The bytes are not JSON; sending them again does not help."""
+
+
+class InvalidRequest(ValueError):
+    """The JSON does not describe a valid request; ``problems`` name fields by paths from the root of the body."""
+
+    def __init__(self, problems: Iterable[FieldProblem]) -> None:
+        found = list(islice(problems, MAX_ERRORS + 1))
+        self.problems = found[:MAX_ERRORS]
+        self.more = len(found) > MAX_ERRORS
+        super().__init__("invalid request")
+
+
+def read_json(data: bytes) -> object:
+    """The JSON value in ``data``; NaN and infinities pass here and are refused field by field later.
+
+    Raises
+    ------
+    UnreadableJson
+        if ``data`` is empty, not UTF-8, not JSON or nested too deeply.
+    """
+    try:
+        text = data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise UnreadableJson(f"not UTF-8 at byte {error.start}") from None
+    if not text.strip():
+        raise UnreadableJson("there is no JSON")
+    try:
+        return json.loads(text, parse_int=_integer)
+    except json.JSONDecodeError as error:
+        raise UnreadableJson(f"line {error.lineno}, column {error.colno}: {error.msg}") from None
+    except RecursionError:
+        raise UnreadableJson("nested too deeply") from None
+
+
+def _integer(text: str) -> int | float:
+    # longer ones overflow every field, and Python refuses to read the longest at all
+    return int(text) if len(text) <= _LONGEST_INTEGER else float(text)
+
+
+def check(model: type[Request], body: object) -> Request:
+    """``body`` as a checked ``model``.
+
+    Raises
+    ------
+    InvalidRequest
+        naming the first fields that are wrong.
+    """
+    _limit_list_items(body)
+    try:
+        return model.model_validate(body)
+    except ValidationError as error:
+        details = error.errors(include_url=False, include_input=False)
+        raise InvalidRequest(_problems(body, details)) from None
+
+
+def pointer(path: Iterable[str | int]) -> str:
+    """JSON pointer (RFC 6901) of a path."""
+    return "".join("/" + str(element).replace("~", "~0").replace("/", "~1") for element in path)
+
+
+def _limit_list_items(body: object) -> None:
+    pending, items = [body], 0
+    while pending:
+        node = pending.pop()
+        if isinstance(node, dict):
+            pending += [value for value in node.values() if isinstance(value, (dict, list))]
+        elif isinstance(node, list):
+            items += len(node)
+            if items > MAX_LIST_ITEMS:
+                message = f"the lists of a request must not hold more than {MAX_LIST_ITEMS} items together"
+                raise InvalidRequest([FieldProblem((), message)])
+            pending += [value for value in node if isinstance(value, (dict, list))]
+
+
+def _problems(body: object, details: Sequence[ErrorDetails]) -> Iterator[FieldProblem]:
+    for detail in details:
+        kind, loc, context = detail["type"], detail["loc"], detail.get("ctx", {})
+        path = locate(body, loc, missing=kind == "missing")
+        if kind == "cross_field":
+            for problem in context["problems"]:
+                yield FieldProblem((*path, *problem.path), problem.message)
+        elif kind in ("union_tag_not_found", "union_tag_invalid"):
+            yield FieldProblem((*path, context["discriminator"].strip("'")), _message(detail))
+        elif kind == "extra_forbidden":
+            yield _unknown_field(path, str(loc[-1]))
+        else:
+            yield FieldProblem(path, _message(detail))
+
+
+def _unknown_field(path: Path, name: str) -> FieldProblem:
+    if len(name) > _LONGEST_NAME:
+        return FieldProblem(path[:-1], "holds an unknown field with a very long name")
+    return FieldProblem(path, _MESSAGES["extra_forbidden"])
+
+
+def _message(detail: ErrorDetails) -> str:
+    known = _MESSAGES.get(detail["type"])
+    if known is not None:
+        return known.format_map(detail.get("ctx", {}))
+    return _AFTERTHOUGHT.sub("", _SUBJECT.sub("must", detail["msg"]))
+
+
+def locate(body: object, loc: Path, missing: bool = False) -> Path:
+    """Path in ``body`` of the place that pydantic calls ``loc``: without the tags of unions.
+
+    Parameters
+    ----------
+    missing : whether the last element of ``loc`` names a field that is not there.
+    """
+    path: list[str | int] = []
+    node, tagged = body, False
+    for index, element in enumerate(loc):
+        if not tagged and isinstance(node, dict) and element in [node.get(name) for name in _DISCRIMINATORS]:
+            tagged = True
+            continue
+        if missing and index == len(loc) - 1:
+            path.append(element)
+        elif _holds(node, element):
+            path.append(element)
+            node, tagged = node[element], False  # type: ignore[index]
+    return tuple(path)
+
+
+def _holds(node: object, element: str | int) -> bool:
+    if isinstance(node, Mapping):
+        return element in node
+    return isinstance(node, list) and isinstance(element, int) and element < len(node)

@@ -1,0 +1,72 @@
+"""The machine as it stands, or with given counterweights."""
+
+import numpy as np
+import pytest
+
+from optimizer.analyze import analyze
+from optimizer.optimize import optimize
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
+
+OUTPUTS = ["residual", "hodograph", "orders", "stages"]
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_an_optimum_analysed_is_the_optimum(seed: int) -> None:
+    body = random_machine(seed)
+    found = optimize(OptimizeRequest.model_validate({"machine": body, "outputs": OUTPUTS}))
+    weights = [one.model_dump(include={"web", "mass_kg", "angle_deg"}) for one in found.counterweights]
+    again = analyze(
+        AnalyzeRequest.model_validate({"machine": body, "counterweights": weights[::-1], "outputs": OUTPUTS})
+    )
+    assert again.residual == found.residual
+    assert again.hodograph == found.hodograph
+    assert again.orders == found.orders
+    assert again.stages == found.stages
+    assert again.floor == found.floor
+    assert again.counterweights == found.counterweights
+    assert again.total_mass_kg == pytest.approx(found.total_mass_kg, rel=1e-14)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_hodographs_follow_the_machine_over_the_turn(seed: int) -> None:
+    body = random_machine(seed)
+    weights = [{"web": one["name"], "mass_kg": 3.0, "angle_deg": 50.0 * k} for k, one in enumerate(body["webs"])]
+    request = {"machine": body, "counterweights": weights, "outputs": ["hodograph"], "angles": {"step_deg": 7.5}}
+    found = analyze(AnalyzeRequest.model_validate(request)).hodograph
+    assert found.angle_deg == tuple(7.5 * k for k in range(48))
+    for state, fitted in ((found.before, []), (found.after, weights)):
+        expected = np.array([first_order(body, fitted, theta) for theta in found.angle_deg])  # independent
+        scale = np.abs(expected).max() + 1e-9
+        np.testing.assert_allclose(np.array(state.force_x_N), expected[:, 0].real, atol=1e-12 * scale)
+        np.testing.assert_allclose(np.array(state.force_y_N), expected[:, 0].imag, atol=1e-12 * scale)
+        np.testing.assert_allclose(np.array(state.moment_x_Nm), expected[:, 1].real, atol=1e-12 * scale)
+        np.testing.assert_allclose(np.array(state.moment_y_Nm), expected[:, 1].imag, atol=1e-12 * scale)
+
+
+def test_counterweights_change_the_first_order_alone_and_fidelity_the_higher_ones() -> None:
+    rod = {"length_m": 0.5, "mass_kg": 0.0}
+    body = machine([throw(0.0, 0.0, [row(90.0, 20.0, connecting_rod=rod)])], [web("a", 0.1)])
+    weights = [{"web": "a", "mass_kg": 10.0, "angle_deg": 180.0}]
+    request = {"machine": body, "counterweights": weights, "outputs": ["orders"]}
+    exact = analyze(AnalyzeRequest.model_validate(request)).orders
+    assert [one.order for one in exact.before] == [1, 2, 4, 6]
+    assert exact.before[1:] == exact.after[1:]
+    assert exact.after[0].force.co_rotating.magnitude_N == pytest.approx(0.0, abs=1e-9)
+    series = analyze(AnalyzeRequest.model_validate(request | {"fidelity": {"kinematics": "order_2"}})).orders
+    first = series.before[0].force.peak_N
+    # published: lam = 0.2, exact second harmonic 0.202038 (seed 004), series 0.2, then nothing
+    assert exact.before[1].force.peak_N / first == pytest.approx(0.202038, abs=1e-6)
+    assert series.before[1].force.peak_N / first == pytest.approx(0.2, rel=1e-12)
+    assert [one.force.peak_N for one in series.before[2:]] == [0.0, 0.0]
+
+
+def test_only_what_was_asked_for_is_answered() -> None:
+    found = analyze(AnalyzeRequest.model_validate({"machine": random_machine(2), "outputs": ["orders"]}))
+    assert (found.residual, found.hodograph, found.stages) == (None, None, None)
+    assert {name: use.needed_by for name, use in found.effects.items()} == {
+        "rotating_inertia": ("orders",),
+        "reciprocating_inertia": ("orders",),
+        "second_order": ("orders",),
+        "higher_orders": ("orders",),
+    }

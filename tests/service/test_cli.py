@@ -1,0 +1,235 @@
+"""The command line: exit codes, tables, the exact answer of the service."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import Result
+from starlette.testclient import TestClient
+from typer.testing import CliRunner
+
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from service.cli import app
+from service.examples import catalogue, directory, load, names
+
+ROOT = Path(__file__).parents[2]
+
+
+def run(*arguments: str, given: bytes | None = None) -> Result:
+    return CliRunner().invoke(app, arguments, input=given)
+
+
+def refused(result: Result) -> list[str]:
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert "Traceback" not in result.stderr
+    return result.stderr.splitlines()
+
+
+@pytest.fixture
+def file(tmp_path: Path, body: dict[str, Any]) -> Path:
+    path = tmp_path / "machine.json"
+    path.write_text(json.dumps(body))
+    return path
+
+
+def test_optimize_prints_tables(file: Path) -> None:
+    result = run("optimize", str(file))
+    assert result.exit_code == 0
+    for text in ("2D12-90/2-20: optimal", "counterweights", "mass x radius, kg m", "1a", "peak force, N", "floor"):
+        assert text in result.stdout
+    assert "Certified: no counterweights within the limits bring the objective below" in result.stdout
+    assert "No optimum weighs less than" in result.stdout
+    assert "total mass" in result.stdout
+    assert "max mass" in result.stdout
+
+
+def without_times(answer: Any) -> Any:
+    if isinstance(answer, dict):
+        return {key: without_times(value) for key, value in answer.items() if not key.endswith("_ms")}
+    return [without_times(value) for value in answer] if isinstance(answer, list) else answer
+
+
+@pytest.mark.parametrize("command", ["optimize", "analyze"])
+def test_json_is_the_answer_of_the_service(client: TestClient, file: Path, command: str) -> None:
+    result = run(command, str(file), "--json")
+    assert result.exit_code == 0
+    headers = {"Content-Type": "application/json"}
+    answer = client.post(f"/v1/{command}", content=file.read_bytes(), headers=headers)
+    assert without_times(json.loads(result.stdout)) == without_times(answer.json())
+    # byte for byte as the service writes it, key order and all
+    model = OptimizeAnswer if command == "optimize" else AnalyzeAnswer
+    assert result.stdout == model.model_validate_json(result.stdout).model_dump_json() + "\n"
+
+
+def test_standard_input(body: dict[str, Any]) -> None:
+    assert run("optimize", "-", given=json.dumps(body).encode()).exit_code == 0
+    assert run("analyze", "-", given=b"\xef\xbb\xbf" + json.dumps(body).encode()).exit_code == 0
+
+
+def test_infeasible(body: dict[str, Any]) -> None:
+    body["objective"] = {"force_ceiling_N": 1}
+    result = run("optimize", "-", given=json.dumps(body).encode())
+    assert result.exit_code == 1
+    for text in (
+        "infeasible",
+        "satisfy: force_ceiling_N",
+        "what can be reached",
+        "certified not below",
+        "best compromise",
+    ):
+        assert text in result.stdout
+    assert json.loads(run("optimize", "-", "--json", given=json.dumps(body).encode()).stdout)["status"] == "infeasible"
+
+
+def test_inaccurate(monkeypatch: pytest.MonkeyPatch, file: Path) -> None:
+    import optimizer.optimize
+
+    real = optimizer.optimize.optimize
+
+    def inaccurate(request: Any) -> OptimizeAnswer:
+        return real(request).model_copy(update={"status": "inaccurate"})
+
+    monkeypatch.setattr(optimizer.optimize, "optimize", inaccurate)
+    result = run("optimize", str(file))
+    assert result.exit_code == 1
+    assert "Not certified to the gap asked for" in result.stdout
+
+
+def test_outputs_replace_those_of_the_file(body: dict[str, Any]) -> None:
+    given = json.dumps({**body, "outputs": ["orders"]}).encode()
+    first = run("analyze", "-", given=given)
+    assert "orders" in first.stdout
+    assert "first order" not in first.stdout
+    second = run("analyze", "-", "--output", "residual", "--output", "stages", "--output", "hodograph", given=given)
+    assert second.exit_code == 0
+    for text in ("first order", "balancing stages", "VIII", "hodograph: 360 shaft angles", "before: force"):
+        assert text in second.stdout
+    assert "\norders" not in second.stdout
+    assert "orders" in run("optimize", "-", "--output", "orders", given=given).stdout
+
+
+def test_analyze_prints_what_is_fitted(body: dict[str, Any]) -> None:
+    body["counterweights"] = [{"web": "1a", "mass_kg": 12.5, "angle_deg": 180}]
+    result = run("analyze", "-", given=json.dumps(body).encode())
+    assert result.exit_code == 0
+    assert "12.5" in result.stdout
+    assert "total mass 12.5 kg" in result.stdout
+    del body["counterweights"]
+    assert "total mass" not in run("analyze", "-", given=json.dumps(body).encode()).stdout
+
+
+@pytest.mark.parametrize("name", names())
+def test_every_example_has_tables(name: str) -> None:
+    every = ("--output", "residual", "--output", "stages", "--output", "orders", "--output", "hodograph")
+    assert run("optimize", str(directory() / f"{name}.json"), *every).exit_code == 0
+
+
+def test_names_are_no_markup(body: dict[str, Any]) -> None:
+    body["machine"]["name"] = "[red]machine[/red]"
+    body["machine"]["webs"][0]["name"] = "[bold]a[/]"
+    result = run("optimize", "-", given=json.dumps(body).encode())
+    assert "[red]machine[/red]: optimal" in result.stdout
+    assert "[bold]a[/]" in result.stdout
+
+
+@pytest.mark.parametrize("command", ["optimize", "analyze"])
+def test_bad_input(tmp_path: Path, body: dict[str, Any], command: str) -> None:
+    assert refused(run(command, str(tmp_path / "nothing.json")))[0].endswith("No such file or directory")
+    assert refused(run(command, str(tmp_path)))[0].endswith("Is a directory")
+    assert refused(run(command, "-", given=b"")) == ["standard input is not JSON: there is no JSON"]
+    assert refused(run(command, "-", given=b"\xff")) == ["standard input is not JSON: not UTF-8 at byte 0"]
+    assert refused(run(command, "-", given=b"[" * 100_000)) == ["standard input is not JSON: nested too deeply"]
+    (line,) = refused(run(command, "-", given=b"{\n  nonsense"))
+    assert "line 2, column 3" in line
+    assert refused(run(command, "-", given=b"[]")) == ["the request: must be an object"]
+    body["machine"]["throws"][0]["crank_radius_m"] = -1
+    del body["machine"]["webs"][0]["name"]
+    assert refused(run(command, "-", given=json.dumps(body).encode())) == [
+        "/machine/webs/0/name: this field is required",
+        "/machine/throws/0/crank_radius_m: must be greater than 0",
+    ]
+
+
+def test_the_wording_is_that_of_the_service(client: TestClient, body: dict[str, Any]) -> None:
+    body["machine"]["kind"] = "turbine"
+    body["angles"] = {"step_deg": "7 deg"}
+    errors = client.post("/v1/optimize", json=body).json()["errors"]
+    lines = refused(run("optimize", "-", given=json.dumps(body).encode()))
+    assert lines == [f"{error['pointer']}: {error['message']}" for error in errors]
+
+
+def test_many_errors_end_with_a_note(body: dict[str, Any]) -> None:
+    lines = refused(run("optimize", "-", given=json.dumps({**body, **{f"x{k}": 0 for k in range(99)}}).encode()))
+    assert (len(lines), lines[-1]) == (51, "... and more")
+
+
+@pytest.mark.parametrize("command", ["optimize", "analyze"])
+def test_an_input_that_an_output_needs(body: dict[str, Any], command: str) -> None:
+    del body["machine"]["throws"][0]["rows"][0]["connecting_rod"]
+    (line,) = refused(run(command, "-", "--output", "stages", given=json.dumps(body).encode()))
+    assert line.startswith("/machine/throws/0/rows/0/connecting_rod: ")
+    (line,) = refused(run(command, "-", "--output", "smell", given=json.dumps(body).encode()))
+    assert line.startswith("/outputs/0: must be 'residual'")
+
+
+@pytest.mark.parametrize(
+    "arguments", [["optimize"], ["optimise", "-"], ["optimize", "-", "--jason"], ["serve", "--port", "x"]]
+)
+def test_wrong_usage(arguments: list[str]) -> None:
+    assert run(*arguments).exit_code == 2
+
+
+def test_examples() -> None:
+    listed = run("examples")
+    assert listed.exit_code == 0
+    assert all(name in listed.stdout for name in names())
+    assert run("examples", "--json").stdout == catalogue().model_dump_json() + "\n"
+    printed = run("examples", "2d12")
+    assert json.loads(printed.stdout) == json.loads(load("2d12"))
+    assert run("optimize", "-", given=printed.stdout_bytes).exit_code == 0
+    assert "no example of this name" in refused(run("examples", "../pyproject"))[0]
+
+
+def test_schema() -> None:
+    assert "optimize-answer" in run("schema").stdout
+    assert json.loads(run("schema", "optimize").stdout)["title"] == "OptimizeRequest"
+    answer = json.loads(run("schema", "optimize-answer").stdout)
+    assert answer["title"] == "OptimizeAnswer"
+    assert answer["$defs"]["Counterweight"]["properties"]["mass_kg"]["x-unit"] == "kg"
+    assert "no document of this name" in refused(run("schema", "nothing"))[0]
+
+
+def start(*arguments: str, **options: Any) -> "subprocess.Popen[bytes]":
+    return subprocess.Popen([sys.executable, "-m", "service", *arguments], cwd=ROOT, **options)
+
+
+def test_a_real_process() -> None:
+    pipe = subprocess.PIPE
+    with start("optimize", "-", stdin=pipe, stdout=pipe, stderr=pipe) as process:
+        out, err = process.communicate(load("v90-equal"), timeout=60)
+    assert (process.returncode, err) == (0, b"")
+    assert "V 90 degrees, equal rows: optimal" in out.decode()
+
+
+def test_a_closed_pipe_is_said_without_a_traceback() -> None:
+    with start("examples", "2d12", stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        process.stdout.close()
+        said = process.stderr.read().decode()
+    assert process.returncode == 2
+    assert said.splitlines() == ["cannot write to standard output: Broken pipe"]
+
+
+def test_help_does_not_load_the_optimiser() -> None:
+    code = (
+        "import sys, service.cli\n"
+        "loaded = {'cvxpy', 'numpy', 'uvicorn', 'fastapi', 'pydantic', 'optimizer'} & set(sys.modules)\n"
+        "sys.exit(str(loaded) if loaded else 0)"
+    )
+    assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=60).returncode == 0
+    assert "optimize" in run("--help").stdout

@@ -1,0 +1,149 @@
+"""Whatever is sent, the service answers as it says it does: never with a 5xx, and never with what is no JSON."""
+
+import copy
+import json
+from collections.abc import Callable
+from typing import Any
+
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+from starlette.testclient import TestClient
+
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.problem import Problem
+from service.examples import load, names
+
+BODIES = {name: json.loads(load(name)) for name in names()}
+ANSWERS = {"/v1/optimize": OptimizeAnswer, "/v1/analyze": AnalyzeAnswer}
+OUTPUTS = ["residual", "hodograph", "orders", "stages"]
+
+#: numbers at and beyond the edges of what the fields take
+NUMBERS = st.one_of(
+    st.floats(),
+    st.integers(-(10**400), 10**400),
+    st.sampled_from([0, -0.0, 5e-324, 1e-300, 1e-160, 1e-9, 1e6, 1e9, 1e12, 1e15, 1e30, 1e154, 1.7e308, 360, 90, 0.1]),
+)
+TEXTS = st.one_of(
+    st.text(max_size=20),
+    st.sampled_from(
+        ["", "\ud800", "\x00", "1e9 m", "-5 mm", "1e999 kg", "9**9**9 m", "1" * 60, "scroll", "reciprocating"]
+    ),
+    st.sampled_from(["ccw", "cw", "kind", "crank_pins", "oldham", "sum", "max", "order_2", *OUTPUTS]),
+)
+VALUES = st.recursive(
+    st.one_of(st.none(), st.booleans(), NUMBERS, TEXTS),
+    lambda inner: st.one_of(st.lists(inner, max_size=4), st.dictionaries(TEXTS, inner, max_size=4)),
+    max_leaves=8,
+)
+
+
+def places(node: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Paths of everything inside a JSON value."""
+    pairs = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ()
+    return [place for key, value in pairs for place in [(*path, key), *places(value, (*path, key))]]
+
+
+@st.composite
+def mutated(draw: st.DrawFn) -> dict[str, Any]:
+    """A valid request with up to three places changed, removed, doubled or added."""
+    body = copy.deepcopy(BODIES[draw(st.sampled_from(sorted(BODIES)))])
+    body.setdefault("objective", {"force_ceiling_N": 5000, "direction_weights": {"x": 1, "y": 1}})
+    body.setdefault("outputs", ["residual"])
+    body.setdefault("angles", {"step_deg": 30})
+    for _ in range(draw(st.integers(1, 3))):
+        path = draw(st.sampled_from(places(body)))
+        node: Any = body
+        for key in path[:-1]:
+            node = node[key]
+        last = path[-1]
+        change = draw(st.sampled_from(["replace", "number", "scale", "scale", "remove", "double", "add"]))
+        if change == "replace":
+            node[last] = draw(VALUES)
+        elif change == "number":
+            node[last] = draw(NUMBERS)
+        elif change == "scale":
+            node[last] = scaled(node[last], lambda _: 10.0 ** draw(st.integers(-12, 6)))
+        elif change == "remove":
+            del node[last]
+        elif isinstance(node, list):
+            node.insert(last, copy.deepcopy(node[last]))
+        else:
+            node[draw(TEXTS)] = draw(VALUES)
+    return body
+
+
+@st.composite
+def extreme(draw: st.DrawFn) -> dict[str, Any]:
+    """A valid machine with very large and very small units, and one number out of proportion."""
+    body = copy.deepcopy(BODIES[draw(st.sampled_from(sorted(BODIES)))])
+    powers = {"m": st.integers(-10, 8), "kg": st.integers(-300, 11), "rpm": st.integers(-11, 5)}
+    factors = {unit: 10.0 ** draw(st.one_of(st.just(0), power)) for unit, power in powers.items()}
+    body["machine"] = scaled(body["machine"], lambda name: factors.get(name.rpartition("_")[2], 1.0))
+    body |= {"outputs": OUTPUTS, "angles": {"step_deg": 60}}
+    path = draw(st.sampled_from(places(body["machine"]["webs"])))
+    node: Any = body["machine"]["webs"]
+    for key in path[:-1]:
+        node = node[key]
+    node[path[-1]] = scaled(node[path[-1]], lambda _: 10.0 ** draw(st.integers(-300, 9)))
+    return body
+
+
+def scaled(node: Any, factor: Callable[[str], float], name: str = "") -> Any:
+    """A JSON value whose numbers are multiplied by a factor that depends on the name of the field."""
+    if isinstance(node, dict):
+        return {key: scaled(value, factor, key) for key, value in node.items()}
+    if isinstance(node, list):
+        return [scaled(value, factor, name) for value in node]
+    is_number = isinstance(node, (int, float)) and not isinstance(node, bool)
+    # a number of more than 308 digits has no float, and is sent as it is
+    return node * factor(name) if is_number and abs(node) < 1e300 else node
+
+
+def question(path: str, body: Any) -> bytes:
+    """The body for a route: an analysis has neither objective nor accuracy."""
+    if path == "/v1/analyze" and isinstance(body, dict):
+        body = {key: value for key, value in body.items() if key not in ("objective", "accuracy")}
+    return json.dumps(body).encode()
+
+
+def answered_properly(client: TestClient, path: str, content: bytes) -> None:
+    answer = client.post(path, content=content, headers={"Content-Type": "application/json"})
+    if answer.status_code == 200:
+        ANSWERS[path].model_validate_json(answer.content)
+    else:
+        assert answer.status_code in (400, 422)
+        assert answer.headers["content-type"] == "application/problem+json"
+        found = Problem.model_validate_json(answer.content)
+        assert (found.status, bool(found.errors)) == (answer.status_code, answer.status_code == 422)
+
+
+MANY = settings(max_examples=300, suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
+
+
+@MANY
+@given(body=mutated(), path=st.sampled_from(sorted(ANSWERS)))
+def test_changed_requests(client: TestClient, body: dict[str, Any], path: str) -> None:
+    answered_properly(client, path, question(path, body))
+
+
+@MANY
+@given(body=extreme(), path=st.sampled_from(sorted(ANSWERS)))
+def test_extreme_machines(client: TestClient, body: dict[str, Any], path: str) -> None:
+    answered_properly(client, path, question(path, body))
+
+
+@MANY
+@given(body=VALUES, path=st.sampled_from(sorted(ANSWERS)))
+def test_any_json(client: TestClient, body: Any, path: str) -> None:
+    answered_properly(client, path, json.dumps(body).encode())
+    answered_properly(client, path, json.dumps({"machine": body}).encode())
+
+
+@MANY
+@example(content=b"\xef\xbb\xbf")
+@example(content=b'"\\ud800"')
+@given(
+    content=st.one_of(st.binary(max_size=200), st.text('{}[]",:0123456789.eE+-NaInfty ', max_size=40).map(str.encode))
+)
+def test_any_bytes(client: TestClient, content: bytes) -> None:
+    answered_properly(client, "/v1/optimize", content)

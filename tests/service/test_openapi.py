@@ -1,0 +1,119 @@
+"""The published document: pinned names, described fields, units, examples that are valid."""
+
+import re
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+from starlette.testclient import TestClient
+
+from service.app import create_app
+from service.settings import Settings
+
+OPERATIONS = {
+    ("post", "/v1/optimize"): "optimize",
+    ("post", "/v1/analyze"): "analyze",
+    ("get", "/v1/examples"): "list_examples",
+    ("get", "/v1/examples/{name}"): "read_example",
+    ("get", "/healthz"): "healthz",
+    ("get", "/readyz"): "readyz",
+}
+PHYSICAL = re.compile(r"_(m|m2|kg|kg_m|kg_m2|deg|rpm|N|Nm|Pa|W|J|ms)$")
+
+
+@pytest.fixture(scope="module")
+def document() -> dict[str, Any]:
+    # without the lifespan: the document needs no solver
+    found: dict[str, Any] = TestClient(create_app(Settings())).get("/openapi.json").json()
+    return found
+
+
+def operations(document: dict[str, Any]) -> list[dict[str, Any]]:
+    return [operation for methods in document["paths"].values() for operation in methods.values()]
+
+
+def test_names_that_clients_depend_on(document: dict[str, Any]) -> None:
+    found = {
+        (method, path): operation["operationId"]
+        for path, methods in document["paths"].items()
+        for method, operation in methods.items()
+    }
+    assert found == OPERATIONS
+    assert document["openapi"].startswith("3.1")
+    assert all(operation["summary"] and operation["tags"] for operation in operations(document))
+
+
+def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
+    assert create_app(Settings()).openapi() == document
+
+
+@pytest.mark.parametrize(
+    ("path", "statuses"),
+    [
+        ("/v1/optimize", {"200", "400", "413", "415", "422", "503", "default"}),
+        ("/v1/analyze", {"200", "400", "413", "415", "422", "503", "default"}),
+        ("/v1/examples", {"200", "default"}),
+        ("/v1/examples/{name}", {"200", "404", "default"}),
+        ("/healthz", {"200", "default"}),
+        ("/readyz", {"200", "503", "default"}),
+    ],
+)
+def test_errors_are_problems(document: dict[str, Any], path: str, statuses: set[str]) -> None:
+    for operation in document["paths"][path].values():
+        assert set(operation["responses"]) == statuses
+        for status, response in operation["responses"].items():
+            if status != "200":
+                schema = response["content"]["application/problem+json"]["schema"]
+                assert schema == {"$ref": "#/components/schemas/Problem"}
+                assert response["description"]
+
+
+def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
+    for path, name in (("/v1/optimize", "Optimize"), ("/v1/analyze", "Analyze")):
+        operation = document["paths"][path]["post"]
+        body = operation["requestBody"]["content"]["application/json"]
+        assert operation["requestBody"]["required"]
+        assert body["schema"] == {"$ref": f"#/components/schemas/{name}Request"}
+        answer = operation["responses"]["200"]["content"]["application/json"]
+        assert answer["schema"] == {"$ref": f"#/components/schemas/{name}Answer"}
+    example = document["paths"]["/v1/examples/{name}"]["get"]["responses"]["200"]["content"]["application/json"]
+    assert example["schema"] == {"$ref": "#/components/schemas/OptimizeRequest"}
+
+
+def test_every_reference_leads_somewhere(document: dict[str, Any]) -> None:
+    known = document["components"]["schemas"]
+
+    def references(node: Any) -> set[str]:
+        if isinstance(node, dict):
+            own = {node["$ref"]} if isinstance(node.get("$ref"), str) else set()
+            return own.union(*map(references, node.values()))
+        return set().union(*map(references, node)) if isinstance(node, list) else set()
+
+    assert references(document) == {f"#/components/schemas/{name}" for name in known}
+    assert not {"HTTPValidationError", "ValidationError"} & set(known)
+
+
+def test_every_field_is_described_with_examples_and_its_unit(document: dict[str, Any]) -> None:
+    for model, schema in document["components"]["schemas"].items():
+        assert schema["description"], model
+        for name, field in schema.get("properties", {}).items():
+            assert field["description"], (model, name)
+            assert field["examples"], (model, name)
+            assert PHYSICAL.search(name) is None or "x-unit" in str(field), (model, name)
+
+
+@pytest.mark.parametrize("path", ["/v1/optimize", "/v1/analyze"])
+def test_the_examples_of_bodies_are_valid(document: dict[str, Any], path: str) -> None:
+    body = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]
+    validator = Draft202012Validator({**body["schema"], "components": document["components"]})
+    assert len(body["examples"]) > 10
+    for example in body["examples"].values():
+        assert example["summary"]
+        validator.validate(example["value"])
+
+
+def test_the_prefix_of_a_proxy_is_told() -> None:
+    client = TestClient(create_app(Settings()), root_path="/cw")
+    assert client.get("/openapi.json").json()["servers"] == [{"url": "/cw"}]
+    links = client.get("/v1/examples").json()["examples"][0]["links"]
+    assert links["self"].startswith("/cw/v1/examples/")

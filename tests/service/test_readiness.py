@@ -1,0 +1,64 @@
+"""The state machine of the warm-up: warming, then ready or failed."""
+
+import time
+from collections.abc import Callable
+from threading import Event
+
+import pytest
+from starlette.testclient import TestClient
+
+from service.app import create_app
+from service.settings import Settings
+
+
+def wait_until(condition: Callable[[], bool]) -> None:
+    deadline = time.monotonic() + 10
+    while not condition():
+        assert time.monotonic() < deadline
+        time.sleep(0.01)
+
+
+def test_warming_then_ready() -> None:
+    go = Event()
+    with TestClient(create_app(Settings(), warm_up=lambda: go.wait(10) and None)) as client:
+        assert client.get("/healthz").json() == {"status": "alive"}
+        answer = client.get("/readyz")
+        assert answer.status_code == 503
+        assert answer.headers["content-type"] == "application/problem+json"
+        assert answer.headers["retry-after"] == "2"
+        refused = client.post("/v1/optimize", json={})
+        assert (refused.status_code, refused.json()["title"]) == (503, "Not ready")
+        assert client.get("/v1/examples").status_code == 200
+        go.set()
+        wait_until(lambda: client.get("/readyz").status_code == 200)
+        assert client.get("/readyz").json() == {"status": "ready"}
+        assert client.post("/v1/optimize", json={}).status_code == 422
+
+
+def test_a_warm_up_that_fails_is_reported_and_logged(caplog: pytest.LogCaptureFixture) -> None:
+    def fail() -> None:
+        raise RuntimeError("no solver in here")
+
+    with TestClient(create_app(Settings(), warm_up=fail)) as client:
+        wait_until(lambda: "could not be loaded" in client.get("/readyz").json()["detail"])
+        answer = client.get("/readyz")
+        assert answer.status_code == 503
+        assert "retry-after" not in answer.headers
+        assert "no solver in here" not in answer.text
+        assert client.post("/v1/analyze", json={}).status_code == 503
+        assert client.get("/healthz").status_code == 200
+    assert "no solver in here" in caplog.text
+
+
+def test_a_shutdown_does_not_wait_for_the_warm_up() -> None:
+    go, ended = Event(), Event()
+
+    def warm_up() -> None:
+        go.wait(10)
+        ended.set()
+
+    with TestClient(create_app(Settings(), warm_up=warm_up)) as client:
+        assert client.get("/healthz").status_code == 200
+    assert not ended.is_set()
+    go.set()
+    assert ended.wait(10)

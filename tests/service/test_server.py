@@ -1,0 +1,137 @@
+"""The server as a process: one line with its address, real sockets, an orderly end."""
+
+import http.client
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import closing
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+from service.examples import load
+
+ROOT = Path(__file__).parents[2]
+
+
+def start(**environment: str) -> "subprocess.Popen[str]":
+    return subprocess.Popen(
+        [sys.executable, "-m", "service", "serve", "--port", "0"],
+        cwd=ROOT,
+        env={**os.environ, **environment},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+
+
+def address(process: "subprocess.Popen[str]") -> tuple[str, int]:
+    assert process.stdout is not None
+    said = process.stdout.readline()
+    found = re.fullmatch(r"counterweight listens on (http://\S+) \(documentation at \1/docs\)\n", said)
+    assert found is not None
+    parts = urlsplit(found[1])
+    assert parts.hostname is not None
+    assert parts.port is not None
+    return parts.hostname, parts.port
+
+
+@pytest.fixture(scope="module")
+def server() -> Iterator[tuple[str, int]]:
+    with start(COUNTERWEIGHT_MAX_BODY_BYTES="100000") as process:
+        assert process.stdout is not None
+        assert process.stderr is not None
+        try:
+            where = address(process)
+            deadline = time.monotonic() + 60
+            while status(where, "GET", "/readyz") != 200:
+                assert time.monotonic() < deadline
+                time.sleep(0.05)
+            yield where
+        finally:
+            process.terminate()
+            process.wait(30)
+        said = process.stderr.read()
+    assert "Traceback" not in said
+
+
+def send(where: tuple[str, int], method: str, path: str, body: object = None, **headers: str) -> tuple[int, str, bytes]:
+    with closing(http.client.HTTPConnection(*where, timeout=30)) as connection:
+        connection.request(method, path, body, {"Content-Type": "application/json", **headers})  # type: ignore[arg-type]
+        answer = connection.getresponse()
+        return answer.status, answer.headers["Content-Type"], answer.read()
+
+
+def status(where: tuple[str, int], method: str, path: str) -> int:
+    return send(where, method, path)[0]
+
+
+def test_it_computes(server: tuple[str, int]) -> None:
+    code, kind, content = send(server, "POST", "/v1/optimize", load("w60"))
+    assert (code, kind) == (200, "application/json")
+    assert b'"status":"optimal"' in content
+
+
+def test_head_has_no_body(server: tuple[str, int]) -> None:
+    assert send(server, "HEAD", "/healthz")[::2] == (200, b"")
+    assert send(server, "HEAD", "/v1/optimize")[::2] == (405, b"")
+
+
+@pytest.mark.parametrize("size", [100_001, 5_000_000])
+def test_a_large_body_is_refused_with_a_readable_answer(server: tuple[str, int], size: int) -> None:
+    code, kind, _ = send(server, "POST", "/v1/optimize", b" " * size)
+    assert (code, kind) == (413, "application/problem+json")
+    # without a length: the client sends it in chunks
+    code, kind, _ = send(server, "POST", "/v1/optimize", iter([b" " * 1000] * (size // 1000 + 1)))
+    assert (code, kind) == (413, "application/problem+json")
+
+
+def test_a_client_that_hangs_up_early_leaves_no_traceback(server: tuple[str, int]) -> None:
+    with socket.create_connection(server, timeout=30) as connection:
+        head = "POST /v1/optimize HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\nContent-Length: 500\r\n\r\n{"
+        connection.sendall(head.encode())
+    assert status(server, "GET", "/healthz") == 200
+
+
+@pytest.mark.parametrize(
+    "odd", [b"\xff/\xff", b'application/json; charset*0="a\xff"; charset*1*=%fe', b"a/b/c;;=", b"="]
+)
+def test_odd_headers(server: tuple[str, int], odd: bytes) -> None:
+    with socket.create_connection(server, timeout=30) as connection:
+        head = b"POST /v1/optimize HTTP/1.1\r\nHost: x\r\nContent-Length: 2\r\nConnection: close\r\nContent-Type: "
+        connection.sendall(head + odd + b"\r\n\r\n{}")
+        first = connection.makefile("rb").readline()
+    assert re.match(rb"HTTP/1.1 4\d\d ", first)
+
+
+@pytest.mark.parametrize("ending", [signal.SIGTERM, signal.SIGINT])
+def test_an_orderly_end(ending: signal.Signals) -> None:
+    with start() as process:
+        where = address(process)
+        assert status(where, "GET", "/healthz") == 200
+        process.send_signal(ending)
+        _, said = process.communicate(timeout=30)
+    assert process.returncode in (0, -signal.SIGTERM)
+    assert said == ""
+
+
+def test_addresses_that_cannot_be_taken() -> None:
+    def refused(*arguments: str, **environment: str) -> str:
+        command = [sys.executable, "-m", "service", "serve", *arguments]
+        env = {**os.environ, **environment}
+        done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, timeout=60)
+        assert (done.returncode, done.stdout) == (2, "")
+        assert "Traceback" not in done.stderr
+        return done.stderr
+
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = str(taken.getsockname()[1])
+        assert f"cannot listen on 127.0.0.1, port {port}: " in refused("--port", port)
+    assert "port: " in refused("--port", "70000")
+    assert "PORT" in refused(PORT="http")
