@@ -11,7 +11,7 @@ class FieldError(Model):
     pointer: str = Field(
         description="JSON pointer to the field in the request body", examples=["/machine/throws/0/crank_radius_m"]
     )
-    message: str = Field(description="what is wrong", examples=["Input should be greater than 0"])
+    message: str = Field(description="what is wrong", examples=["must be greater than or equal to 1e-12"])
 
 
 class Problem(Model):
@@ -25,5 +25,7 @@ class Problem(Model):
     errors: tuple[FieldError, ...] = Field(
         (),
         description="the fields that are wrong, the first 50 of them",
-        examples=[[{"pointer": "/machine/throws/0/crank_radius_m", "message": "Input should be greater than 0"}]],
+        examples=[
+            [{"pointer": "/machine/throws/0/crank_radius_m", "message": "must be greater than or equal to 1e-12"}]
+        ],
     )
