@@ -11,7 +11,7 @@ class FieldError(Model):
     pointer: str = Field(
         description="JSON pointer to the field in the request body", examples=["/machine/throws/0/crank_radius_m"]
     )
-    message: str = Field(description="what is wrong", examples=["must be greater than or equal to 1e-12"])
+    message: str = Field(description="what is wrong", examples=["must be at least 1e-12"])
 
 
 class Problem(Model):
@@ -26,6 +26,6 @@ class Problem(Model):
         (),
         description="the fields that are wrong, the first 50 of them",
         examples=[
-            [{"pointer": "/machine/throws/0/crank_radius_m", "message": "must be greater than or equal to 1e-12"}]
+            [{"pointer": "/machine/throws/0/crank_radius_m", "message": "must be at least 1e-12"}]
         ],
     )

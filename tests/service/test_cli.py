@@ -150,7 +150,7 @@ def test_bad_input(tmp_path: Path, body: dict[str, Any], command: str) -> None:
     del body["machine"]["webs"][0]["name"]
     assert refused(run(command, "-", given=json.dumps(body).encode())) == [
         "/machine/webs/0/name: this field is required",
-        "/machine/throws/0/crank_radius_m: must be greater than or equal to 1e-12",
+        "/machine/throws/0/crank_radius_m: must be at least 1e-12",
     ]
 
 

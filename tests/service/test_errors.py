@@ -140,7 +140,7 @@ def test_422(post: Post, body: dict[str, Any]) -> None:
     )
     assert [(error.pointer, error.message) for error in found.errors] == [
         ("/machine/webs/1/name", "must have at least 1 character"),
-        ("/machine/throws/0/crank_radius_m", "must be greater than or equal to 1e-12"),
+        ("/machine/throws/0/crank_radius_m", "must be at least 1e-12"),
     ]
 
 
