@@ -25,7 +25,5 @@ class Problem(Model):
     errors: tuple[FieldError, ...] = Field(
         (),
         description="the fields that are wrong, the first 50 of them",
-        examples=[
-            [{"pointer": "/machine/throws/0/crank_radius_m", "message": "must be at least 1e-12"}]
-        ],
+        examples=[[{"pointer": "/machine/throws/0/crank_radius_m", "message": "must be at least 1e-12"}]],
     )
