@@ -6,7 +6,6 @@ import numpy as np
 
 from optimizer.outputs import outputs
 from optimizer.report.counterweights import counterweights, unbalance
-from optimizer.report.first_order import floor
 from optimizer.scene import prepare
 from schemas.answers import AnalyzeAnswer, Timing
 from schemas.requests import AnalyzeRequest
@@ -33,7 +32,6 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
         **fields,
         counterweights=counterweights(request.machine, mass, angle),
         total_mass_kg=float(np.sum(mass)),
-        floor=floor(scene.first_order()),
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(

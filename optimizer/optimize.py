@@ -10,7 +10,7 @@ from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.solve import Solution, Solver
 from optimizer.program.statement import Statement
 from optimizer.report.counterweights import counterweights, masses_and_angles, unbalance
-from optimizer.report.first_order import first_order, floor
+from optimizer.report.first_order import first_order
 from optimizer.response import Complex
 from optimizer.scene import Prepared, prepare
 from schemas.answers import (
@@ -56,7 +56,6 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
     end = time.perf_counter()
     return OptimizeAnswer(
         **fields,
-        floor=floor(scene.first_order()),
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(

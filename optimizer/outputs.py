@@ -1,9 +1,12 @@
 """The outputs of a scene without and with counterweights, as they were asked for."""
 
+from collections.abc import Callable
 from typing import Any
 
 from optimizer.mechanics.inertia import Wrench
-from optimizer.report.first_order import first_order, hodograph
+from optimizer.report import dynamics
+from optimizer.report.bearings import main_bearings
+from optimizer.report.first_order import first_order, floor, hodograph
 from optimizer.report.orders import order
 from optimizer.report.stages import stages
 from optimizer.response import Complex
@@ -11,6 +14,17 @@ from optimizer.scene import Prepared
 from schemas.answers import Residual
 from schemas.outputs import Hodographs, Order, OrdersComparison
 
+_OVER_THE_TURN: dict[str, Callable[[dynamics.Samples], Any]] = {
+    "kinematics": dynamics.kinematics,
+    "gas": dynamics.gas,
+    "piston_force": dynamics.piston_force,
+    "rod_loads": dynamics.rod_loads,
+    "torque": dynamics.torque,
+    "flywheel": dynamics.flywheel,
+    "overturning": dynamics.overturning,
+}
+#: outputs that show first-order force and moment
+_FIRST_ORDER = frozenset({"residual", "hodograph", "orders", "stages"})
 _STAGE_PARTS = ("rotating_inertia", "reciprocating_inertia", "second_order")
 
 
@@ -21,17 +35,22 @@ def outputs(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
     ----------
     unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
     """
+    return {**_first_order_outputs(scene, unbalance), **_outputs_over_the_turn(scene, unbalance)}
+
+
+def _first_order_outputs(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
+    if not _FIRST_ORDER.intersection(scene.outputs):
+        return {}
     before = scene.first_order()
     after = None if unbalance is None else scene.first_order(unbalance)
-    fields: dict[str, Any] = {}
+    fields: dict[str, Any] = {"floor": floor(before)}
     if "residual" in scene.outputs:
         fields["residual"] = Residual(before=first_order(before), after=None if after is None else first_order(after))
     if "hodograph" in scene.outputs:
-        turn, angle = scene.angles_rad()
         fields["hodograph"] = Hodographs(
-            angle_deg=tuple(turn.tolist()),
-            before=hodograph(before, angle),
-            after=None if after is None else hodograph(after, angle),
+            angle_deg=tuple(scene.angle_deg.tolist()),
+            before=hodograph(before, scene.turned_rad),
+            after=None if after is None else hodograph(after, scene.turned_rad),
         )
     if "orders" in scene.outputs:
         fields["orders"] = OrdersComparison(
@@ -41,6 +60,17 @@ def outputs(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
         results = scene.simulated.results
         rotating, first, second = (results[name] for name in _STAGE_PARTS)
         fields["stages"] = stages(scene.layout, rotating, first, second, unbalance)
+    return fields
+
+
+def _outputs_over_the_turn(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
+    fields: dict[str, Any] = {}
+    samples = dynamics.Samples(scene.request.machine, scene.layout, scene.angle_deg, scene.simulated.results)
+    for name, report in _OVER_THE_TURN.items():
+        if name in scene.outputs:
+            fields[name] = report(samples)
+    if "main_bearings" in scene.outputs:
+        fields["main_bearings"] = main_bearings(samples, scene.request.fidelity, unbalance)
     return fields
 
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.effects import Simulated, require_inputs, simulate
+from optimizer.effects.registry import Simulated, require_inputs, simulate
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses
 from optimizer.mechanics.layout import Layout, layout
-from optimizer.response import Complex, Response
+from optimizer.response import Complex, Real, Response
 from schemas.requests import Scene
 
 
@@ -19,8 +19,8 @@ class Prepared:
     request: Scene
     outputs: tuple[str, ...]
     layout: Layout
+    angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
     simulated: Simulated
-    responses: tuple[Response, Response]
     mechanics_ms: float
 
     @property
@@ -34,11 +34,15 @@ class Prepared:
             wrench = wrench.plus(counterweights(self.layout, unbalance))
         return wrench.times(self.layout.omega**2)
 
-    def angles_rad(self) -> tuple[np.ndarray, np.ndarray]:
-        """Sampled shaft angles theta [deg], and s*theta [rad] for the phasors."""
-        count = self.request.angles.count
-        turn = np.arange(count) * (360.0 / count)
-        return turn, self.layout.sense * np.deg2rad(turn)
+    @property
+    def responses(self) -> tuple[Response, Response]:
+        """First-order force and moment as responses to the unbalance of the counterweights."""
+        return first_order_responses(self.layout, self.simulated.first_order)
+
+    @property
+    def turned_rad(self) -> Real:
+        """How far the shaft has turned about +z at the samples, s*theta (T,) rad."""
+        return self.layout.sense * np.deg2rad(self.angle_deg)
 
 
 def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
@@ -57,7 +61,7 @@ def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
     require_inputs(request.machine, outputs)
     start = time.perf_counter()
     plan = layout(request.machine)
-    simulated = simulate(plan, outputs, request.fidelity)
-    responses = first_order_responses(plan, simulated.first_order)
+    turn: Real = np.arange(request.angles.count, dtype=float) * (360.0 / request.angles.count)
+    simulated = simulate(request.machine, plan, outputs, request.fidelity, np.deg2rad(turn))
     elapsed = (time.perf_counter() - start) * 1e3
-    return Prepared(request, outputs, plan, simulated, responses, elapsed)
+    return Prepared(request, outputs, plan, turn, simulated, elapsed)

@@ -5,6 +5,16 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.base import Model
+from schemas.dynamics import (
+    Flywheel,
+    Gas,
+    Kinematics,
+    MainBearings,
+    Overturning,
+    PistonForce,
+    RodLoads,
+    Torque,
+)
 from schemas.outputs import Hodographs, OrdersComparison, Stages
 from schemas.quantities import (
     Degrees,
@@ -161,7 +171,23 @@ class Infeasibility(Model):
     closest: Closest = Field(description="the best compromise with the ceilings", examples=[{"counterweights": []}])
 
 
-class OptimizeAnswer(Model):
+class Outputs(Model):
+    """What a scene may ask for beyond the residual; null where it was not asked for."""
+
+    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
+    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
+    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
+    kinematics: Kinematics | None = Field(None, description="motion of every row, if asked for", examples=[None])
+    gas: Gas | None = Field(None, description="gas forces, if asked for", examples=[None])
+    piston_force: PistonForce | None = Field(None, description="piston forces, if asked for", examples=[None])
+    rod_loads: RodLoads | None = Field(None, description="forces in the mechanism, if asked for", examples=[None])
+    torque: Torque | None = Field(None, description="torque, if asked for", examples=[None])
+    flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
+    overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
+    main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
+
+
+class OptimizeAnswer(Outputs):
     """Certified counterweights."""
 
     status: Literal["optimal", "inaccurate", "infeasible"] = Field(
@@ -187,9 +213,6 @@ class OptimizeAnswer(Model):
         None, description="which ceilings conflict; only if infeasible", examples=[None]
     )
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
-    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
-    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
-    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
     effects: dict[str, EffectUse] = Field(
         description="every effect, whether it was simulated, for which outputs, and its time",
         examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
@@ -197,19 +220,20 @@ class OptimizeAnswer(Model):
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 4.1}])
 
 
-class AnalyzeAnswer(Model):
+class AnalyzeAnswer(Outputs):
     """The machine as it stands, or with given counterweights."""
 
     counterweights: tuple[Counterweight, ...] = Field(
         description="the counterweights on the machine, one for each web", examples=[[]]
     )
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
-    floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 2498.7}])
+    floor: Floor | None = Field(
+        None,
+        description="what no counterweights can remove; null if no output asks for the first order",
+        examples=[{"force_N": 2498.7}],
+    )
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
     residual: Residual | None = Field(None, description="first order before and after, if asked for", examples=[None])
-    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
-    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
-    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
     effects: dict[str, EffectUse] = Field(
         description="every effect, whether it was simulated, for which outputs, and its time",
         examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],

@@ -7,19 +7,21 @@ from pydantic import Field, Strict, model_validator
 
 from schemas.base import FieldProblem, Model, raise_problems
 from schemas.quantities import Area, Length, Pressure
-from schemas.units import Unit, non_negative, positive
+from schemas.units import Unit, between, non_negative
 
-Exponent = Annotated[float, Strict(), positive(10.0)]
-Clearance = Annotated[float, Strict(), non_negative(100.0)]
+Exponent = Annotated[float, Strict(), Field(gt=1, le=10)]
+Clearance = Annotated[float, Strict(), between(1e-6, 100.0)]
+# below a pressure of 0 there is nothing, and at 0 no ratio
+WorkingPressure = Annotated[float, between(1e-3, 1e12), Unit("Pa")]
 
 
 class GasState(Model):
     """Pressures, clearance and exponents of a chamber."""
 
-    suction_pressure_Pa: Annotated[Pressure | None, Unit("Pa")] = Field(
+    suction_pressure_Pa: Annotated[WorkingPressure | None, Unit("Pa")] = Field(
         None, description="absolute pressure in the cylinder during suction", examples=[286000.0]
     )
-    discharge_pressure_Pa: Annotated[Pressure | None, Unit("Pa")] = Field(
+    discharge_pressure_Pa: Annotated[WorkingPressure | None, Unit("Pa")] = Field(
         None, description="absolute pressure in the cylinder during discharge", examples=[852000.0]
     )
     relative_clearance: Clearance | None = Field(
@@ -31,11 +33,6 @@ class GasState(Model):
     compression_exponent: Exponent | None = Field(
         None, description="polytropic exponent of the compression", examples=[1.4]
     )
-
-    def pressure_problems(self, path: tuple[str | int, ...] = ()) -> Iterator[FieldProblem]:
-        low, high = self.suction_pressure_Pa, self.discharge_pressure_Pa
-        if low is not None and high is not None and high < low:
-            yield FieldProblem((*path, "discharge_pressure_Pa"), "must not be below the suction pressure")
 
 
 class Cylinder(GasState):
@@ -70,10 +67,12 @@ class Cylinder(GasState):
         return self
 
     def _problems(self) -> Iterator[FieldProblem]:
-        yield from self.pressure_problems()
+        common_low, common_high = self.suction_pressure_Pa, self.discharge_pressure_Pa
+        if common_low is not None and common_high is not None and common_high < common_low:
+            yield FieldProblem(("discharge_pressure_Pa",), "must not be below the suction pressure")
         for side, state in (("head", self.head), ("crank", self.crank)):
             if state is not None:
-                yield from state.pressure_problems((side,))
+                yield from self._side_problems(side, state)
         rod, bore = self.piston_rod_diameter_m, self.bore_m
         if rod is not None and bore is not None and not rod < bore:
             yield FieldProblem(("piston_rod_diameter_m",), "must be smaller than the bore")
@@ -81,3 +80,16 @@ class Cylinder(GasState):
             for area in ("head_area_m2", "crank_area_m2"):
                 if getattr(self, area) is not None:
                     yield FieldProblem((area,), "give either the bore or the piston areas")
+
+    def _side_problems(self, side: str, state: GasState) -> Iterator[FieldProblem]:
+        """Pressures of one side, each its own or else the common one, where it has one of its own."""
+        own_low, own_high = state.suction_pressure_Pa, state.discharge_pressure_Pa
+        if own_low is None and own_high is None:
+            return
+        low = self.suction_pressure_Pa if own_low is None else own_low
+        high = self.discharge_pressure_Pa if own_high is None else own_high
+        if low is not None and high is not None and high < low:
+            if own_high is None:
+                yield FieldProblem((side, "suction_pressure_Pa"), "must not be above the discharge pressure")
+            else:
+                yield FieldProblem((side, "discharge_pressure_Pa"), "must not be below the suction pressure")

@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
 from schemas.cylinder import Cylinder
+from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.quantities import Angle, Count, Fraction, Length, Mass, Name, Position, Speed
 from schemas.units import Unit, positive
 
@@ -136,9 +137,22 @@ class ReciprocatingMachine(Rotor):
         examples=[[{"name": "1", "position_m": 0.175, "crank_radius_m": 0.14, "crank_angle_deg": 0}]],
     )
 
+    friction: Friction | None = Field(
+        None, description="mechanical losses; null takes none into account", examples=[{"mechanical_efficiency": 0.94}]
+    )
+    flywheel: FlywheelData | None = Field(
+        None, description="turning inertia; needed only by the output flywheel", examples=[{"irregularity": 0.01}]
+    )
+    bearings: tuple[Bearing, ...] = Field(
+        (),
+        max_length=MAX_BEARINGS,
+        description="main bearings; needed only by the output main_bearings",
+        examples=[[{"name": "A", "position_m": -0.4}, {"name": "B", "position_m": 0.4}]],
+    )
+
     @model_validator(mode="after")
     def _check(self) -> "ReciprocatingMachine":
-        raise_problems([*self._web_problems(), *self._throw_problems()])
+        raise_problems([*self._web_problems(), *self._throw_problems(), *self._drive_problems()])
         return self
 
     def _throw_problems(self) -> Iterator[FieldProblem]:
@@ -150,6 +164,20 @@ class ReciprocatingMachine(Rotor):
                 if length is not None and not length > throw.crank_radius_m:
                     path = ("throws", t, "rows", i, "connecting_rod", "length_m")
                     yield FieldProblem(path, "the connecting rod must be longer than the crank radius")
+
+    def _drive_problems(self) -> Iterator[FieldProblem]:
+        if self.friction is not None:
+            yield from self.friction.row_problems(sum(len(throw.rows) for throw in self.throws))
+        yield from duplicate_names(("bearings",), [bearing.name for bearing in self.bearings])
+        places = sorted(bearing.position_m for bearing in self.bearings)
+        # nearer than this no arithmetic tells them apart
+        near = max(1e-8 * (places[-1] - places[0]), 1e-14 * max(map(abs, places))) if places else 0.0
+        for index, bearing in enumerate(self.bearings):
+            others = (other.position_m for other in self.bearings[:index])
+            if any(abs(bearing.position_m - other) <= near for other in others):
+                yield FieldProblem(("bearings", index, "position_m"), "another bearing is in this plane")
+        if len(places) == 1:
+            yield FieldProblem(("bearings",), "a shaft needs at least two bearings")
 
 
 class OldhamRing(Model):

@@ -10,7 +10,20 @@ from schemas.machine import MAX_WEBS, Machine
 from schemas.quantities import Angle, Flag, Force, Mass, Moment, Name, Weight
 from schemas.units import Unit
 
-Output = Literal["residual", "hodograph", "orders", "stages"]
+Output = Literal[
+    "residual",
+    "hodograph",
+    "orders",
+    "stages",
+    "kinematics",
+    "gas",
+    "piston_force",
+    "rod_loads",
+    "torque",
+    "flywheel",
+    "overturning",
+    "main_bearings",
+]
 Outputs = Annotated[tuple[Output, ...], Field(max_length=32), NotEmpty()]
 
 
@@ -100,6 +113,11 @@ class Fidelity(Model):
         "exact",
         description="exact slider-crank kinematics, or its series cut off after the second order",
         examples=["exact"],
+    )
+    shaft: Literal["simple_spans", "continuous"] = Field(
+        "simple_spans",
+        description="main bearings: every span simply supported, or a continuous shaft on rigid bearings",
+        examples=["simple_spans"],
     )
 
 

@@ -60,7 +60,7 @@ def _analyze_parts(title: str, answer: AnalyzeAnswer) -> Iterator[RenderableType
     if answer.total_mass_kg > 0:
         yield _counterweights("counterweights", answer.counterweights)
         yield Text(f"total mass {_number(answer.total_mass_kg)} kg")
-    if answer.residual is not None:
+    if answer.residual is not None and answer.floor is not None:
         yield _first_order(answer.residual.before, answer.residual.after, answer.floor)
     yield from _others(answer.orders, answer.stages, answer.hodograph)
 

@@ -13,6 +13,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
+from tests.benchmarks import outputs
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -25,6 +26,7 @@ def main() -> None:
     repeats = parser.parse_args().repeats
     console = Console(width=120)
     phases(console, repeats)
+    by_output(console, max(repeats // 3, 5))
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
 
 
@@ -43,6 +45,24 @@ def phases(console: Console, repeats: int) -> None:
     for name, taken in samples.items():
         table.add_row(name, *(f"{statistics.median(one[phase] for one in taken):.2f}" for phase in PHASES))
     console.print(table)
+
+
+def by_output(console: Console, repeats: int) -> None:
+    """What each output costs on a small and on a large machine."""
+    machines = {"2D12, 2 rows": outputs.two_rows(), "16 rows": outputs.sixteen_rows()}
+    times = {name: outputs.times_by_output(machine, repeats) for name, machine in machines.items()}
+    table = Table(title=f"analyze by output at 1 degree, warm median of {repeats}, milliseconds")
+    table.add_column("output")
+    for name in machines:
+        table.add_column(name, justify="right")
+    for scene in outputs.SCENES:
+        table.add_row(scene, *(f"{times[name][scene]:.2f}" for name in machines))
+    console.print(table)
+    for name, machine in machines.items():
+        found = outputs.residual_with_and_without_gas(machine, repeats)
+        console.print(f"residual alone, {name}:", ", ".join(f"{key} {value:.2f} ms" for key, value in found.items()))
+    loop, block = outputs.broadcasting()
+    console.print(f"1,000 machines: one by one {loop:.3f} s, in one call {block:.3f} s, ratio {loop / block:.0f}")
 
 
 def start_to_ready() -> float:

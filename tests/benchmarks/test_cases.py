@@ -1,11 +1,13 @@
 """The benchmark's cases run once on every change; times are for `make bench`."""
 
 from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
+from tests.benchmarks import outputs
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -21,3 +23,13 @@ def test_phases_add_up() -> None:
     assert set(times) == set(PHASES)
     parts = sum(value for name, value in times.items() if name != "total")
     assert 0 < parts <= times["total"]
+
+
+@pytest.mark.parametrize("machine", [outputs.two_rows(), outputs.sixteen_rows()], ids=["2 rows", "16 rows"])
+def test_every_output_of_the_benchmark_runs(machine: dict[str, Any]) -> None:
+    assert set(outputs.times_by_output(machine, 1)) == set(outputs.SCENES)
+    assert set(outputs.residual_with_and_without_gas(machine, 1)) == {"with gas data", "without"}
+
+
+def test_broadcasting_case_runs() -> None:
+    assert min(outputs.broadcasting(3)) > 0

@@ -64,9 +64,6 @@ def test_counterweights_change_the_first_order_alone_and_fidelity_the_higher_one
 def test_only_what_was_asked_for_is_answered() -> None:
     found = analyze(AnalyzeRequest.model_validate({"machine": random_machine(2), "outputs": ["orders"]}))
     assert (found.residual, found.hodograph, found.stages) == (None, None, None)
-    assert {name: use.needed_by for name, use in found.effects.items()} == {
-        "rotating_inertia": ("orders",),
-        "reciprocating_inertia": ("orders",),
-        "second_order": ("orders",),
-        "higher_orders": ("orders",),
-    }
+    ran = {name for name, use in found.effects.items() if use.simulated}
+    assert ran == {"rotating_inertia", "reciprocating_inertia", "second_order", "higher_orders"}
+    assert {use.needed_by for name, use in found.effects.items()} == {("orders",), ()}

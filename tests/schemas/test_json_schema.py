@@ -28,6 +28,12 @@ SUFFIXES = {
     "_W": "W",
     "_J": "J",
     "_ms": "ms",
+    "_K": "K",
+    "_m3": "m3",
+    "_m3_per_min": "m3/min",
+    "_m_s": "m/s",
+    "_m_s2": "m/s2",
+    "_N_per_m": "N/m",
 }
 
 

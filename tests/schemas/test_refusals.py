@@ -35,7 +35,7 @@ BODY: dict[str, Any] = {
                         "cylinder": {
                             "bore_m": 0.7,
                             "piston_rod_diameter_m": 0.1,
-                            "suction_pressure_Pa": 0,
+                            "suction_pressure_Pa": 1e5,
                             "discharge_pressure_Pa": 3e5,
                             "ambient_pressure_Pa": 1e5,
                             "relative_clearance": 0.1,
@@ -128,7 +128,8 @@ def test_unknown_fields_are_refused_everywhere(path: tuple[str | int, ...]) -> N
 
 
 POSITIVE = {"speed_rpm", "crank_radius_m", "length_m", "bore_m", "counterweight_radius_m", "half_angle_deg", "step_deg"}
-POSITIVE |= {"relative_gap", "expansion_exponent", "compression_exponent"}
+POSITIVE |= {"relative_gap", "expansion_exponent", "compression_exponent", "relative_clearance"}
+POSITIVE |= {"suction_pressure_Pa", "discharge_pressure_Pa"}
 SIGNED = {"reference_plane_m", "position_m", "offset_m", "crank_angle_deg", "axis_deg", "centre_deg"}
 
 

@@ -2,11 +2,11 @@
 
 import json
 import time
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
 from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
 
 
@@ -88,6 +88,8 @@ def set_at(body: dict[str, Any], path: str, value: object) -> None:
 
 
 ROW = "/machine/throws/0/rows/0"
+*_FIRST, _LAST = map(repr, get_args(Output))
+NAMES = f"{', '.join(_FIRST)} or {_LAST}"
 
 
 @pytest.mark.parametrize(
@@ -146,7 +148,7 @@ def test_pointers_below_and_beside(body: dict[str, Any]) -> None:
     assert complaints(body) == {
         "/objective/combine": "must be 'sum' or 'max'",
         "/objective/direction_weights/y": "only one of the two direction weights may be 0",
-        "/outputs/1": "must be 'residual', 'hodograph', 'orders' or 'stages'",
+        "/outputs/1": f"must be {NAMES}",
         "/angles/step_deg": "360 degrees must be a whole number of steps",
         "/a~1b~0c": "unknown field",
         "/machine/x~1~0y": "unknown field",

@@ -1,0 +1,18 @@
+"""Outputs and effects described for people and clients."""
+
+from optimizer.effects.registry import EFFECTS, OUTPUTS, _closure, inputs_of
+from schemas.effects import EffectCatalogue, EffectEntry, OutputEntry
+
+
+def catalogue() -> EffectCatalogue:
+    """Every output with the effects and inputs behind it, and every effect."""
+    return EffectCatalogue(
+        outputs=tuple(
+            OutputEntry(name=name, meaning=output.meaning, needs=tuple(_closure(output.needs)), inputs=inputs_of(name))
+            for name, output in OUTPUTS.items()
+        ),
+        effects=tuple(
+            EffectEntry(name=name, meaning=effect.meaning, needs=effect.needs, inputs=effect.inputs)
+            for name, effect in EFFECTS.items()
+        ),
+    )

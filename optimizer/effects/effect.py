@@ -1,0 +1,52 @@
+"""One physical effect: what it means, what it needs, how it is simulated."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from optimizer.mechanics.layout import Layout
+from optimizer.response import Real
+from schemas.base import FieldProblem
+from schemas.machine import Machine
+from schemas.requests import Fidelity
+
+
+@dataclass(frozen=True)
+class Context:
+    """What an effect may look at: the machine, the angles, and the results of the effects that it needs."""
+
+    machine: Machine
+    layout: Layout
+    fidelity: Fidelity
+    angle: Real  # (T,) shaft angles, rad
+    given: Mapping[str, Any]
+    elsewhere: Callable[[Real], Mapping[str, Any]]  # the same results at other shaft angles
+
+
+def _no_problems(_machine: Machine) -> Iterator[FieldProblem]:
+    return iter(())
+
+
+def _always(_machine: Machine) -> bool:
+    return True
+
+
+@dataclass(frozen=True)
+class Effect:
+    """A physical effect.
+
+    name, meaning : a word and a line.
+    simulate : pure function of its context.
+    needs : effects whose results it uses.
+    inputs : fields of the request that it reads beyond masses and geometry, for people.
+    problems : fields that it needs and a machine does not give, by paths from the machine.
+    applies : whether a machine has the effect at all.
+    """
+
+    name: str
+    meaning: str
+    simulate: Callable[[Context], Any]
+    needs: tuple[str, ...] = ()
+    inputs: tuple[str, ...] = ()
+    problems: Callable[[Machine], Iterator[FieldProblem]] = _no_problems
+    applies: Callable[[Machine], bool] = _always

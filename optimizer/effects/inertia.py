@@ -1,0 +1,63 @@
+"""Inertia forces by order: phasors, without any angle."""
+
+from collections.abc import Callable, Iterator
+
+from optimizer.effects.effect import Context, Effect
+from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
+from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
+from optimizer.response import Real
+from schemas.base import FieldProblem
+from schemas.machine import Machine, ReciprocatingMachine
+
+#: orders above the second that are reported; odd ones vanish for a slider-crank
+HIGHER_ORDERS = (4, 6)
+RODS = ("machine.throws.rows.connecting_rod",)
+
+
+def rod_problems(machine: Machine) -> Iterator[FieldProblem]:
+    """Rows without a connecting rod."""
+    if isinstance(machine, ReciprocatingMachine):
+        for t, throw in enumerate(machine.throws):
+            for i, row in enumerate(throw.rows):
+                if row.connecting_rod is None:
+                    yield FieldProblem(("throws", t, "rows", i, "connecting_rod"), "the motion needs the rod")
+
+
+def _harmonic(context: Context) -> Callable[[int, Real], Real]:
+    return acceleration_harmonic if context.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
+
+
+def _rotating(context: Context) -> Wrench:
+    return rotating(context.layout)
+
+
+def _first_order(context: Context) -> Wrench:
+    return reciprocating(context.layout, 1)
+
+
+def _second_order(context: Context) -> Wrench:
+    return reciprocating(context.layout, 2, _harmonic(context))
+
+
+def _higher_orders(context: Context) -> dict[int, Wrench]:
+    return {order: reciprocating(context.layout, order, _harmonic(context)) for order in HIGHER_ORDERS}
+
+
+INERTIA = (
+    Effect("rotating_inertia", "centrifugal forces of the rotating masses", _rotating),
+    Effect("reciprocating_inertia", "first-order forces of the reciprocating masses", _first_order),
+    Effect(
+        "second_order",
+        "second-order forces of the reciprocating masses",
+        _second_order,
+        inputs=RODS,
+        problems=rod_problems,
+    ),
+    Effect(
+        "higher_orders",
+        "fourth- and sixth-order forces of the reciprocating masses",
+        _higher_orders,
+        inputs=RODS,
+        problems=rod_problems,
+    ),
+)

@@ -1,0 +1,218 @@
+"""Main-bearing loads and bending moments of a crankshaft.
+
+The shaft is a straight beam along z, the bearings are points on it, and the loads act across it in their planes.
+The two planes through z do not know each other and obey the same formulas, so one complex number x + jy does both.
+Crank throws take part through the planes of their loads alone.
+
+Signs. A load is a force as the project counts it: on the frame, positive outward; the shaft carries it to the
+bearings. A bearing load is the force of the shaft on the bearing (the bearing pushes back with its negative), so that
+at every instant the bearing loads have the sum of the loads and their couple about any plane. Both may be divided by
+omega^2, as everywhere: kg m instead of N.
+
+Two models: ``simple_spans`` needs statics alone, ``continuous_beam`` also that the shaft bends evenly and the bearings
+do not give. With two bearings they are one. Both are linear in the loads; the influence matrices are what a response
+needs. Every length is a difference of two places, so the origin of z costs no digits.
+
+Shapes: B bearings, L loads, S stations, T shaft angles (or phasors); leading axes broadcast. Bearings and loads come
+in any order. Source: S. Timoshenko, Strength of Materials, part I (overhanging beams; continuous beams and the
+equation of three moments).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.response import Complex, Real
+
+#: bearings nearer to each other than this share of the bearings' extent are one bearing
+_COINCIDENT = 1e-9
+
+
+def simple_spans(bearing: Real, position: Real, load: Complex) -> Complex:
+    """Bearing loads of a shaft hinged at every intermediate bearing: statically determinate.
+
+    Each span carries its own loads to its two bearings by the lever rule. Loads beyond an outermost bearing are
+    carried by the end span next to them as an overhanging beam, which presses on the outer bearing with more than the
+    load and lifts the inner one.
+
+    Parameters
+    ----------
+    bearing : (..., B) places of the bearings on z, m; B >= 2.
+    position : (..., L) planes of the loads, m.
+    load : (..., L, T) loads, N or kg m.
+
+    Returns
+    -------
+    (..., B, T) bearing loads, in the unit of the loads and the order of ``bearing``.
+
+    Raises
+    ------
+    ValueError
+        with fewer than two bearings, or two in the same place.
+    """
+    return simple_spans_influence(bearing, position) @ load
+
+
+def continuous_beam(bearing: Real, position: Real, load: Complex) -> Complex:
+    """Bearing loads of a continuous shaft of uniform bending stiffness on rigid, aligned bearings.
+
+    The stiffness itself cancels. The bearings hold both ways and have no clearance: where a load between other
+    bearings lifts the shaft, it presses on the opposite shell.
+
+    Parameters, returns and errors as for ``simple_spans``.
+    """
+    return continuous_beam_influence(bearing, position) @ load
+
+
+def simple_spans_influence(bearing: Real, position: Real) -> Real:
+    """Load on every bearing for one unit of load in every plane, shaft hinged at the intermediate bearings.
+
+    Parameters
+    ----------
+    bearing : (..., B) m.
+    position : (..., L) m.
+
+    Returns
+    -------
+    (..., B, L) dimensionless; every column has the sum 1. Exactly 1 and 0 where a load sits at a bearing.
+    """
+    spans = _spans(bearing, position)
+    return spans.as_given(_levers(spans))
+
+
+def continuous_beam_influence(bearing: Real, position: Real) -> Real:
+    """Load on every bearing for one unit of load in every plane, continuous shaft.
+
+    The hinges of the simple spans are closed by the support moments M_i that take the kink out of the shaft over
+    every intermediate bearing (equation of three moments, spans l_i from bearing i to i+1):
+
+        l_{i-1} M_{i-1} + 2 (l_{i-1} + l_i) M_i + l_i M_{i+1} = -(kinks of the loads)
+
+    Shapes as for ``simple_spans_influence``.
+    """
+    spans = _spans(bearing, position)
+    moment = _support_moments(spans)
+    outer = np.zeros_like(spans.from_left[..., :1, :])
+    # the moments of overhanging loads at the outer bearings are in the levers already
+    tilt = np.diff(np.concatenate([outer, moment, outer], axis=-2), axis=-2) / spans.length
+    return spans.as_given(_levers(spans) + _at_bearings(tilt, -tilt))
+
+
+def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Complex, station: Real) -> Complex:
+    """Bending moment in the shaft, for bearing loads from either model.
+
+    The moment about the station of everything on one side of it, M(s) = sum R |x - s| - sum P |z - s|. This is the
+    couple sum (z - s) F of the part of smaller z, with the loads +P and the bearings' answers -R as the forces on the
+    shaft. Positive sags: a load between two bearings gives a moment in its own direction, an overhanging load one
+    against it. The complex number points to the side of the shaft that is in tension; the moment vector of the part
+    of smaller z is j M. (Timoshenko, part I: bending moment and shearing force.)
+
+    It does not jump: at loads and bearings its slope does, by -P and +R. It is zero beyond the last load or bearing
+    at either end, and at the intermediate bearings of ``simple_spans``.
+
+    Parameters
+    ----------
+    bearing : (..., B) m.
+    reaction : (..., B, T) bearing loads, in balance with the loads, N or kg m.
+    position : (..., L) m.
+    load : (..., L, T) in the unit of the bearing loads.
+    station : (..., S) places on z, m.
+
+    Returns
+    -------
+    (..., S, T) N m, or kg m^2.
+    """
+    bearing, position, station = (np.asarray(place, dtype=float) for place in (bearing, position, station))
+    middle = 0.5 * np.min(bearing, axis=-1, keepdims=True) + 0.5 * np.max(bearing, axis=-1, keepdims=True)
+    # the nearer end: both sides give the same, but this one is exactly zero where the shaft ends
+    side = np.where(station < middle, -1.0, 1.0)[..., :, None]
+
+    def arms(place: Real) -> Real:
+        return np.maximum(side * (place[..., None, :] - station[..., :, None]), 0.0)
+
+    return arms(bearing) @ reaction - arms(position) @ load
+
+
+class _Spans(NamedTuple):
+    """Loads on the spans between neighbouring bearings in rising z; an end span has its overhang with it."""
+
+    rank: NDArray[np.intp]  # (..., B) where each bearing as given stands in rising z
+    length: Real  # (..., B-1, 1) m
+    carries: Real  # (..., B-1, L) 1 for the span that has the load, else 0
+    from_left: Real  # (..., B-1, L) from the left bearing to the load, m; negative on the left overhang
+    from_right: Real  # (..., B-1, L) from the load to the right bearing, m; negative on the right overhang
+
+    def as_given(self, influence: Real) -> Real:
+        """Rows (..., B, L) in rising z, put into the order in which the bearings came."""
+        return np.take_along_axis(influence, self.rank[..., None], axis=-2)
+
+
+def _spans(bearing: Real, position: Real) -> _Spans:
+    bearing, position = np.asarray(bearing, dtype=float), np.asarray(position, dtype=float)
+    if bearing.ndim == 0 or bearing.shape[-1] < 2:
+        raise ValueError("a shaft needs two bearings at least: one alone holds no couple")
+    leading = np.broadcast_shapes(bearing.shape[:-1], position.shape[:-1])
+    bearing = np.broadcast_to(bearing, leading + bearing.shape[-1:])
+    order = np.argsort(bearing, axis=-1)
+    place = np.take_along_axis(bearing, order, axis=-1)
+    _refuse_coincident(place)
+    place, load_plane = place[..., None], position[..., None, :]
+    left, right = place[..., :-1, :], place[..., 1:, :]
+    # a load at an intermediate bearing belongs to the span on its right; its share of the left bearing is then 1
+    starts, ends = left.copy(), right.copy()
+    starts[..., 0, :], ends[..., -1, :] = -np.inf, np.inf
+    return _Spans(
+        rank=np.argsort(order, axis=-1),
+        length=right - left,
+        carries=((starts <= load_plane) & (load_plane < ends)).astype(float),
+        from_left=load_plane - left,
+        from_right=right - load_plane,
+    )
+
+
+def _refuse_coincident(place: Real) -> None:
+    """Refuse bearings (..., B) in rising z that rounding cannot tell apart; nan is refused as well."""
+    extent = place[..., -1:] - place[..., :1]
+    resolution = 4.0 * np.spacing(np.max(np.abs(place), axis=-1, keepdims=True))
+    if not np.all(np.diff(place, axis=-1) > np.maximum(_COINCIDENT * extent, resolution)):
+        raise ValueError("two bearings are in the same place: every bearing needs a place of its own on the shaft")
+
+
+def _levers(spans: _Spans) -> Real:
+    """Lever rule in every span; on an overhang one share is negative and the other above 1. (..., B, L)."""
+    # each share from its own distance, not as 1 minus the other: exact at a bearing
+    at_left = spans.carries * (spans.from_right / spans.length)
+    at_right = spans.carries * (spans.from_left / spans.length)
+    return _at_bearings(at_left, at_right)
+
+
+def _at_bearings(left: Real, right: Real) -> Real:
+    """What the spans (..., B-1, L) put on their left and right bearings, summed at each bearing: (..., B, L)."""
+    nothing = np.zeros_like(left[..., :1, :])
+    return np.concatenate([left, nothing], axis=-2) + np.concatenate([nothing, right], axis=-2)
+
+
+def _support_moments(spans: _Spans) -> Real:
+    """Bending moment over every intermediate bearing for a unit load in every plane: (..., B-2, L), m.
+
+    Symmetric, with twice as much on the diagonal as beside it, so well conditioned for any spans.
+    """
+    length = spans.length[..., 0]
+    index = np.arange(length.shape[-1] - 1)
+    matrix = np.zeros((*length.shape[:-1], index.size, index.size))
+    matrix[..., index, index] = 2.0 * (length[..., :-1] + length[..., 1:])
+    matrix[..., index[:-1], index[1:]] = matrix[..., index[1:], index[:-1]] = length[..., 1:-1]
+    at_right = _kink(spans, spans.from_left)[..., :-1, :]
+    at_left = _kink(spans, spans.from_right)[..., 1:, :]
+    return np.asarray(np.linalg.solve(matrix, -(at_right + at_left)), dtype=float)
+
+
+def _kink(spans: _Spans, distance: Real) -> Real:
+    """Slope 6 E I phi at one end of a simple span for unit loads at distances a from the other end: (..., B-1, L), m^2.
+
+    a (l^2 - a^2) / l inside the span. A load overhanging the other end (a < 0) bends the span by its moment a there
+    and by nothing else, and the slope is a l: the same expression without the a in the bracket.
+    """
+    inside = np.maximum(distance, 0.0)
+    return spans.carries * distance * (spans.length - inside) * (spans.length + inside) / spans.length

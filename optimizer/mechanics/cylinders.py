@@ -1,0 +1,99 @@
+"""Cylinders of a machine as arrays, and what is missing or impossible in their data."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from optimizer.mechanics.gas import Chambers, switching_travels
+from optimizer.mechanics.layout import Layout
+from schemas.base import FieldProblem
+from schemas.cylinder import Cylinder
+from schemas.machine import ReciprocatingMachine
+
+Path = tuple[str | int, ...]
+
+_SIDES = ("head", "crank")
+_STATE = (
+    "suction_pressure_Pa",
+    "discharge_pressure_Pa",
+    "relative_clearance",
+    "expansion_exponent",
+    "compression_exponent",
+)
+_NEVER_DELIVERS = "with this clearance and pressure ratio the chamber never delivers"
+
+
+def chambers(machine: ReciprocatingMachine) -> Chambers:
+    """Chambers of all rows (rows, 2), throw by throw; every row has complete data (``gas_problems``)."""
+    rows = [_row(row.cylinder) for throw in machine.throws for row in throw.rows if row.cylinder is not None]
+    table = np.array(rows, dtype=float).reshape(-1, 2, 7)
+    area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -1, 0)
+    return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
+
+
+def gas_problems(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
+    """Fields that the gas forces need and the machine does not give, by paths from the machine."""
+    for path, cylinder in _cylinders(machine):
+        if cylinder is None:
+            yield FieldProblem(path, "gas forces need the cylinder")
+            continue
+        for field in _missing(cylinder):
+            yield FieldProblem((*path, field), "gas forces need this field")
+
+
+def delivery_problems(machine: ReciprocatingMachine, layout: Layout) -> Iterator[FieldProblem]:
+    """Chambers whose gas only springs back and forth: no cycle of four processes."""
+    data = chambers(machine)
+    suction, _ = switching_travels(data, layout)
+    for (path, _), never in zip(_cylinders(machine), np.any(data.closed & np.isnan(suction), axis=-1), strict=True):
+        if never:
+            yield FieldProblem((*path, "relative_clearance"), _NEVER_DELIVERS)
+
+
+def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[Path, Cylinder | None]]:
+    for t, throw in enumerate(machine.throws):
+        for i, row in enumerate(throw.rows):
+            yield ("throws", t, "rows", i, "cylinder"), row.cylinder
+
+
+def _acts(cylinder: Cylinder, side: str) -> bool:
+    return cylinder.acting in ("double", side)
+
+
+def _value(cylinder: Cylinder, side: str, field: str) -> float | None:
+    own = getattr(cylinder, side)
+    value: float | None = None if own is None else getattr(own, field)
+    return getattr(cylinder, field) if value is None else value
+
+
+def _areas(cylinder: Cylinder) -> tuple[float | None, float | None]:
+    if cylinder.bore_m is None:
+        return cylinder.head_area_m2, cylinder.crank_area_m2
+    bore, rod = cylinder.bore_m, cylinder.piston_rod_diameter_m
+    crank = None if rod is None else 0.25 * np.pi * (bore - rod) * (bore + rod)
+    return 0.25 * np.pi * bore**2, crank
+
+
+def _missing(cylinder: Cylinder) -> Iterator[str]:
+    head, crank = _areas(cylinder)
+    if head is None:
+        yield "bore_m"
+    if crank is None:
+        yield "piston_rod_diameter_m" if cylinder.bore_m is not None else "crank_area_m2"
+    if cylinder.acting != "double" and cylinder.ambient_pressure_Pa is None:
+        yield "ambient_pressure_Pa"
+    for field in _STATE:
+        if any(_acts(cylinder, side) and _value(cylinder, side, field) is None for side in _SIDES):
+            yield field
+
+
+def _row(cylinder: Cylinder) -> list[list[float | None]]:
+    areas = _areas(cylinder)
+    ambient = cylinder.ambient_pressure_Pa
+    return [
+        [area, *(_value(cylinder, side, field) for field in _STATE), 1.0]
+        if _acts(cylinder, side)
+        # an open side: ambient pressure all the way round; the other numbers are not used
+        else [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]
+        for side, area in zip(_SIDES, areas, strict=True)
+    ]

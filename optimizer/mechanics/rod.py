@@ -1,0 +1,75 @@
+"""From piston force to the forces on rod, guide and crank pin, and to the torque of a row."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.mechanics.kinematics import Motion
+from optimizer.mechanics.layout import Layout
+from optimizer.response import Complex, Real
+
+
+@dataclass(frozen=True)
+class RodForces:
+    """Forces of the rows over shaft angles, (..., rows, T).
+
+    rod : P / cos beta, tension positive, N
+    side : P tan beta, on the crosshead guide, N
+    tangential : P sin(phi + beta) / cos beta, positive against rotation, N
+    radial : P cos(phi + beta) / cos beta, positive outward along the crank, N
+    torque : tangential force times crank radius, positive against rotation, N m
+    overturning : side force times the distance from pin to shaft, N m; equals the torque
+    """
+
+    rod: Real
+    side: Real
+    tangential: Real
+    radial: Real
+    torque: Real
+    overturning: Real
+
+
+def rod_forces(piston_force: Real, motion: Motion, layout: Layout) -> RodForces:
+    """Forces that a piston force sends into the mechanism (seed 001 l. 11-16; seed 004, 2-21 and 2-22).
+
+    Parameters
+    ----------
+    piston_force : (..., rows, T) N, tension positive.
+    """
+    radius = layout.reciprocating.crank_radius[..., None]
+    tangent = motion.rod_angle_sine / motion.rod_angle_cosine
+    tangential = piston_force * motion.tangential_factor
+    # l sin beta = r sin phi, which stands for the infinite rod as well: N h = P (l sin beta + r cos phi tan beta)
+    lever = radius * (np.sin(motion.crank_angle) + np.cos(motion.crank_angle) * tangent)
+    return RodForces(
+        rod=piston_force / motion.rod_angle_cosine,
+        side=piston_force * tangent,
+        tangential=tangential,
+        radial=piston_force * motion.radial_factor,
+        torque=tangential * radius,
+        overturning=piston_force * lever,
+    )
+
+
+def shaft_loads(piston_force: Real, motion: Motion, layout: Layout, shaft_angle: Real) -> tuple[Real, Complex]:
+    """Forces of rows and rotating masses on the shaft, which its main bearings carry.
+
+    A rod in tension pulls its pin towards the piston: P e^{jg} (1 - j s tan beta). With the side forces
+    on the guides, the gas on the covers and the friction on the cylinders they add up to the shaking force.
+
+    Parameters
+    ----------
+    piston_force : (..., rows, T) N, tension positive.
+    shaft_angle : (..., T) rad.
+
+    Returns
+    -------
+    planes (..., rows + masses) m, forces (..., rows + masses, T) N as x + jy.
+    """
+    rows, masses, sense = layout.reciprocating, layout.rotating, layout.sense[..., None, None]
+    tangent = motion.rod_angle_sine / motion.rod_angle_cosine
+    pulled = piston_force * rows.axis[..., None] * (1.0 - 1j * sense * tangent)
+    outward = masses.mass * masses.radius * masses.direction * layout.omega[..., None] ** 2
+    turned = outward[..., None] * np.exp(1j * sense * shaft_angle[..., None, :])
+    planes = np.concatenate([rows.position, masses.position], axis=-1)
+    return planes, np.concatenate([pulled, turned], axis=-2)

@@ -1,0 +1,125 @@
+"""What the built machine does: rounded bores, corrected pressures, losses, pressures in the cylinder."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from optimizer.rating.design import StageDesign, delivery
+from optimizer.rating.errors import refuse
+from optimizer.rating.losses import DISCHARGE, SUCTION, corrected_loss, mean_piston_speed, pressures_in_cylinder
+from optimizer.rating.ratios import stage_state
+from optimizer.rating.sizes import nominal_bore, pressure_correction
+from schemas.base import FieldProblem
+from schemas.rating import CylinderSize, DeliveryCoefficients, PressureLosses, RatingRequest, StageState
+
+
+@dataclass(frozen=True)
+class StageBuilt:
+    """One stage as built."""
+
+    size: CylinderSize
+    corrections: tuple[float, float]
+    corrected: StageState
+    reference_losses: PressureLosses
+    losses: PressureLosses
+    in_cylinder: StageState
+    coefficients: DeliveryCoefficients
+
+
+def piston_speed(request: RatingRequest) -> float:
+    """Mean piston speed [m/s] for the pressure losses: as given, or that of the machine."""
+    if request.mean_piston_speed_m_s is not None:
+        return request.mean_piston_speed_m_s
+    return mean_piston_speed(request.stroke_m, request.speed_rpm)
+
+
+def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageBuilt]:
+    """Every stage as built, (1-18) to (1-27).
+
+    Raises
+    ------
+    OutOfRange
+        if the built bores leave a stage nothing to compress, or the losses are as large as the pressures.
+    """
+    sizes = _sizes(request, designs)
+    # before the first and after the last stage, the pressures are not the machine's to change
+    first = designs[0].size.swept_volume_m3, sizes[0].swept_volume_m3
+    inner = [
+        pressure_correction(*first, one.size.swept_volume_m3, size.swept_volume_m3)
+        for one, size in zip(designs[1:], sizes[1:], strict=True)
+    ]
+    corrections = [1.0, *inner, 1.0]
+    corrected = [_corrected(one, *corrections[i : i + 2]) for i, one in enumerate(designs)]
+    refuse(_order_problems(corrected))
+    reference = [_reference_losses(one) for one in designs]
+    losses = [_losses(request, one) for one in reference]
+    refuse(_loss_problems(losses))
+    in_cylinder = [_in_cylinder(one, state, loss) for one, state, loss in zip(designs, corrected, losses, strict=True)]
+    coefficients = delivery(request.stages, in_cylinder, [one.m for one in designs])
+    return [
+        StageBuilt(
+            size=sizes[i],
+            corrections=(corrections[i], corrections[i + 1]),
+            corrected=corrected[i],
+            reference_losses=reference[i],
+            losses=losses[i],
+            in_cylinder=in_cylinder[i],
+            coefficients=coefficients[i],
+        )
+        for i in range(len(designs))
+    ]
+
+
+def _sizes(request: RatingRequest, designs: Sequence[StageDesign]) -> list[CylinderSize]:
+    bores = [one.given.bore_m or nominal_bore(one.size.bore_m, request.bore_series) for one in designs]
+    refuse(
+        FieldProblem(
+            ("stages", i, "piston_rod_diameter_m"), f"must be smaller than the bore, which is rounded to {bore:.4g} m"
+        )
+        for i, (one, bore) in enumerate(zip(designs, bores, strict=True))
+        if not one.piston.rod < bore
+    )
+    return [one.piston.size(bore) for one, bore in zip(designs, bores, strict=True)]
+
+
+def _corrected(one: StageDesign, suction: float, discharge: float) -> StageState:
+    """p1' = beta_k p1, p2' = beta_(k+1) p2, eps' = p2'/p1', (1-21) to (1-23)."""
+    p1, p2 = one.nominal.suction_pressure_Pa * suction, one.nominal.discharge_pressure_Pa * discharge
+    return stage_state(p1, p2, one.given.suction_temperature_K, one.n)
+
+
+def _in_cylinder(one: StageDesign, state: StageState, losses: PressureLosses) -> StageState:
+    p_s, p_d = pressures_in_cylinder(
+        state.suction_pressure_Pa, state.discharge_pressure_Pa, losses.suction, losses.discharge
+    )
+    return stage_state(p_s, p_d, one.given.suction_temperature_K, one.n)
+
+
+def _reference_losses(one: StageDesign) -> PressureLosses:
+    suction, discharge = one.given.suction_pressure_loss, one.given.discharge_pressure_loss
+    return PressureLosses(
+        suction=SUCTION.at(one.nominal.suction_pressure_Pa) if suction is None else suction,
+        discharge=DISCHARGE.at(one.nominal.discharge_pressure_Pa) if discharge is None else discharge,
+    )
+
+
+def _losses(request: RatingRequest, reference: PressureLosses) -> PressureLosses:
+    speed, density = piston_speed(request), request.relative_density
+    return PressureLosses(
+        suction=corrected_loss(reference.suction, speed, density),
+        discharge=corrected_loss(reference.discharge, speed, density),
+    )
+
+
+def _order_problems(states: Sequence[StageState]) -> Iterator[FieldProblem]:
+    for i, state in enumerate(states):
+        if not state.pressure_ratio > 1.0:
+            message = "the bores leave this stage nothing to compress: its discharge would not be above its suction"
+            yield FieldProblem(("stages", i, "bore_m"), message)
+
+
+def _loss_problems(losses: Sequence[PressureLosses]) -> Iterator[FieldProblem]:
+    for i, one in enumerate(losses):
+        for name, loss in (("suction", one.suction), ("discharge", one.discharge)):
+            if not loss < 1.0:
+                message = f"becomes {loss:.3g} times the pressure at this mean piston speed and density"
+                yield FieldProblem(("stages", i, f"{name}_pressure_loss"), message)

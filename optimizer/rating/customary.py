@@ -1,0 +1,71 @@
+"""Customary ranges, and warnings where a figure leaves them."""
+
+from collections.abc import Iterator, Sequence
+
+from optimizer.rating.built import StageBuilt
+from optimizer.rating.design import StageDesign
+from optimizer.rating.losses import DISCHARGE, SUCTION, mean_piston_speed
+from schemas.rating import RatingRequest, RatingWarning
+
+#: section 1.3.2 of seed 004: first stage, other stages
+PRESSURE_COEFFICIENTS = ((0.95, 0.98), (0.98, 1.0))
+#: section 1.3.3 of seed 004
+TEMPERATURE_COEFFICIENTS = (0.935, 0.975)
+#: under (1-6) of seed 004 0.85 to 0.95, without lubrication; a lubricated cylinder is tighter
+LEAKAGE_COEFFICIENTS = (0.85, 0.98)
+#: a built capacity this close to the asked one passes for the same
+CAPACITY_TOLERANCE = 0.05
+#: a given piston speed this close to that of the machine passes for the same
+SPEED_TOLERANCE = 0.01
+
+
+def stage_warnings(
+    request: RatingRequest, designs: Sequence[StageDesign], built: Sequence[StageBuilt], gas_loads: Sequence[float]
+) -> Iterator[RatingWarning]:
+    """Warnings about single stages; ``gas_loads`` [N] are their largest gas forces."""
+    for i, (one, actual) in enumerate(zip(designs, built, strict=True)):
+        number = i + 1
+        temperature, limit = actual.in_cylinder.discharge_temperature_K, request.discharge_temperature_limit_K
+        if temperature > limit:
+            message = f"the gas leaves the cylinder at {temperature:.2f} K, above {limit:.2f} K"
+            yield RatingWarning(code="discharge_temperature", message=message, stage=number)
+        c = one.coefficients
+        if message := _outside(c.pressure, *PRESSURE_COEFFICIENTS[min(i, 1)]):
+            yield RatingWarning(code="pressure_coefficient", message=message, stage=number)
+        if message := _outside(c.temperature, *TEMPERATURE_COEFFICIENTS):
+            yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
+        if message := _outside(c.leakage, *LEAKAGE_COEFFICIENTS):
+            yield RatingWarning(code="leakage_coefficient", message=message, stage=number)
+        if sides := " and ".join(_extrapolated(one)):
+            message = f"the loss at {sides} is extrapolated beyond the readings of the chart; give it"
+            yield RatingWarning(code="pressure_losses", message=message, stage=number)
+        rated = request.rated_rod_load_N
+        if rated is not None and gas_loads[i] > rated:
+            message = f"the gas force reaches {gas_loads[i]:.5g} N, the frame is rated for {rated:.5g} N"
+            yield RatingWarning(code="rod_load", message=message, stage=number)
+
+
+def machine_warnings(request: RatingRequest, capacity_share: float, motor_power: float) -> Iterator[RatingWarning]:
+    """Warnings about the whole machine; ``motor_power`` [W] is what it needs."""
+    if abs(capacity_share - 1.0) > CAPACITY_TOLERANCE:
+        message = f"the built machine delivers {capacity_share:.1%} of the capacity asked for"
+        yield RatingWarning(code="capacity", message=message, stage=None)
+    given, own = request.mean_piston_speed_m_s, mean_piston_speed(request.stroke_m, request.speed_rpm)
+    if given is not None and abs(given / own - 1.0) > SPEED_TOLERANCE:
+        message = f"losses are corrected for {given:.4g} m/s, but stroke and speed make {own:.4g} m/s"
+        yield RatingWarning(code="mean_piston_speed", message=message, stage=None)
+    installed = request.installed_motor_power_W
+    if installed is not None and motor_power > installed:
+        message = f"the machine needs a motor of {motor_power:.5g} W, it has one of {installed:.5g} W"
+        yield RatingWarning(code="motor_power", message=message, stage=None)
+
+
+def _outside(value: float, low: float, high: float) -> str:
+    return "" if low <= value <= high else f"{value:.4g} is not within the customary {low:.4g} to {high:.4g}"
+
+
+def _extrapolated(one: StageDesign) -> Iterator[str]:
+    if one.given.suction_pressure_loss is None and not SUCTION.cover(one.nominal.suction_pressure_Pa):
+        yield "suction"
+    if one.given.discharge_pressure_loss is None and not DISCHARGE.cover(one.nominal.discharge_pressure_Pa):
+        yield "discharge"

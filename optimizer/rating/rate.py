@@ -1,0 +1,95 @@
+"""The thermal design of a compressor, from the request to the answer."""
+
+from optimizer.rating.built import StageBuilt, build, piston_speed
+from optimizer.rating.customary import machine_warnings, stage_warnings
+from optimizer.rating.design import StageDesign, design, suction_per_capacity
+from optimizer.rating.loads import gas_loads
+from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
+from schemas.cylinder import Cylinder
+from schemas.rating import RatingAnswer, RatingRequest, StageRating
+
+
+def rate(request: RatingRequest) -> RatingAnswer:
+    """Size the cylinders of a compressor for a capacity, and say what the built machine delivers and needs.
+
+    Raises
+    ------
+    OutOfRange
+        if no machine can do what is asked; names the fields.
+    """
+    designs = design(request)
+    built = build(request, designs)
+    stages = tuple(_stage(request, one, actual) for one, actual in zip(designs, built, strict=True))
+    capacity = suction_flow(
+        built[0].size.swept_volume_m3, request.speed_rpm, built[0].coefficients.delivery
+    ) / suction_per_capacity(request)
+    share = capacity / request.capacity_m3_per_min
+    loads = [stage.actual_loads.largest_N for stage in stages]
+    indicated = sum(stage.indicated_power_W for stage in stages)
+    shaft = shaft_power(indicated, request.mechanical_efficiency)
+    motor = motor_power(shaft, request.motor_margin, request.drive_efficiency)
+    return RatingAnswer(
+        total_pressure_ratio=request.discharge_pressure_Pa / request.suction_pressure_Pa,
+        mean_piston_speed_m_s=piston_speed(request),
+        capacity_m3_per_min=capacity,
+        capacity_share=share,
+        stages=stages,
+        largest_rod_load_N=max(loads),
+        indicated_power_W=indicated,
+        shaft_power_W=shaft,
+        motor_power_W=motor,
+        warnings=(*stage_warnings(request, designs, built, loads), *machine_warnings(request, share, motor)),
+    )
+
+
+def _stage(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> StageRating:
+    given, nominal, inside = one.given, one.nominal, actual.in_cylinder
+    ambient = request.ambient_pressure_Pa
+    return StageRating(
+        name=given.name,
+        cylinders=given.cylinders,
+        nominal=nominal,
+        expansion_exponent=one.m,
+        design_coefficients=one.coefficients,
+        saturation_pressure_Pa=one.saturation_pressure,
+        condensate_coefficient=one.condensate,
+        calculated=one.size,
+        nominal_loads=gas_loads(
+            nominal.suction_pressure_Pa, nominal.discharge_pressure_Pa, ambient, given.acting, one.size
+        ),
+        actual=actual.size,
+        suction_pressure_correction=actual.corrections[0],
+        discharge_pressure_correction=actual.corrections[1],
+        corrected=actual.corrected,
+        reference_losses=actual.reference_losses,
+        losses=actual.losses,
+        in_cylinder=inside,
+        actual_coefficients=actual.coefficients,
+        actual_loads=gas_loads(
+            inside.suction_pressure_Pa, inside.discharge_pressure_Pa, ambient, given.acting, actual.size
+        ),
+        indicated_power_W=indicated_power(
+            inside.suction_pressure_Pa,
+            actual.size.swept_volume_m3,
+            actual.coefficients.volumetric,
+            inside.pressure_ratio,
+            one.n,
+            request.speed_rpm,
+        ),
+        cylinder=_cylinder(request, one, actual),
+    )
+
+
+def _cylinder(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Cylinder:
+    """One cylinder as a row of a machine takes it: pressures in the cylinder, exponents of the thermal design."""
+    return Cylinder(
+        bore_m=actual.size.bore_m,
+        piston_rod_diameter_m=one.given.piston_rod_diameter_m,
+        acting=one.given.acting,
+        suction_pressure_Pa=actual.in_cylinder.suction_pressure_Pa,
+        discharge_pressure_Pa=actual.in_cylinder.discharge_pressure_Pa,
+        ambient_pressure_Pa=request.ambient_pressure_Pa,
+        relative_clearance=one.given.relative_clearance,
+        expansion_exponent=one.m,
+        compression_exponent=one.n,
+    )

@@ -1,0 +1,179 @@
+"""An output costs its own effects, needs their inputs, and never changes another."""
+
+import math
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from optimizer.effects import registry
+from optimizer.effects.effect import Context
+from optimizer.effects.registry import EFFECTS, OUTPUTS, closure
+from optimizer.errors import MissingInput
+from schemas.machine import ReciprocatingMachine
+from tests.analyze.driven import ask
+from tests.effects.machines import EVERY, SCROLL, complete, figures, found
+
+SAMPLED = tuple(name for name in EVERY if name not in ("residual", "hodograph", "orders", "stages"))
+
+
+def _never(_context: Context) -> Any:
+    raise AssertionError("this effect was not asked for")
+
+
+@pytest.mark.parametrize("friction", [True, False])
+@pytest.mark.parametrize("output", EVERY)
+def test_an_output_does_with_its_own_effects_and_never_changes_another(
+    output: str, friction: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    body = complete() if friction else complete(friction=None)
+    together = figures(found(*EVERY, body=body))
+    needed = closure(ReciprocatingMachine.model_validate(body), OUTPUTS[output].needs)
+    broken = {
+        name: effect if name in needed else replace(effect, simulate=_never, problems=_never)
+        for name, effect in EFFECTS.items()
+    }
+    monkeypatch.setattr(registry, "EFFECTS", broken)
+    alone = found(output, body=body)
+    assert figures(alone)[output] == together[output]  # to the bit
+    assert figures(alone)[output] is not None
+    assert [name for name in EVERY if figures(alone)[name] is not None] == [output]
+    for name, use in alone.effects.items():
+        assert use.simulated == (name in needed)
+        assert use.needed_by == ((output,) if name in needed else ())
+        assert (use.time_ms > 0.0) == (name in needed)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_order_of_the_outputs_is_of_no_account(seed: int) -> None:
+    body = complete(seed)
+    assert figures(found(*EVERY, body=body)) == figures(found(*reversed(EVERY), body=body))
+
+
+def test_needed_by() -> None:
+    uses = found("torque", "gas", "residual").effects
+    assert uses["kinematics"].needed_by == ("torque", "gas")
+    assert uses["gas"].needed_by == ("torque", "gas")
+    assert uses["torque"].needed_by == ("torque",)
+    assert uses["rotating_inertia"].needed_by == ("residual",)
+    assert uses["flywheel"].needed_by == ()
+    assert list(uses) == list(EFFECTS)
+
+
+def test_friction_is_not_simulated_where_there_is_none() -> None:
+    body = complete(friction=None)
+    answer = found("torque", "piston_force", body=body)
+    assert not answer.effects["friction"].simulated
+    assert answer.effects["friction"].needed_by == ()
+    assert answer.torque.friction_power_W == answer.torque.rotating_friction_Nm == 0.0
+    assert {force for row in answer.piston_force.rows for force in row.friction_N} == {0.0}
+
+
+def test_friction_given_as_nothing_is_no_friction() -> None:
+    none = found(*EVERY, body=complete(friction=None))
+    zero = found(*EVERY, body=complete(friction={"rotating_torque_Nm": 0.0}))
+    assert zero.effects["friction"].simulated
+    assert figures(none) == figures(zero)
+
+
+@pytest.mark.parametrize("output", SAMPLED)
+def test_the_floor_is_null_where_no_output_asks_for_the_first_order(output: str) -> None:
+    assert found(output).floor is None
+    assert found(output, "residual").floor == found("residual").floor is not None
+
+
+def _refused(output: str, body: dict[str, Any]) -> set[tuple[str | int, ...]]:
+    """Fields that are named as missing; none where the output is answered."""
+    try:
+        found(output, body=body)
+    except MissingInput as missing:
+        return {problem.path for problem in missing.problems if f"output '{output}'" in problem.message}
+    return set()
+
+
+ROW = ("machine", "throws", 1, "rows", 0)
+_GAS = set(SAMPLED) - {"kinematics"}
+
+
+@pytest.mark.parametrize("output", EVERY)
+@pytest.mark.parametrize(
+    ("drop", "named", "reached"),
+    [
+        ("suction_pressure_Pa", (*ROW, "cylinder", "suction_pressure_Pa"), _GAS),
+        ("cylinder", (*ROW, "cylinder"), _GAS),
+        ("connecting_rod", (*ROW, "connecting_rod"), {"orders", "stages", *SAMPLED}),
+        ("flywheel", ("machine", "flywheel"), {"flywheel"}),
+        ("bearings", ("machine", "bearings"), {"main_bearings"}),
+    ],
+)
+def test_a_missing_input_is_named_only_if_it_is_reached(
+    output: str, drop: str, named: tuple[str | int, ...], reached: set[str]
+) -> None:
+    body = complete()
+    row = body["throws"][1]["rows"][0]
+    for owner in (body, row, row["cylinder"]):
+        if drop in owner:
+            del owner[drop]
+    row.get("cylinder", {}).update(head=None, crank=None)
+    assert _refused(output, body) == ({named} if output in reached else set())
+
+
+@pytest.mark.parametrize("output", EVERY)
+def test_a_chamber_that_never_delivers_is_named_only_if_it_is_reached(output: str) -> None:
+    body = complete()
+    cylinder = body["throws"][0]["rows"][1]["cylinder"]
+    cylinder.update(relative_clearance=90.0, head=None, crank=None)
+    named = ("machine", "throws", 0, "rows", 1, "cylinder", "relative_clearance")
+    assert _refused(output, body) == ({named} if output in _GAS else set())
+
+
+def test_all_that_is_missing_is_named_at_once() -> None:
+    body = complete(flywheel=None, bearings=[])
+    del body["throws"][0]["rows"][0]["cylinder"]
+    with pytest.raises(MissingInput) as refused:
+        found(*EVERY, body=body)
+    problems = {problem.path: problem.message for problem in refused.value.problems}
+    row = ("machine", "throws", 0, "rows", 0, "cylinder")
+    assert set(problems) == {row, ("machine", "flywheel"), ("machine", "bearings")}
+    assert problems[row].endswith("asked for by output 'gas'")
+
+
+@pytest.mark.parametrize("output", SAMPLED)
+def test_a_scroll_has_no_rows_to_simulate(output: str) -> None:
+    with pytest.raises(MissingInput) as refused:
+        found_scroll(output)
+    assert [problem.path for problem in refused.value.problems] == [("machine", "kind")]
+
+
+def found_scroll(*outputs: str) -> Any:
+    return ask(SCROLL, *outputs, step_deg=15.0)
+
+
+def test_a_scroll_has_its_first_order() -> None:
+    assert found_scroll("residual", "hodograph", "orders", "stages").residual is not None
+
+
+def test_order_2_is_the_series() -> None:
+    series = found("kinematics", "orders", "stages", fidelity={"kinematics": "order_2"})
+    exact = found("kinematics", "orders", "stages")
+    body = complete()
+    assert series.orders.before[0] == exact.orders.before[0]
+    assert series.orders.before[1] != exact.orders.before[1]
+    assert [one.force.peak_N for one in series.orders.before[2:]] == [0.0, 0.0]
+    omega = body["speed_rpm"] * math.pi / 30.0
+    for row, other, throw in zip(series.kinematics.rows, exact.kinematics.rows, (0, 0, 1, 1), strict=True):
+        radius = body["throws"][throw]["crank_radius_m"]
+        length = body["throws"][row.throw]["rows"][row.row]["connecting_rod"]["length_m"]
+        # analytic: r w^2 (cos phi + lam cos 2 phi)
+        phi = [math.radians(one) for one in row.crank_angle_deg]
+        expected = [radius * omega**2 * (math.cos(p) + radius / length * math.cos(2 * p)) for p in phi]
+        assert row.acceleration_m_s2 == pytest.approx(expected, rel=1e-9, abs=1e-9 * radius * omega**2)
+        assert row.crank_angle_deg == other.crank_angle_deg
+        assert row.acceleration_m_s2 != other.acceleration_m_s2
+
+
+def test_fidelity_of_the_shaft_changes_the_bearings_alone() -> None:
+    body = complete()
+    hinged = figures(found(*EVERY, body=body))
+    continuous = figures(found(*EVERY, body=body, fidelity={"shaft": "continuous"}))
+    assert {name for name in EVERY if hinged[name] != continuous[name]} == {"main_bearings"}

@@ -1,0 +1,123 @@
+"""The registry holds together, and every effect sees what it declares and no more."""
+
+from dataclasses import replace
+from typing import Any, get_args
+
+import numpy as np
+import pytest
+
+from optimizer.effects import registry
+from optimizer.effects.effect import Context
+from optimizer.effects.registry import EFFECTS, OUTPUTS, closure, inputs_of, simulate
+from optimizer.mechanics.layout import layout
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.machine import ReciprocatingMachine
+from schemas.requests import AnalyzeRequest, Fidelity, Output
+from tests.effects.machines import EVERY, complete
+
+
+def test_every_output_of_the_contract_is_registered_and_answered() -> None:
+    assert set(OUTPUTS) == set(get_args(Output))
+    assert len(EVERY) == len(set(EVERY))
+    for answer in (AnalyzeAnswer, OptimizeAnswer):
+        assert set(OUTPUTS) <= set(answer.model_fields)
+
+
+def test_every_effect_stands_after_what_it_needs() -> None:
+    order = list(EFFECTS)
+    for name, effect in EFFECTS.items():
+        assert effect.name == name
+        assert effect.meaning
+        assert len(set(effect.needs)) == len(effect.needs)
+        for need in effect.needs:
+            assert order.index(need) < order.index(name)
+
+
+def test_outputs_need_effects_that_exist_and_every_effect_serves_one() -> None:
+    machine = ReciprocatingMachine.model_validate(complete())
+    for output in OUTPUTS.values():
+        assert output.meaning
+        assert set(output.needs) <= set(EFFECTS)
+    assert {name for output in OUTPUTS.values() for name in closure(machine, output.needs)} == set(EFFECTS)
+
+
+def _fields(model: Any, path: list[str]) -> bool:
+    """Whether a dotted path of fields exists in a model."""
+    if not path:
+        return True
+    annotations, models = [model], []
+    while annotations:
+        each = annotations.pop()
+        annotations.extend(get_args(each))
+        if hasattr(each, "model_fields"):
+            models.append(each)
+    return any(
+        path[0] in one.model_fields and _fields(one.model_fields[path[0]].annotation, path[1:]) for one in models
+    )
+
+
+@pytest.mark.parametrize("output", EVERY)
+def test_inputs_are_fields_of_the_request(output: str) -> None:
+    named = inputs_of(output)
+    assert len(set(named)) == len(named)
+    for path in named:
+        assert _fields(AnalyzeRequest, path.split(".")), path
+    if output in ("residual", "hodograph"):
+        assert named == ()
+
+
+def test_closure_holds_the_needs_of_needs_in_order() -> None:
+    machine = ReciprocatingMachine.model_validate(complete())
+    # analytic: by hand
+    expected = ["kinematics", "gas", "friction", "piston_force", "rod_forces", "torque", "torque_integrals", "flywheel"]
+    assert closure(machine, OUTPUTS["flywheel"].needs) == expected
+    assert closure(machine, ("rotating_inertia",)) == ["rotating_inertia"]
+    assert closure(machine, ()) == []
+    frictionless = ReciprocatingMachine.model_validate(complete(friction=None))
+    assert closure(frictionless, OUTPUTS["flywheel"].needs) == [name for name in expected if name != "friction"]
+
+
+@pytest.mark.parametrize("friction", [True, False])
+def test_the_context_holds_exactly_what_was_declared(monkeypatch: pytest.MonkeyPatch, friction: bool) -> None:
+    seen: dict[str, list[set[str]]] = {}
+
+    def watched(name: str) -> Any:
+        simulate_it = EFFECTS[name].simulate
+
+        def spy(context: Context) -> Any:
+            seen.setdefault(name, []).append(set(context.given))
+            return simulate_it(context)
+
+        return replace(EFFECTS[name], simulate=spy)
+
+    body = complete() if friction else complete(friction=None)
+    machine = ReciprocatingMachine.model_validate(body)
+    monkeypatch.setattr(registry, "EFFECTS", {name: watched(name) for name in EFFECTS})
+    simulate(machine, layout(machine), EVERY, Fidelity(), np.linspace(0.0, 6.0, 8))
+    for name, effect in EFFECTS.items():
+        if name == "friction" and not friction:
+            assert name not in seen
+            continue
+        declared = {need for need in effect.needs if friction or need != "friction"}
+        assert all(given == declared for given in seen[name]), name
+
+
+def test_every_effect_runs_once_at_the_samples(monkeypatch: pytest.MonkeyPatch) -> None:
+    calls: list[tuple[str, int]] = []
+
+    def counted(name: str) -> Any:
+        simulate_it = EFFECTS[name].simulate
+
+        def count(context: Context) -> Any:
+            calls.append((name, context.angle.size))
+            return simulate_it(context)
+
+        return replace(EFFECTS[name], simulate=count)
+
+    machine = ReciprocatingMachine.model_validate(complete())
+    monkeypatch.setattr(registry, "EFFECTS", {name: counted(name) for name in EFFECTS})
+    simulate(machine, layout(machine), EVERY, Fidelity(), np.linspace(0.0, 6.0, 7))
+    assert [name for name, size in calls if size == 7] == list(EFFECTS)
+    # the integrals over the turn look at other angles, and only at what they need
+    elsewhere = {name for name, size in calls if size != 7}
+    assert elsewhere == {"kinematics", "gas", "friction", "piston_force", "rod_forces", "torque"}

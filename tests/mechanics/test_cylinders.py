@@ -1,0 +1,143 @@
+"""Cylinders as arrays, and what is missing or impossible in their data."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from optimizer.mechanics.cylinders import chambers, delivery_problems, gas_problems
+from optimizer.mechanics.layout import layout
+from schemas.cylinder import Cylinder
+from schemas.machine import ReciprocatingMachine
+
+FULL = {
+    "bore_m": 0.5,
+    "piston_rod_diameter_m": 0.1,
+    "suction_pressure_Pa": 1e5,
+    "discharge_pressure_Pa": 3e5,
+    "relative_clearance": 0.1,
+    "expansion_exponent": 1.2,
+    "compression_exponent": 1.3,
+}
+SINGLE = {"acting": "head", "ambient_pressure_Pa": 9e4}
+
+
+def machine(*cylinders: dict[str, Any] | None) -> ReciprocatingMachine:
+    """Rows 0 and 1 on the first throw, the others on the second."""
+    rows = [
+        {
+            "axis_deg": 90.0 * k,
+            "reciprocating_mass_kg": 1.0,
+            "connecting_rod": {"length_m": 0.5},
+            "cylinder": cylinder,
+        }
+        for k, cylinder in enumerate(cylinders)
+    ]
+    throws = [
+        {"position_m": z, "crank_radius_m": 0.1, "crank_angle_deg": 0.0, "rows": part}
+        for z, part in ((0.0, rows[:2]), (1.0, rows[2:]))
+    ]
+    return ReciprocatingMachine.model_validate({"kind": "reciprocating", "speed_rpm": 500.0, "throws": throws})
+
+
+def without(*names: str, **rest: Any) -> dict[str, Any]:
+    return {**{name: value for name, value in FULL.items() if name not in names}, **rest}
+
+
+def test_areas() -> None:
+    found = chambers(machine(FULL, without("bore_m", "piston_rod_diameter_m", head_area_m2=0.2, crank_area_m2=0.19)))
+    ring = 0.25 * np.pi * (0.25 - 0.01)  # analytic
+    np.testing.assert_allclose(found.area, [[0.0625 * np.pi, ring], [0.2, 0.19]], rtol=1e-15)
+    assert found.closed.all()
+
+
+def test_rows_stand_throw_by_throw() -> None:
+    made = [without("relative_clearance", relative_clearance=0.01 * (k + 1)) for k in range(4)]
+    np.testing.assert_array_equal(chambers(machine(*made)).clearance[:, 0], [0.01, 0.02, 0.03, 0.04])
+
+
+def test_a_side_may_have_data_of_its_own() -> None:
+    one = without(head={"suction_pressure_Pa": 2e5, "expansion_exponent": 1.1}, crank={"relative_clearance": 0.3})
+    found = chambers(machine(one))
+    np.testing.assert_array_equal(found.suction, [[2e5, 1e5]])
+    np.testing.assert_array_equal(found.discharge, [[3e5, 3e5]])
+    np.testing.assert_array_equal(found.clearance, [[0.1, 0.3]])
+    np.testing.assert_array_equal(found.expansion_exponent, [[1.1, 1.2]])
+    np.testing.assert_array_equal(found.compression_exponent, [[1.3, 1.3]])
+
+
+@pytest.mark.parametrize("side", [0, 1])
+def test_single_acting(side: int) -> None:
+    found = chambers(machine(without(acting=("head", "crank")[side], ambient_pressure_Pa=9e4)))
+    assert found.closed[0].tolist() == [side == 0, side == 1]
+    assert found.suction[0, 1 - side] == found.discharge[0, 1 - side] == 9e4
+    assert found.suction[0, side] == 1e5
+
+
+def paths(cylinders: list[dict[str, Any] | None]) -> list[tuple[str | int, ...]]:
+    return [problem.path for problem in gas_problems(machine(*cylinders))]
+
+
+@pytest.mark.parametrize("field", list(FULL))
+def test_a_missing_field_is_named_in_its_place(field: str) -> None:
+    found = paths([FULL, FULL, without(field), FULL])
+    place = ("throws", 1, "rows", 0, "cylinder")
+    expected = {"bore_m": [(*place, "bore_m"), (*place, "crank_area_m2")]}.get(field, [(*place, field)])
+    assert found == expected
+
+
+def test_nothing_is_missing_where_it_is_not_needed() -> None:
+    assert paths([FULL]) == []
+    state = ("suction_pressure_Pa", "relative_clearance")
+    own = {name: FULL[name] for name in state}
+    assert paths([without(*state, head=own, crank=own)]) == []
+    # a side that is open needs no gas
+    assert paths([without(*state, head=own, **SINGLE)]) == []
+    assert paths([without(*state, head=own)]) == [("throws", 0, "rows", 0, "cylinder", name) for name in state]
+
+
+def test_single_acting_needs_the_ambient_and_a_row_its_cylinder() -> None:
+    assert paths([without(acting="crank")]) == [("throws", 0, "rows", 0, "cylinder", "ambient_pressure_Pa")]
+    assert paths([FULL, None]) == [("throws", 0, "rows", 1, "cylinder")]
+
+
+def test_all_that_is_missing_is_named_at_once() -> None:
+    # areas of both sides, and five of the gas
+    assert len(paths([{}])) == 7
+    assert len(paths([{}, None, {"acting": "head"}])) == 7 + 1 + 8
+
+
+@pytest.mark.parametrize(
+    ("changes", "delivers"),
+    [
+        ({}, True),
+        # analytic: re-expansion fills c (3^(1/1.2) - 1) strokes, all of it at c = 0.667
+        ({"relative_clearance": 0.66}, True),
+        ({"relative_clearance": 0.67}, False),
+        ({"crank": {"relative_clearance": 0.67}}, False),
+        ({"crank": {"relative_clearance": 0.67}, **SINGLE}, True),
+        # analytic: compression by 1 + 1/c reaches at most (1 + 1/c)^1.1 = 1.94 times the suction pressure
+        ({"relative_clearance": 1.2, "expansion_exponent": 9.0, "compression_exponent": 1.1}, False),
+    ],
+)
+def test_too_much_clearance_is_named(changes: dict[str, Any], delivers: bool) -> None:
+    one = machine(FULL, {**FULL, **changes})
+    found = list(delivery_problems(one, layout(one)))
+    assert [p.path for p in found] == ([] if delivers else [("throws", 0, "rows", 1, "cylinder", "relative_clearance")])
+
+
+@pytest.mark.parametrize(
+    ("changes", "path"),
+    [
+        ({"discharge_pressure_Pa": 9e4}, ("discharge_pressure_Pa",)),
+        ({"head": {"discharge_pressure_Pa": 9e4}}, ("head", "discharge_pressure_Pa")),
+        ({"head": {"suction_pressure_Pa": 4e5}}, ("head", "suction_pressure_Pa")),
+        ({"crank": {"suction_pressure_Pa": 4e5, "discharge_pressure_Pa": 3e5}}, ("crank", "discharge_pressure_Pa")),
+    ],
+)
+def test_no_side_may_discharge_below_its_suction(changes: dict[str, Any], path: tuple[str, ...]) -> None:
+    with pytest.raises(ValidationError) as refused:
+        Cylinder.model_validate({**FULL, **changes})
+    (error,) = refused.value.errors()
+    assert [problem.path for problem in error["ctx"]["problems"]] == [path]
