@@ -71,6 +71,8 @@ def _outputs_over_the_turn(scene: Prepared, unbalance: Complex | None) -> dict[s
             fields[name] = report(samples)
     if "main_bearings" in scene.outputs:
         fields["main_bearings"] = main_bearings(samples, scene.request.fidelity, unbalance)
+    if "pin_loads" in scene.outputs:
+        fields["pin_loads"] = scene.simulated.results["pin_loads"]
     return fields
 
 

@@ -26,6 +26,7 @@ from schemas.quantities import (
     NewtonMetres,
     Newtons,
 )
+from schemas.scroll import PinLoadsAnswer
 
 WebLimit = Literal["max_mass", "sector"]
 MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
@@ -185,6 +186,7 @@ class Outputs(Model):
     flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
     overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
     main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
+    pin_loads: PinLoadsAnswer | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
 
 
 class OptimizeAnswer(Outputs):

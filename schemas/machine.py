@@ -8,6 +8,7 @@ from pydantic import Field, model_validator
 from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
 from schemas.cylinder import Cylinder
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
+from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Fraction, Length, Mass, Name, Position, Speed
 from schemas.units import Unit, positive
 
@@ -194,7 +195,7 @@ class CrankPins(Model):
 
     type: Literal["crank_pins"] = Field(description="crank pins", examples=["crank_pins"])
     count: Count = Field(ge=1, le=1000, description="number of evenly spaced pins", examples=[3])
-    pin_circle_radius_m: Length = Field(description="radius of the circle through the pins", examples=[0.05])
+    pin_circle_radius_m: PinRadius = Field(description="radius of the circle through the pins", examples=[0.05])
     eccentric_mass_kg: Mass = Field(
         0.0, description="rotating unbalanced mass of one pin, referred to the orbit radius", examples=[0.02]
     )
@@ -213,9 +214,22 @@ class ScrollMachine(Rotor):
         examples=[{"type": "crank_pins", "count": 3, "pin_circle_radius_m": 0.05, "position_m": 0.03}],
     )
 
+    rotation_torque_Nm: TorqueOverTurn | None = Field(
+        None,
+        description="torque that turns the scroll about itself, constant or over one turn; needed by pin_loads",
+        examples=[12.5],
+    )
+    tangential_gas_force_N: ForceOverTurn | None = Field(
+        None,
+        description="tangential gas force on the scroll, in place of the torque that it causes",
+        examples=[5000.0],
+    )
+
     @model_validator(mode="after")
     def _check(self) -> "ScrollMachine":
         raise_problems(self._web_problems())
+        if self.rotation_torque_Nm is not None and self.tangential_gas_force_N is not None:
+            raise_problems([FieldProblem(("rotation_torque_Nm",), "give either the torque or the gas force")])
         return self
 
 

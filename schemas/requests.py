@@ -23,6 +23,7 @@ Output = Literal[
     "flywheel",
     "overturning",
     "main_bearings",
+    "pin_loads",
 ]
 Outputs = Annotated[tuple[Output, ...], Field(max_length=32), NotEmpty()]
 

@@ -10,6 +10,7 @@ import numpy as np
 from optimizer.effects.dynamics import DYNAMICS
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import INERTIA
+from optimizer.effects.scroll import SCROLL
 from optimizer.errors import MissingInput
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
@@ -20,7 +21,7 @@ from schemas.machine import Machine
 from schemas.requests import Fidelity
 
 #: every effect; each stands after those that it needs
-EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS)}
+EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}
 
 _FIRST_ORDER = ("rotating_inertia", "reciprocating_inertia")
 
@@ -46,6 +47,7 @@ OUTPUTS: dict[str, Output] = {
     "flywheel": Output("irregularity of the speed and inertia", ("flywheel",)),
     "overturning": Output("overturning couple on the frame", ("rod_forces",)),
     "main_bearings": Output("main-bearing loads and bending of the shaft", ("shaft_loads",)),
+    "pin_loads": Output("loads of the anti-rotation pins of a scroll", ("pin_loads",)),
 }
 
 

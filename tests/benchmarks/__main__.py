@@ -61,6 +61,8 @@ def by_output(console: Console, repeats: int) -> None:
     for name, machine in machines.items():
         found = outputs.residual_with_and_without_gas(machine, repeats)
         console.print(f"residual alone, {name}:", ", ".join(f"{key} {value:.2f} ms" for key, value in found.items()))
+    for name, value in outputs.scroll_pins(repeats).items():
+        console.print(f"scroll pins, {name}: {value:.2f} ms")
     loop, block = outputs.broadcasting()
     console.print(f"1,000 machines: one by one {loop:.3f} s, in one call {block:.3f} s, ratio {loop / block:.0f}")
 

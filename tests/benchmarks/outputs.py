@@ -15,10 +15,14 @@ from optimizer.effects.registry import OUTPUTS
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
+from optimizer.mechanics.scroll_pins import even_pin_loads
+from optimizer.pin_loads import pin_loads
 from schemas.requests import AnalyzeRequest
+from schemas.scroll import PinLoadsRequest
 from tests.benchmarks.cases import EXAMPLES
 
-SCENES: dict[str, tuple[str, ...]] = {name: (name,) for name in OUTPUTS} | {"everything": tuple(OUTPUTS)}
+RECIPROCATING = tuple(name for name in OUTPUTS if name != "pin_loads")
+SCENES: dict[str, tuple[str, ...]] = {name: (name,) for name in RECIPROCATING} | {"everything": RECIPROCATING}
 
 
 def two_rows() -> dict[str, Any]:
@@ -87,6 +91,20 @@ def broadcasting(machines: int = 1000) -> tuple[float, float]:
     middle = time.perf_counter()
     simulate(block)
     return middle - start, time.perf_counter() - middle
+
+
+def scroll_pins(repeats: int) -> dict[str, float]:
+    """Median milliseconds of the pin loads at 360 angles x 6 pins, and of a million (angle, design) pairs."""
+    even = PinLoadsRequest.model_validate({"pin_count": 6, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5})
+    angle = np.linspace(0.0, 360.0, 1000, endpoint=False)
+    torque = np.linspace(1.0, 2.0, 1000)[:, None]
+    return _medians(
+        {
+            "360 angles x 6 pins, whole answer": lambda: pin_loads(even),
+            "a million pairs x 6 pins, one call": lambda: even_pin_loads(torque, np.asarray(0.05), 6, angle),
+        },
+        repeats,
+    )
 
 
 def stack(parts: list[Any]) -> Any:

@@ -31,5 +31,9 @@ def test_every_output_of_the_benchmark_runs(machine: dict[str, Any]) -> None:
     assert set(outputs.residual_with_and_without_gas(machine, 1)) == {"with gas data", "without"}
 
 
+def test_scroll_pin_cases_run() -> None:
+    assert min(outputs.scroll_pins(1).values()) > 0
+
+
 def test_broadcasting_case_runs() -> None:
     assert min(outputs.broadcasting(3)) > 0

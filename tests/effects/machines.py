@@ -6,7 +6,8 @@ from schemas.answers import AnalyzeAnswer
 from schemas.requests import Output
 from tests.analyze.driven import ask, random_driven
 
-EVERY: tuple[str, ...] = get_args(Output)
+# of a reciprocating machine
+EVERY: tuple[str, ...] = tuple(name for name in get_args(Output) if name != "pin_loads")
 SCROLL = {
     "kind": "scroll",
     "speed_rpm": 3000.0,

@@ -177,3 +177,43 @@ def test_fidelity_of_the_shaft_changes_the_bearings_alone() -> None:
     hinged = figures(found(*EVERY, body=body))
     continuous = figures(found(*EVERY, body=body, fidelity={"shaft": "continuous"}))
     assert {name for name in EVERY if hinged[name] != continuous[name]} == {"main_bearings"}
+
+
+PINS = {"type": "crank_pins", "count": 3, "pin_circle_radius_m": 0.05, "position_m": 0.03}
+
+
+def test_pin_loads_of_a_scroll_machine() -> None:
+    body = SCROLL | {"anti_rotation": PINS, "rotation_torque_Nm": 12.5}
+    answer = ask(body, "pin_loads", step_deg=15.0)
+    assert answer.pin_loads.peak_N == pytest.approx(2 * 12.5 / (3 * 0.05), rel=1e-12)  # published, seed 003 eq (3)
+    assert answer.pin_loads.equilibrium.holds
+    assert {name for name, use in answer.effects.items() if use.simulated} == {"pin_loads"}
+    gas = SCROLL | {"anti_rotation": PINS, "tangential_gas_force_N": 5000.0}
+    both = ask(gas, "pin_loads", "residual", step_deg=15.0)
+    assert both.pin_loads.rotation_torque_Nm[0] == pytest.approx(5000.0 * 0.005 / 2)
+    assert both.residual is not None
+
+
+@pytest.mark.parametrize(
+    ("body", "path"),
+    [
+        (SCROLL | {"rotation_torque_Nm": 1.0}, ("machine", "anti_rotation", "type")),
+        (SCROLL | {"anti_rotation": PINS}, ("machine", "rotation_torque_Nm")),
+        (
+            SCROLL | {"anti_rotation": PINS, "tangential_gas_force_N": 1.0, "orbit_radius_m": 1e-9},
+            ("machine", "orbit_radius_m"),
+        ),
+        (complete(), ("machine", "kind")),
+    ],
+)
+def test_what_pin_loads_miss_is_named(body: dict[str, Any], path: tuple[str, ...]) -> None:
+    with pytest.raises(MissingInput) as caught:
+        ask(body, "pin_loads", step_deg=15.0)
+    assert [problem.path for problem in caught.value.problems] == [path]
+
+
+def test_more_pins_than_can_be_sampled_are_refused() -> None:
+    body = SCROLL | {"anti_rotation": PINS | {"count": 1000}, "rotation_torque_Nm": 1.0}
+    with pytest.raises(MissingInput) as caught:
+        ask(body, "pin_loads", step_deg=0.1)
+    assert [problem.path for problem in caught.value.problems] == [("angles", "step_deg")]

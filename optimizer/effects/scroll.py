@@ -1,0 +1,62 @@
+"""Loads of the anti-rotation pins of a scroll machine."""
+
+from collections.abc import Iterator
+
+from pydantic import ValidationError
+
+from optimizer.effects.effect import Context, Effect
+from optimizer.errors import MissingInput
+from optimizer.pin_loads import pin_loads
+from schemas.base import FieldProblem
+from schemas.machine import CrankPins, Machine, ScrollMachine
+from schemas.requests import Angles
+from schemas.scroll import MAX_LOADS, PinLoadsAnswer, PinLoadsRequest
+
+
+def _question(machine: ScrollMachine, guide: CrankPins, angles: Angles) -> PinLoadsRequest:
+    force = machine.tangential_gas_force_N
+    return PinLoadsRequest(
+        pin_count=guide.count,
+        pin_circle_radius_m=guide.pin_circle_radius_m,
+        rotation_torque_Nm=machine.rotation_torque_Nm,
+        tangential_gas_force_N=force,
+        orbit_radius_m=None if force is None else machine.orbit_radius_m,
+        angles=angles,
+    )
+
+
+def _problems(machine: Machine) -> Iterator[FieldProblem]:
+    if not isinstance(machine, ScrollMachine):
+        yield FieldProblem(("kind",), "only a scroll machine has anti-rotation pins")
+    elif not isinstance(machine.anti_rotation, CrankPins):
+        yield FieldProblem(("anti_rotation", "type"), "only crank pins have pin loads")
+    elif machine.rotation_torque_Nm is None and machine.tangential_gas_force_N is None:
+        yield FieldProblem(("rotation_torque_Nm",), "pin loads need the torque or the tangential gas force")
+    else:
+        try:
+            _question(machine, machine.anti_rotation, Angles(step_deg=120.0))
+        except ValidationError as error:
+            # the one range of a scroll machine that is wider than that of the pins
+            yield FieldProblem(("orbit_radius_m",), error.errors()[0]["msg"])
+
+
+def _pin_loads(context: Context) -> PinLoadsAnswer:
+    machine = context.machine
+    assert isinstance(machine, ScrollMachine)  # checked by the problems
+    assert isinstance(machine.anti_rotation, CrankPins)
+    if machine.anti_rotation.count * context.angle.size > MAX_LOADS:
+        path = ("angles", "step_deg")
+        raise MissingInput([FieldProblem(path, f"pins times samples must be at most {MAX_LOADS}")])
+    step = 360.0 / context.angle.size
+    return pin_loads(_question(machine, machine.anti_rotation, Angles(step_deg=step)))
+
+
+SCROLL = (
+    Effect(
+        "pin_loads",
+        "loads of the anti-rotation pins",
+        _pin_loads,
+        inputs=("machine.anti_rotation", "machine.rotation_torque_Nm", "machine.tangential_gas_force_N"),
+        problems=_problems,
+    ),
+)

@@ -1,0 +1,229 @@
+"""Loads of the anti-rotation pins of a scroll: what is asked, and what is answered. Seed 003, equations (1) to (3).
+
+Shaft angle 0 is where the eccentric points along angle 0 of the pin circle (pin 1 of even pins); angles grow in
+the direction of rotation. A load is the force of a pin on the orbiting scroll, positive along the eccentric.
+"""
+
+from collections.abc import Iterator
+from math import cos, dist, radians, sin
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
+from schemas.quantities import Angle, Count, Degrees, Joules, NewtonMetres, Newtons
+from schemas.requests import Angles
+from schemas.units import Unit, between, non_negative, symmetric
+
+MAX_PINS = 1000
+MAX_PINS_GIVEN = 200
+MAX_LOADS = 1_000_000
+MAX_LOADS_WITH_CLEARANCE = 50_000
+
+# the ranges keep every product and quotient of them far inside the floating-point numbers
+Stiffness = Annotated[float, between(1e-6, 1e18), Unit("N/m")]
+Clearance = Annotated[float, non_negative(1.0), Unit("m")]
+EccentricityError = Annotated[float, symmetric(1.0), Unit("m")]
+_TORQUE_EXAMPLE = {"angle_deg": [0, 120, 240], "torque_Nm": [12, 15, 13]}
+
+
+class Pin(Model):
+    """One anti-rotation pin, a small crank between frame and orbiting scroll."""
+
+    angle_deg: Angle = Field(
+        description="where the pin sits, ahead of angle 0 in the sense of rotation", examples=[120]
+    )
+    radius_m: PinRadius = Field(description="distance of the pin from the centre of its scroll", examples=[0.05])
+    stiffness_N_per_m: Annotated[Stiffness | None, Unit("N/m")] = Field(
+        None, description="stiffness of the pin with its bearings; null in every pin takes equal ones", examples=[2e7]
+    )
+    clearance_m: Clearance = Field(
+        0.0, description="play of the pin along the eccentric before it bears, to either side", examples=[1e-5]
+    )
+    eccentricity_error_m: EccentricityError = Field(
+        0.0, description="eccentricity of this pin less that of the shaft", examples=[5e-6]
+    )
+
+
+class PinLoadsRequest(Model):
+    """What do the anti-rotation pins carry over a turn?"""
+
+    pin_count: Annotated[Count, between(1, MAX_PINS)] | None = Field(
+        None, description="number of evenly spaced pins, the first at angle 0", examples=[3]
+    )
+    pin_circle_radius_m: Annotated[PinRadius | None, Unit("m")] = Field(
+        None, description="radius of the circle through evenly spaced pins", examples=[0.05]
+    )
+    pins: Annotated[tuple[Pin, ...], NotEmpty()] | None = Field(
+        None,
+        max_length=MAX_PINS_GIVEN,
+        description="any pattern of pins, in place of evenly spaced ones",
+        examples=[[{"angle_deg": angle, "radius_m": 0.05} for angle in (0, 110, 250)]],
+    )
+    rotation_torque_Nm: TorqueOverTurn | None = Field(
+        None,
+        description="torque that turns the orbiting scroll about itself, constant or over one turn",
+        examples=[12.5, _TORQUE_EXAMPLE],
+    )
+    tangential_gas_force_N: ForceOverTurn | None = Field(
+        None,
+        description="tangential gas force on the orbiting scroll, constant or over one turn, "
+        "in place of the torque that it causes",
+        examples=[5000.0, {"angle_deg": [0, 120, 240], "force_N": [4000, 5000, 4300]}],
+    )
+    orbit_radius_m: Annotated[PinRadius | None, Unit("m")] = Field(
+        None, description="radius of the orbit, the lever of the tangential gas force", examples=[0.005]
+    )
+    angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
+
+    @model_validator(mode="after")
+    def _check(self) -> "PinLoadsRequest":
+        raise_problems([*self._pattern_problems(), *self._pin_problems(), *self._cause_problems()])
+        return self
+
+    @property
+    def count(self) -> int:
+        """Number of pins, however they are given."""
+        return len(self.pins) if self.pins is not None else self.pin_count or 0
+
+    @property
+    def has_clearance(self) -> bool:
+        """Some pin has play or an error, so that not every pin bears at every angle."""
+        return any(pin.clearance_m > 0 or pin.eccentricity_error_m != 0 for pin in self.pins or ())
+
+    def _pattern_problems(self) -> Iterator[FieldProblem]:
+        if (self.pin_count is None) == (self.pins is None):
+            yield FieldProblem(("pin_count",), "give either the number of evenly spaced pins or the pins")
+        elif self.pin_count is not None and self.pin_circle_radius_m is None:
+            yield FieldProblem(("pin_circle_radius_m",), "evenly spaced pins need the radius of their circle")
+        if self.pins is not None and self.pin_circle_radius_m is not None:
+            yield FieldProblem(("pin_circle_radius_m",), "every pin has its own radius")
+        most = MAX_LOADS_WITH_CLEARANCE if self.has_clearance else MAX_LOADS
+        if self.count * self.angles.count > most:
+            yield FieldProblem(("angles", "step_deg"), f"pins times samples must be at most {most}")
+
+    def _pin_problems(self) -> Iterator[FieldProblem]:
+        pins = self.pins or ()
+        given = any(pin.stiffness_N_per_m is not None for pin in pins)
+        places = [_place(pin.radius_m, radians(pin.angle_deg % 360.0)) for pin in pins]
+        for index, pin in enumerate(pins):
+            if pin.stiffness_N_per_m is None and (given or self.has_clearance):
+                why = "every pin needs one" if given else "clearances and errors need the stiffness of every pin"
+                yield FieldProblem(("pins", index, "stiffness_N_per_m"), why)
+            # nearer than this no arithmetic tells them apart
+            if any(dist(places[index], other) <= 1e-9 * pin.radius_m for other in places[:index]):
+                yield FieldProblem(("pins", index, "angle_deg"), "another pin is in this place")
+
+    def _cause_problems(self) -> Iterator[FieldProblem]:
+        if (self.rotation_torque_Nm is None) == (self.tangential_gas_force_N is None):
+            yield FieldProblem(("rotation_torque_Nm",), "give either the rotation torque or the tangential gas force")
+        if self.tangential_gas_force_N is not None and self.orbit_radius_m is None:
+            yield FieldProblem(("orbit_radius_m",), "the tangential gas force needs the radius of the orbit")
+        if self.tangential_gas_force_N is None and self.orbit_radius_m is not None:
+            yield FieldProblem(("orbit_radius_m",), "serves only with a tangential gas force")
+
+
+def _place(radius: float, angle: float) -> tuple[float, float]:
+    return radius * cos(angle), radius * sin(angle)
+
+
+class PinLoad(Model):
+    """Load of one pin. Along its small crank: compression where it is positive, tension where it is negative."""
+
+    index: int = Field(description="number of the pin, from 1", examples=[1])
+    phase_deg: Degrees = Field(description="where the pin sits, in [0, 360)", examples=[0.0])
+    load_N: tuple[Newtons | None, ...] = Field(
+        description="force on the scroll, positive along the eccentric; null at a dead point", examples=[[0.0, 2.91]]
+    )
+    peak_N: Newtons | None = Field(
+        description="largest magnitude over the turn, between the samples too; null where a dead point has no bound",
+        examples=[166.67],
+    )
+    peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[90.0])
+    compression_from_deg: Degrees | None = Field(
+        description="where the pin's compression begins; null if torque or contact do not leave half a turn of it",
+        examples=[0.0],
+    )
+    compression_to_deg: Degrees | None = Field(description="where its compression ends", examples=[180.0])
+    tension_from_deg: Degrees | None = Field(description="where its tension begins", examples=[180.0])
+    tension_to_deg: Degrees | None = Field(description="where its tension ends", examples=[0.0])
+    carries_load: tuple[bool, ...] | None = Field(
+        description="whether the pin bears, at every sample; null without clearances and errors", examples=[None]
+    )
+
+
+class PinEquilibrium(Model):
+    """Do the loads hold the scroll at every instant?"""
+
+    holds: bool = Field(description="moment and net force are in balance at every angle", examples=[True])
+    max_moment_error_Nm: NewtonMetres = Field(
+        description="largest difference of the pins' moment from the torque; at a dead point the torque itself",
+        examples=[0.0],
+    )
+    max_net_force_N: Newtons = Field(description="largest sum of the loads", examples=[0.0])
+    reason: str | None = Field(description="why it does not hold", examples=[None])
+
+
+class DegreesOfFreedom(Model):
+    """Gruebler's count F = 3 n - (2 P_l + P_h - P') - F' of the mechanism (seed 003, section 1)."""
+
+    moving_links: int = Field(description="n: shaft, orbiting scroll and the small cranks", examples=[5])
+    lower_pairs: int = Field(description="P_l: turning pairs", examples=[8])
+    higher_pairs: int = Field(description="P_h", examples=[0])
+    virtual_constraints: int = Field(description="P': constraints that only repeat others", examples=[2])
+    local_freedoms: int = Field(description="F'", examples=[0])
+    degrees_of_freedom: int = Field(description="F", examples=[1])
+
+
+class PinContact(Model):
+    """Which pins bear, with clearances and errors of eccentricity."""
+
+    fewest_pins: int = Field(description="fewest pins that carry load at a sample", examples=[2])
+    most_pins: int = Field(description="most pins that carry load at a sample", examples=[3])
+    scroll_rotation_deg: tuple[Degrees | None, ...] = Field(
+        description="turn of the orbiting scroll about itself; null at a dead point", examples=[[0.002]]
+    )
+    load_error_bound_N: Newtons = Field(
+        description="certified: no load at a sample is further than this from the exact one", examples=[1e-9]
+    )
+    gap_J: Joules = Field(description="largest gap between strain energy and its dual at a sample", examples=[1e-20])
+
+
+class PinWarning(Model):
+    """Something to know about the answer."""
+
+    code: Literal["too_few_pins", "dead_points", "not_converged"] = Field(
+        description="what it is about", examples=["too_few_pins"]
+    )
+    message: str = Field(description="the same in a sentence", examples=["at least 3 pins are needed"])
+
+
+class PinLoadsAnswer(Model):
+    """Loads of the anti-rotation pins over one turn."""
+
+    angle_deg: tuple[Degrees, ...] = Field(
+        description="shaft angles of the samples, the end point not repeated", examples=[[0.0, 1.0]]
+    )
+    rotation_torque_Nm: tuple[NewtonMetres, ...] = Field(description="rotation torque used", examples=[[12.5, 12.5]])
+    orbiting_resistance_torque_Nm: tuple[NewtonMetres, ...] | None = Field(
+        description="torque that the motor overcomes; null unless the tangential gas force is given", examples=[None]
+    )
+    pins: tuple[PinLoad, ...] = Field(description="the pins", examples=[[{"index": 1, "phase_deg": 0}]])
+    peak_N: Newtons | None = Field(
+        description="largest load of any pin; null where a dead point has no bound", examples=[166.67]
+    )
+    half_turn_mechanism_peak_N: Newtons = Field(
+        description="the same for a mechanism whose members bear for half a turn only, 4 T / (n R) "
+        "at the largest torque and the mean radius",
+        examples=[333.33],
+    )
+    equilibrium: PinEquilibrium = Field(description="balance of the loads", examples=[{"holds": True}])
+    dead_points_deg: tuple[Degrees, ...] = Field(
+        description="shaft angles at which the pins hold no torque", examples=[[]]
+    )
+    mechanism: DegreesOfFreedom = Field(description="the mechanism's freedom", examples=[{"degrees_of_freedom": 1}])
+    contact: PinContact | None = Field(
+        description="which pins bear; null without clearances and errors", examples=[None]
+    )
+    warnings: tuple[PinWarning, ...] = Field(description="things to know", examples=[[]])
