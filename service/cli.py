@@ -1,6 +1,6 @@
 """The command line ``counterweight``: the service without a server, on the same JSON.
 
-Exit codes: 0 optimal, 1 infeasible or inaccurate, 2 bad input. The optimiser and the server are imported by
+Exit codes: 0 optimal or computed, 1 infeasible or inaccurate, 2 bad input. The optimiser and the server are imported by
 the commands that need them, so that ``--help`` answers at once.
 """
 
@@ -76,6 +76,35 @@ def analyze(file: File, as_json: AsJson = False, output: Outputs = None) -> None
 
 
 @app.command()
+def rating(file: File, as_json: AsJson = False) -> None:
+    """Size the cylinders of a compressor, and say what they deliver and need."""
+    from optimizer.rating.rate import rate
+    from schemas.rating import RatingRequest
+
+    request = _question(RatingRequest, file)
+    answer = _answer(rate, request)
+    if as_json:
+        _print(answer.model_dump_json())
+    else:
+        from service.rating_tables import rating_report
+
+        _show(rating_report(request.name or "compressor", answer))
+
+
+@app.command()
+def effects(as_json: AsJson = False) -> None:
+    """List what can be asked for, and what is simulated and read for it."""
+    from optimizer.effects.catalogue import catalogue
+
+    if as_json:
+        _print(catalogue().model_dump_json())
+    else:
+        from service.tables import effects_report
+
+        _show(effects_report(catalogue()))
+
+
+@app.command()
 def examples(
     name: Annotated[str | None, typer.Argument(metavar="NAME", help="Print this one, ready for optimize.")] = None,
     as_json: AsJson = False,
@@ -138,7 +167,7 @@ def serve(
     run(settings, socket)
 
 
-def _question(model: "type[Question]", file: str, outputs: Sequence[str] | None) -> "Question":
+def _question(model: "type[Question]", file: str, outputs: Sequence[str] | None = None) -> "Question":
     """The request in a file, with other outputs if they were given."""
     from service.validation import InvalidRequest, UnreadableJson, check, read_json
 
@@ -166,10 +195,11 @@ def _read(file: str) -> bytes:
 
 def _answer(compute: "Callable[[Question], Answer]", question: "Question") -> "Answer":
     from optimizer.errors import MissingInput
+    from optimizer.rating.errors import OutOfRange
 
     try:
         return compute(question)
-    except MissingInput as error:
+    except (MissingInput, OutOfRange) as error:
         _fail_fields(error.problems)
 
 

@@ -30,7 +30,7 @@ class Computing:
 
         Raises
         ------
-        NotReady, UnsupportedMedia, BodyTooLarge, UnreadableJson, InvalidRequest, MissingInput
+        NotReady, UnsupportedMedia, BodyTooLarge, UnreadableJson, InvalidRequest, MissingInput, OutOfRange
             all of which have a row in the table of :mod:`service.errors`.
         """
         self._readiness.require()

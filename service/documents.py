@@ -6,7 +6,9 @@ from typing import Any, Literal
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.base import Model
+from schemas.effects import EffectCatalogue
 from schemas.problem import Problem
+from schemas.rating import RatingAnswer, RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 
 
@@ -27,5 +29,8 @@ DOCUMENTS: Mapping[str, Document] = {
     "optimize-answer": Document(OptimizeAnswer, "serialization", "answer of /v1/optimize"),
     "analyze": Document(AnalyzeRequest, "validation", "request of /v1/analyze"),
     "analyze-answer": Document(AnalyzeAnswer, "serialization", "answer of /v1/analyze"),
+    "rating": Document(RatingRequest, "validation", "request of /v1/rating"),
+    "rating-answer": Document(RatingAnswer, "serialization", "answer of /v1/rating"),
+    "effects": Document(EffectCatalogue, "serialization", "answer of /v1/effects"),
     "problem": Document(Problem, "serialization", "what any error is answered with"),
 }

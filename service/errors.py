@@ -13,6 +13,7 @@ from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 
 from optimizer.errors import MissingInput
+from optimizer.rating.errors import OutOfRange
 from schemas.base import FieldProblem
 from schemas.problem import FieldError, Problem
 from service.examples import UnknownExample
@@ -47,8 +48,8 @@ def _invalid(error: InvalidRequest) -> Fault:
     return _fields("Invalid request", error.problems, error.more)
 
 
-def _missing(error: MissingInput) -> Fault:
-    return _fields("Missing input", error.problems[:MAX_ERRORS], len(error.problems) > MAX_ERRORS)
+def _not_computable(title: str) -> Callable[[MissingInput | OutOfRange], Fault]:
+    return lambda error: _fields(title, error.problems[:MAX_ERRORS], len(error.problems) > MAX_ERRORS)
 
 
 def _parameters(error: RequestValidationError) -> Fault:
@@ -84,7 +85,8 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     BodyTooLarge: _fixed(413, "Body too large"),
     UnsupportedMedia: _fixed(415, "Unsupported media type"),
     InvalidRequest: _invalid,
-    MissingInput: _missing,
+    MissingInput: _not_computable("Missing input"),
+    OutOfRange: _not_computable("Out of range"),
     RequestValidationError: _parameters,
     NotReady: _not_ready,
     HTTPException: _http,

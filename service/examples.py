@@ -1,8 +1,9 @@
-"""The machines that come with the service, each an optimisation request one can post."""
+"""The machines that come with the service, each an optimisation request one can post; in folders, other requests."""
 
 import json
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from pydantic import Field
 
@@ -61,6 +62,11 @@ def load(name: str) -> bytes:
     if name not in names():
         raise UnknownExample(name)
     return (directory() / f"{name}.json").read_bytes()
+
+
+def bodies(folder: str = "") -> dict[str, Any]:
+    """The example bodies by name: of a folder, or the machines beside the folders."""
+    return {path.stem: json.loads(path.read_bytes()) for path in sorted((directory() / folder).glob("*.json"))}
 
 
 def catalogue(root_path: str = "") -> Examples:

@@ -4,7 +4,6 @@ Bodies are read by :mod:`service.computing` and errors are written by :mod:`serv
 schemas are added here.
 """
 
-import json
 from typing import Any
 
 from fastapi import FastAPI
@@ -12,9 +11,10 @@ from pydantic.json_schema import models_json_schema
 
 from schemas.base import Model
 from schemas.problem import Problem
+from schemas.rating import RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.errors import PROBLEM_JSON
-from service.examples import load, names
+from service.examples import bodies
 
 #: statuses that every computing route may answer with
 COMPUTE_PROBLEMS = (400, 413, 415, 422, 503)
@@ -38,9 +38,9 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     return {status: {"description": _DESCRIPTIONS[status], "content": content} for status in listed}
 
 
-def request_body(model: type[Model]) -> dict[str, Any]:
-    """The body of a computing route, with the examples that fit it."""
-    content = {"schema": _ref(model), "examples": _examples(model)}
+def request_body(model: type[Model], folder: str = "") -> dict[str, Any]:
+    """The body of a computing route, with the examples of a folder."""
+    content = {"schema": _ref(model), "examples": _examples(model, folder)}
     return {"requestBody": {"required": True, "content": {"application/json": content}}}
 
 
@@ -58,8 +58,9 @@ class Documented(FastAPI):
         known = document["components"]["schemas"]
         # the framework keeps the document and makes a new one when routes are added
         if Problem.__name__ not in known:
-            models: list[type[Model]] = [OptimizeRequest, AnalyzeRequest, Problem]
+            models: list[type[Model]] = [OptimizeRequest, AnalyzeRequest, RatingRequest, Problem]
             _, schemas = models_json_schema([(model, "validation") for model in models], ref_template=_REF)
+            # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
             known |= schemas["$defs"]
         return document
 
@@ -68,12 +69,11 @@ def _ref(model: type[Model]) -> dict[str, str]:
     return {"$ref": _REF.format(model=model.__name__)}
 
 
-def _examples(model: type[Model]) -> dict[str, Any]:
-    bodies = {name: json.loads(load(name)) for name in names()}
+def _examples(model: type[Model], folder: str) -> dict[str, Any]:
     return {
         name: {
-            "summary": body["machine"].get("name", name),
+            "summary": body.get("machine", body).get("name", name),
             "value": {key: value for key, value in body.items() if key in model.model_fields},
         }
-        for name, body in bodies.items()
+        for name, body in bodies(folder).items()
     }

@@ -3,12 +3,16 @@
 import json
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pytest
 
+from optimizer.analyze import analyze
+from optimizer.effects.catalogue import catalogue
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from optimizer.rating.rate import rate
+from schemas.rating import RatingRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
 
 ROOT = Path(__file__).parents[2]
 
@@ -48,6 +52,36 @@ def test_the_request_and_the_infeasible_answer_in_the_api_by_example() -> None:
     found = optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json")
     infeasible["infeasibility"].pop("closest")  # abbreviated
     agrees(infeasible, found)
+
+
+def after(heading: str) -> list[Any]:
+    """Blocks of one section of the API by example."""
+    section = (ROOT / "docs/api.md").read_text().split(f"\n## {heading}\n")[1].split("\n## ")[0]
+    return [json.loads(block) for block in re.findall(r"```json\n(.*?)```", section, re.DOTALL)]
+
+
+def test_the_machine_with_gas_in_the_api_by_example() -> None:
+    _, request, shown = after("POST /v1/analyze")
+    agrees(shown, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_rating_in_the_api_by_example() -> None:
+    request, shown = after("POST /v1/rating")
+    agrees(shown, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_effects_in_the_api_by_example() -> None:
+    (shown,) = after("GET /v1/effects")
+    found = catalogue().model_dump(mode="json")
+    for key, entries in shown.items():
+        by_name = {one["name"]: one for one in found[key]}
+        for one in entries:
+            agrees(one, by_name[one["name"]])
+
+
+def test_the_table_of_outputs_is_complete() -> None:
+    listed = re.findall(r"^\| `(\w+)` \|", (ROOT / "docs/api.md").read_text(), re.MULTILINE)
+    assert listed == list(get_args(Output))
 
 
 @pytest.mark.parametrize("document", ["README.md", *(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))])

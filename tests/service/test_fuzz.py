@@ -2,20 +2,31 @@
 
 import copy
 import json
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Mapping
+from typing import Any, get_args
 
 from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from starlette.testclient import TestClient
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.base import Model
 from schemas.problem import Problem
-from service.examples import load, names
+from schemas.rating import RatingAnswer
+from schemas.requests import Output
+from service.examples import bodies
+from tests.service.test_dynamics import OVER_THE_TURN
 
-BODIES = {name: json.loads(load(name)) for name in names()}
-ANSWERS = {"/v1/optimize": OptimizeAnswer, "/v1/analyze": AnalyzeAnswer}
-OUTPUTS = ["residual", "hodograph", "orders", "stages"]
+MACHINES = bodies()
+BODIES: dict[str, dict[str, Any]] = {"/v1/optimize": MACHINES, "/v1/analyze": MACHINES, "/v1/rating": bodies("rating")}
+ANSWERS: Mapping[str, type[Model]] = {
+    "/v1/optimize": OptimizeAnswer,
+    "/v1/analyze": AnalyzeAnswer,
+    "/v1/rating": RatingAnswer,
+}
+OUTPUTS = get_args(Output)
+RECIPROCATING = sorted(name for name, body in MACHINES.items() if body["machine"]["kind"] == "reciprocating")
+FIRST_ORDER = ["residual", "hodograph", "orders", "stages"]
 
 #: numbers at and beyond the edges of what the fields take
 NUMBERS = st.one_of(
@@ -44,12 +55,14 @@ def places(node: Any, path: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
 
 
 @st.composite
-def mutated(draw: st.DrawFn) -> dict[str, Any]:
-    """A valid request with up to three places changed, removed, doubled or added."""
-    body = copy.deepcopy(BODIES[draw(st.sampled_from(sorted(BODIES)))])
-    body.setdefault("objective", {"force_ceiling_N": 5000, "direction_weights": {"x": 1, "y": 1}})
-    body.setdefault("outputs", ["residual"])
-    body.setdefault("angles", {"step_deg": 30})
+def mutated(draw: st.DrawFn) -> tuple[str, dict[str, Any]]:
+    """A route, and a valid request to it with up to three places changed, removed, doubled or added."""
+    route = draw(st.sampled_from(sorted(BODIES)))
+    body = copy.deepcopy(BODIES[route][draw(st.sampled_from(sorted(BODIES[route])))])
+    if "machine" in body:
+        body.setdefault("objective", {"force_ceiling_N": 5000, "direction_weights": {"x": 1, "y": 1}})
+        body.setdefault("outputs", draw(st.lists(st.sampled_from(OUTPUTS), min_size=1, max_size=3)))
+        body.setdefault("angles", {"step_deg": 30})
     for _ in range(draw(st.integers(1, 3))):
         path = draw(st.sampled_from(places(body)))
         node: Any = body
@@ -69,22 +82,86 @@ def mutated(draw: st.DrawFn) -> dict[str, Any]:
             node.insert(last, copy.deepcopy(node[last]))
         else:
             node[draw(TEXTS)] = draw(VALUES)
-    return body
+    return route, body
 
 
 @st.composite
 def extreme(draw: st.DrawFn) -> dict[str, Any]:
     """A valid machine with very large and very small units, and one number out of proportion."""
-    body = copy.deepcopy(BODIES[draw(st.sampled_from(sorted(BODIES)))])
+    body = copy.deepcopy(MACHINES[draw(st.sampled_from(sorted(MACHINES)))])
     powers = {"m": st.integers(-10, 8), "kg": st.integers(-300, 11), "rpm": st.integers(-11, 5)}
     factors = {unit: 10.0 ** draw(st.one_of(st.just(0), power)) for unit, power in powers.items()}
     body["machine"] = scaled(body["machine"], lambda name: factors.get(name.rpartition("_")[2], 1.0))
-    body |= {"outputs": OUTPUTS, "angles": {"step_deg": 60}}
+    body |= {"outputs": FIRST_ORDER, "angles": {"step_deg": 60}}
     path = draw(st.sampled_from(places(body["machine"]["webs"])))
     node: Any = body["machine"]["webs"]
     for key in path[:-1]:
         node = node[key]
     node[path[-1]] = scaled(node[path[-1]], lambda _: 10.0 ** draw(st.integers(-300, 9)))
+    return body
+
+
+CYLINDER = MACHINES["2d12"]["machine"]["throws"][0]["rows"][0]["cylinder"]
+CYLINDERS = [
+    CYLINDER,
+    CYLINDER | {"acting": "head", "ambient_pressure_Pa": 101325},
+    CYLINDER | {"acting": "crank", "ambient_pressure_Pa": 0},
+    CYLINDER | {"head": {"relative_clearance": 0.3}, "crank": {"discharge_pressure_Pa": 900000}},
+    CYLINDER | {"suction_pressure_Pa": 852000},
+]
+FRICTION: list[Any] = [
+    None,
+    {"mechanical_efficiency": 0.94},
+    {"mechanical_efficiency": 0.01, "reciprocating_share": 1},
+    {"rotating_torque_Nm": 400},
+]
+
+
+@st.composite
+def driven(draw: st.DrawFn) -> dict[str, Any]:
+    """A machine with gas, friction and bearings in large and small units, and some numbers out of proportion."""
+    body = copy.deepcopy(MACHINES[draw(st.sampled_from(RECIPROCATING))])
+    machine = body["machine"]
+    for throw in machine["throws"]:
+        throw["crank_radius_m"] = 0.14
+        for row in throw["rows"]:
+            row["connecting_rod"] = {"length_m": draw(st.sampled_from([0.7, 0.1401, 1e6, None])), "mass_kg": 80}
+            row["cylinder"] = copy.deepcopy(draw(st.sampled_from(CYLINDERS)))
+    planes = draw(st.lists(st.integers(-9, 9), min_size=2, max_size=5, unique=True))
+    machine["bearings"] = [{"name": str(plane), "position_m": plane / 10} for plane in planes]
+    machine["friction"] = draw(st.sampled_from(FRICTION))
+    machine["flywheel"] = draw(st.sampled_from([{"irregularity": 0.01}, {"inertia_kg_m2": 1000}]))
+    powers = {"m": (-9, 8), "kg": (-100, 11), "rpm": (-11, 5), "Pa": (-7, 5)}
+    factors = {unit: 10.0 ** draw(st.one_of(st.just(0), st.integers(*power))) for unit, power in powers.items()}
+    body["machine"] = scaled(machine, lambda name: factors.get(name.rpartition("_")[2], 1.0))
+    for _ in range(draw(st.integers(0, 2))):
+        tweak(draw, body["machine"])
+    asked = draw(st.lists(st.sampled_from([*FIRST_ORDER, *OVER_THE_TURN]), min_size=1, unique=True))
+    shaft = draw(st.sampled_from(["simple_spans", "continuous"]))
+    return body | {"outputs": asked, "angles": {"step_deg": 60}, "fidelity": {"shaft": shaft}}
+
+
+@st.composite
+def out_of_proportion(draw: st.DrawFn) -> dict[str, Any]:
+    """A compressor to be rated, with numbers that do not go together."""
+    body = copy.deepcopy(BODIES["/v1/rating"][draw(st.sampled_from(sorted(BODIES["/v1/rating"])))])
+    body["suction_pressure_Pa"], body["discharge_pressure_Pa"], body["stroke_m"] = 3e5, 2.1e6, 0.28
+    for _ in range(draw(st.integers(1, 3))):
+        tweak(draw, body)
+    return body
+
+
+def tweak(draw: st.DrawFn, body: dict[str, Any]) -> None:
+    """Scale one number, mostly by so little that the body stays valid, and sometimes by very much."""
+    path = draw(st.sampled_from([place for place in places(body) if isinstance(at(body, place), (int, float))]))
+    factor = draw(st.one_of(st.floats(0.5, 2), st.integers(-12, 12).map(lambda power: 10.0**power)))
+    at(body, path[:-1])[path[-1]] = scaled(at(body, path), lambda _: factor)
+
+
+def at(body: Any, path: tuple[Any, ...]) -> Any:
+    """What stands at a path."""
+    for key in path:
+        body = body[key]
     return body
 
 
@@ -121,15 +198,28 @@ MANY = settings(max_examples=300, suppress_health_check=[HealthCheck.function_sc
 
 
 @MANY
-@given(body=mutated(), path=st.sampled_from(sorted(ANSWERS)))
-def test_changed_requests(client: TestClient, body: dict[str, Any], path: str) -> None:
+@given(asked=mutated())
+def test_changed_requests(client: TestClient, asked: tuple[str, dict[str, Any]]) -> None:
+    path, body = asked
     answered_properly(client, path, question(path, body))
 
 
 @MANY
-@given(body=extreme(), path=st.sampled_from(sorted(ANSWERS)))
+@given(body=extreme(), path=st.sampled_from(["/v1/analyze", "/v1/optimize"]))
 def test_extreme_machines(client: TestClient, body: dict[str, Any], path: str) -> None:
     answered_properly(client, path, question(path, body))
+
+
+@MANY
+@given(body=driven(), path=st.sampled_from(["/v1/analyze", "/v1/analyze", "/v1/optimize"]))
+def test_extreme_compressors(client: TestClient, body: dict[str, Any], path: str) -> None:
+    answered_properly(client, path, question(path, body))
+
+
+@MANY
+@given(body=out_of_proportion())
+def test_extreme_ratings(client: TestClient, body: dict[str, Any]) -> None:
+    answered_properly(client, "/v1/rating", json.dumps(body).encode())
 
 
 @MANY

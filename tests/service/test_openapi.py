@@ -13,12 +13,14 @@ from service.settings import Settings
 OPERATIONS = {
     ("post", "/v1/optimize"): "optimize",
     ("post", "/v1/analyze"): "analyze",
+    ("post", "/v1/rating"): "rating",
+    ("get", "/v1/effects"): "list_effects",
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
     ("get", "/healthz"): "healthz",
     ("get", "/readyz"): "readyz",
 }
-PHYSICAL = re.compile(r"_(m|m2|kg|kg_m|kg_m2|deg|rpm|N|Nm|Pa|W|J|ms)$")
+PHYSICAL = re.compile(r"_(m|m2|m3|m3_per_min|m_s|m_s2|kg|kg_m|kg_m2|deg|rpm|N|Nm|Pa|K|W|J|ms)$")
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +54,8 @@ def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
     [
         ("/v1/optimize", {"200", "400", "413", "415", "422", "503", "default"}),
         ("/v1/analyze", {"200", "400", "413", "415", "422", "503", "default"}),
+        ("/v1/rating", {"200", "400", "413", "415", "422", "503", "default"}),
+        ("/v1/effects", {"200", "default"}),
         ("/v1/examples", {"200", "default"}),
         ("/v1/examples/{name}", {"200", "404", "default"}),
         ("/healthz", {"200", "default"}),
@@ -69,7 +73,7 @@ def test_errors_are_problems(document: dict[str, Any], path: str, statuses: set[
 
 
 def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
-    for path, name in (("/v1/optimize", "Optimize"), ("/v1/analyze", "Analyze")):
+    for path, name in (("/v1/optimize", "Optimize"), ("/v1/analyze", "Analyze"), ("/v1/rating", "Rating")):
         operation = document["paths"][path]["post"]
         body = operation["requestBody"]["content"]["application/json"]
         assert operation["requestBody"]["required"]
@@ -102,14 +106,28 @@ def test_every_field_is_described_with_examples_and_its_unit(document: dict[str,
             assert PHYSICAL.search(name) is None or "x-unit" in str(field), (model, name)
 
 
-@pytest.mark.parametrize("path", ["/v1/optimize", "/v1/analyze"])
-def test_the_examples_of_bodies_are_valid(document: dict[str, Any], path: str) -> None:
+@pytest.mark.parametrize(("path", "least"), [("/v1/optimize", 11), ("/v1/analyze", 11), ("/v1/rating", 2)])
+def test_the_examples_of_bodies_are_valid(document: dict[str, Any], path: str, least: int) -> None:
     body = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]
     validator = Draft202012Validator({**body["schema"], "components": document["components"]})
-    assert len(body["examples"]) > 10
+    assert len(body["examples"]) >= least
     for example in body["examples"].values():
         assert example["summary"]
         validator.validate(example["value"])
+
+
+@pytest.mark.parametrize(
+    ("path", "more"),
+    [("/v1/rating", {}), ("/v1/analyze", {"outputs": ["gas", "torque", "flywheel", "main_bearings"]})],
+)
+def test_an_answer_is_as_the_document_says(
+    document: dict[str, Any], client: TestClient, path: str, more: dict[str, Any]
+) -> None:
+    operation = document["paths"][path]["post"]
+    body = operation["requestBody"]["content"]["application/json"]["examples"]["2d12"]["value"] | more
+    schema = operation["responses"]["200"]["content"]["application/json"]["schema"]
+    validator = Draft202012Validator({**schema, "components": document["components"]})
+    validator.validate(client.post(path, json=body).json())
 
 
 def test_the_prefix_of_a_proxy_is_told() -> None:

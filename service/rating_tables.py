@@ -1,0 +1,77 @@
+"""The thermal design of a compressor as readable tables: the stages side by side, the totals, the warnings."""
+
+from collections.abc import Callable, Iterator
+
+from rich.console import Group, RenderableType
+from rich.table import Table
+from rich.text import Text
+
+from schemas.rating import RatingAnswer, StageRating
+from service.cells import Cell, add, table
+
+Figure = Callable[[StageRating], Cell]
+
+_FIGURES: tuple[tuple[str, str, Figure], ...] = (
+    ("cylinders", "", lambda one: one.cylinders),
+    ("suction pressure, Pa", "nominal", lambda one: one.nominal.suction_pressure_Pa),
+    ("", "corrected", lambda one: one.corrected.suction_pressure_Pa),
+    ("", "in cylinder", lambda one: one.in_cylinder.suction_pressure_Pa),
+    ("discharge pressure, Pa", "nominal", lambda one: one.nominal.discharge_pressure_Pa),
+    ("", "corrected", lambda one: one.corrected.discharge_pressure_Pa),
+    ("", "in cylinder", lambda one: one.in_cylinder.discharge_pressure_Pa),
+    ("pressure ratio", "nominal", lambda one: one.nominal.pressure_ratio),
+    ("", "in cylinder", lambda one: one.in_cylinder.pressure_ratio),
+    ("pressure losses", "suction", lambda one: one.losses.suction),
+    ("", "discharge", lambda one: one.losses.discharge),
+    ("discharge temperature, K", "nominal", lambda one: one.nominal.discharge_temperature_K),
+    ("", "in cylinder", lambda one: one.in_cylinder.discharge_temperature_K),
+    ("volumetric coefficient", "design", lambda one: one.design_coefficients.volumetric),
+    ("", "actual", lambda one: one.actual_coefficients.volumetric),
+    ("pressure coefficient", "", lambda one: one.actual_coefficients.pressure),
+    ("temperature coefficient", "", lambda one: one.actual_coefficients.temperature),
+    ("leakage coefficient", "", lambda one: one.actual_coefficients.leakage),
+    ("condensate coefficient", "", lambda one: one.condensate_coefficient),
+    ("delivery coefficient", "design", lambda one: one.design_coefficients.delivery),
+    ("", "actual", lambda one: one.actual_coefficients.delivery),
+    ("swept volume, m3", "calculated", lambda one: one.calculated.swept_volume_m3),
+    ("", "actual", lambda one: one.actual.swept_volume_m3),
+    ("bore, m", "calculated", lambda one: one.calculated.bore_m),
+    ("", "actual", lambda one: one.actual.bore_m),
+    ("gas load at outer dead centre, N", "nominal", lambda one: one.nominal_loads.outer.gas_force_N),
+    ("", "in cylinder", lambda one: one.actual_loads.outer.gas_force_N),
+    ("gas load at inner dead centre, N", "nominal", lambda one: one.nominal_loads.inner.gas_force_N),
+    ("", "in cylinder", lambda one: one.actual_loads.inner.gas_force_N),
+    ("indicated power, W", "", lambda one: one.indicated_power_W),
+)
+
+
+def rating_report(title: str, answer: RatingAnswer) -> Group:
+    """Stages, totals and warnings."""
+    return Group(Text(title), _stages(answer), _totals(answer), *_warnings(answer))
+
+
+def _stages(answer: RatingAnswer) -> Table:
+    names = (one.name or str(place) for place, one in enumerate(answer.stages, 1))
+    found = table("stages", "", "", *names)
+    for name, level, figure in _FIGURES:
+        add(found, name, level, *map(figure, answer.stages))
+    return found
+
+
+def _totals(answer: RatingAnswer) -> Table:
+    found = table("machine", "", "value")
+    add(found, "pressure ratio", answer.total_pressure_ratio)
+    add(found, "mean piston speed, m/s", answer.mean_piston_speed_m_s)
+    add(found, "capacity, m3/min", answer.capacity_m3_per_min)
+    add(found, "capacity over that asked for", answer.capacity_share)
+    add(found, "largest gas load of a rod, N", answer.largest_rod_load_N)
+    add(found, "indicated power, W", answer.indicated_power_W)
+    add(found, "shaft power, W", answer.shaft_power_W)
+    add(found, "motor power, W", answer.motor_power_W)
+    return found
+
+
+def _warnings(answer: RatingAnswer) -> Iterator[RenderableType]:
+    for one in answer.warnings:
+        place = "machine" if one.stage is None else f"stage {answer.stages[one.stage - 1].name or one.stage}"
+        yield Text.assemble(("warning", "bold yellow"), f", {place}: {one.message}")

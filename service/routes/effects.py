@@ -1,0 +1,17 @@
+"""What can be asked for, and what it takes."""
+
+from fastapi import APIRouter
+
+from optimizer.effects.catalogue import catalogue
+from schemas.effects import EffectCatalogue
+from service.openapi import problems
+
+router = APIRouter(tags=["counterweights"])
+
+
+@router.get(
+    "/v1/effects", operation_id="list_effects", summary="All outputs and the effects behind them", responses=problems()
+)
+def list_effects() -> EffectCatalogue:
+    """Only the effects that the outputs of a request need are simulated, and only their inputs are asked for."""
+    return catalogue()

@@ -1,0 +1,170 @@
+"""Outputs over the turn through the door: what they hold, what they need, what is refused and where."""
+
+import copy
+import json
+from collections.abc import Callable
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+
+Post = Callable[..., Any]
+OVER_THE_TURN = [
+    "kinematics",
+    "gas",
+    "piston_force",
+    "rod_loads",
+    "torque",
+    "flywheel",
+    "overturning",
+    "main_bearings",
+]
+PATHS = ["/v1/optimize", "/v1/analyze"]
+ROW = "/machine/throws/0/rows/0"
+MISSING = object()
+
+
+def change(body: dict[str, Any], path: str, value: object) -> None:
+    """Set what stands at a pointer, or take it away."""
+    *way, last = [int(key) if key.isdecimal() else key for key in path.split("/")[1:]]
+    node: Any = body
+    for key in way:
+        node = node[key]
+    if value is MISSING:
+        del node[last]
+    else:
+        node[last] = value
+
+
+def pointers(answer: Any, kind: str) -> list[str]:
+    assert answer.status_code == 422
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert answer.json()["type"] == f"/problems/{kind}"
+    return [error["pointer"] for error in answer.json()["errors"]]
+
+
+@pytest.mark.parametrize("path", PATHS)
+def test_every_output_over_the_turn(post: Post, body: dict[str, Any], path: str) -> None:
+    answer = post(path, json.dumps(body | {"outputs": OVER_THE_TURN, "angles": {"step_deg": 30}}))
+    assert answer.status_code == 200
+    model = OptimizeAnswer if path == "/v1/optimize" else AnalyzeAnswer
+    found = model.model_validate_json(answer.content)
+    for name in OVER_THE_TURN:
+        assert getattr(found, name) is not None
+    assert found.torque is not None
+    assert found.torque.angle_deg == tuple(range(0, 360, 30))
+    # power is torque times angular speed, and what is not put into the gas is friction
+    omega = 500 * 3.141592653589793 / 30
+    assert found.torque.shaft_power_W == pytest.approx(found.torque.mean_torque_Nm * omega, rel=1e-12)
+    powers = found.torque.indicated_power_W + found.torque.friction_power_W
+    assert found.torque.shaft_power_W == pytest.approx(powers, rel=1e-9)
+    assert found.flywheel is not None
+    assert found.flywheel.inertia_MD2_kg_m2 == pytest.approx(4 * found.flywheel.inertia_J_kg_m2)
+
+
+@pytest.mark.parametrize("output", OVER_THE_TURN)
+def test_one_output_is_alone(post: Post, body: dict[str, Any], output: str) -> None:
+    found = post("/v1/analyze", json.dumps(body | {"outputs": [output]})).json()
+    assert [name for name in (*OVER_THE_TURN, "residual", "orders") if found[name] is not None] == [output]
+    simulated = {name for name, use in found["effects"].items() if use["simulated"]}
+    assert {name for name in simulated if found["effects"][name]["needed_by"] != [output]} == set()
+
+
+def test_friction_is_left_out_where_the_machine_gives_none(post: Post, body: dict[str, Any]) -> None:
+    del body["machine"]["friction"]
+    found = post("/v1/analyze", json.dumps(body | {"outputs": ["torque"]})).json()
+    assert found["torque"]["friction_power_W"] == 0
+    assert not found["effects"]["friction"]["simulated"]
+
+
+def test_a_continuous_shaft(post: Post, body: dict[str, Any]) -> None:
+    asked = body | {"outputs": ["main_bearings"]}
+    spans = post("/v1/analyze", json.dumps(asked)).json()["main_bearings"]
+    shaft = post("/v1/analyze", json.dumps(asked | {"fidelity": {"shaft": "continuous"}})).json()["main_bearings"]
+    assert (spans["shaft"], shaft["shaft"]) == ("simple_spans", "continuous")
+    assert spans["bearings"][1]["before"]["peak_N"] != shaft["bearings"][1]["before"]["peak_N"]
+
+
+@pytest.mark.parametrize("path", PATHS)
+@pytest.mark.parametrize(
+    ("output", "taken", "pointed"),
+    [
+        ("gas", f"{ROW}/cylinder", f"{ROW}/cylinder"),
+        ("torque", f"{ROW}/cylinder", f"{ROW}/cylinder"),
+        ("gas", f"{ROW}/cylinder/piston_rod_diameter_m", f"{ROW}/cylinder/piston_rod_diameter_m"),
+        ("gas", f"{ROW}/cylinder/relative_clearance", f"{ROW}/cylinder/relative_clearance"),
+        ("flywheel", "/machine/flywheel", "/machine/flywheel"),
+        ("main_bearings", "/machine/bearings", "/machine/bearings"),
+        ("kinematics", f"{ROW}/connecting_rod", f"{ROW}/connecting_rod"),
+        ("overturning", f"{ROW}/connecting_rod", f"{ROW}/connecting_rod"),
+    ],
+)
+def test_a_missing_input_is_named(
+    post: Post, body: dict[str, Any], path: str, output: str, taken: str, pointed: str
+) -> None:
+    change(body, taken, MISSING)
+    assert post(path, json.dumps(body)).status_code == 200
+    answer = post(path, json.dumps(body | {"outputs": [output]}))
+    assert pointers(answer, "missing-input") == [pointed]
+    assert f"'{output}'" in answer.json()["errors"][0]["message"]
+
+
+@pytest.mark.parametrize("output", OVER_THE_TURN)
+def test_a_scroll_has_no_rows(client: TestClient, post: Post, output: str) -> None:
+    body = client.get("/v1/examples/scroll-oldham").json() | {"outputs": [output]}
+    assert pointers(post("/v1/analyze", json.dumps(body)), "missing-input") == ["/machine/kind"]
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "pointed"),
+    [
+        (f"{ROW}/cylinder/discharge_pressure_Pa", 285999, None),
+        (f"{ROW}/cylinder/head", {"suction_pressure_Pa": 852001}, f"{ROW}/cylinder/head/suction_pressure_Pa"),
+        (f"{ROW}/cylinder/suction_pressure_Pa", 0, None),
+        (f"{ROW}/cylinder/relative_clearance", 0, None),
+        (f"{ROW}/cylinder/relative_clearance", -0.1, None),
+        (f"{ROW}/cylinder/piston_rod_diameter_m", 0.73, None),
+        (f"{ROW}/cylinder/head_area_m2", 0.4, None),
+        (f"{ROW}/cylinder/expansion_exponent", 1, None),
+        (f"{ROW}/cylinder/compression_exponent", 0.9, None),
+        ("/machine/friction/mechanical_efficiency", 1.001, None),
+        ("/machine/friction/mechanical_efficiency", 0, None),
+        ("/machine/friction/rotating_torque_Nm", 400, "/machine/friction/mechanical_efficiency"),
+        ("/machine/friction/indicated_power_W", [608300], None),
+        ("/machine/friction", {"reciprocating_force_N": [1, 2, 3]}, "/machine/friction/reciprocating_force_N"),
+        ("/machine/friction", {}, "/machine/friction/mechanical_efficiency"),
+        ("/machine/flywheel", {}, "/machine/flywheel/irregularity"),
+        ("/machine/flywheel/irregularity", 0, None),
+        ("/machine/flywheel/inertia_kg_m2", 1000, "/machine/flywheel/irregularity"),
+        ("/machine/bearings", [{"name": "A", "position_m": 0}], None),
+        ("/machine/bearings/1/position_m", -0.4, None),
+        ("/machine/bearings/1/name", "A", None),
+        ("/machine/bearings", None, None),
+        ("/angles", {"step_deg": 7}, "/angles/step_deg"),
+        ("/angles", {"step_deg": 0.001}, "/angles/step_deg"),
+        ("/fidelity", {"shaft": "stiff"}, "/fidelity/shaft"),
+    ],
+)
+def test_bad_input_names_its_field(
+    post: Post, body: dict[str, Any], path: str, value: object, pointed: str | None
+) -> None:
+    change(body, path, value)
+    for route in PATHS:
+        assert pointers(post(route, json.dumps(body | {"outputs": ["torque"]})), "invalid-request") == [pointed or path]
+
+
+def test_a_clearance_that_lets_nothing_through(post: Post, body: dict[str, Any]) -> None:
+    change(body, f"{ROW}/cylinder/relative_clearance", 5)
+    answer = post("/v1/analyze", json.dumps(body | {"outputs": ["gas"]}))
+    assert pointers(answer, "missing-input")[0] == f"{ROW}/cylinder/relative_clearance"
+
+
+def test_an_infeasible_machine_has_its_dynamics_too(post: Post, body: dict[str, Any]) -> None:
+    asked = copy.deepcopy(body) | {"outputs": OVER_THE_TURN, "objective": {"force_ceiling_N": 1}}
+    found = OptimizeAnswer.model_validate_json(post("/v1/optimize", json.dumps(asked)).content)
+    assert found.status == "infeasible"
+    assert found.main_bearings is not None
+    assert [one.after for one in found.main_bearings.bearings] == [None] * 3
+    assert found.torque is not None

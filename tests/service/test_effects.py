@@ -1,0 +1,43 @@
+"""GET /v1/effects: what can be asked for, and what it takes."""
+
+from typing import get_args
+
+from starlette.testclient import TestClient
+
+from optimizer.effects.registry import EFFECTS
+from schemas.effects import EffectCatalogue, OutputEntry
+from schemas.requests import Output
+
+
+def catalogue(client: TestClient) -> EffectCatalogue:
+    answer = client.get("/v1/effects")
+    assert answer.status_code == 200
+    return EffectCatalogue.model_validate_json(answer.content)
+
+
+def test_all_outputs_and_effects_are_there(client: TestClient) -> None:
+    found = catalogue(client)
+    assert [one.name for one in found.outputs] == list(get_args(Output))
+    assert [one.name for one in found.effects] == list(EFFECTS)
+    assert all(one.meaning for one in (*found.outputs, *found.effects))
+
+
+def test_effects_stand_in_the_order_in_which_they_run(client: TestClient) -> None:
+    found = catalogue(client)
+    needs = {one.name: set(one.needs) for one in found.effects}
+    for names in ([one.name for one in found.effects], *(one.needs for one in found.outputs)):
+        for place, name in enumerate(names):
+            assert needs[name] <= set(names[:place])
+
+
+def test_an_output_lists_what_it_takes(client: TestClient) -> None:
+    by_name = {one.name: one for one in catalogue(client).outputs}
+    assert by_name["residual"].inputs == ()
+    assert by_name["gas"] == OutputEntry(
+        name="gas",
+        meaning=by_name["gas"].meaning,
+        needs=("kinematics", "gas"),
+        inputs=("machine.throws.rows.connecting_rod", "machine.throws.rows.cylinder"),
+    )
+    assert {"machine.friction", "machine.flywheel"} <= set(by_name["flywheel"].inputs)
+    assert "machine.bearings" in by_name["main_bearings"].inputs
