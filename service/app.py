@@ -14,7 +14,7 @@ from service import docs, errors
 from service.computing import Computing
 from service.openapi import Documented
 from service.readiness import Readiness
-from service.routes import analyze, effects, examples, health, optimize, rating
+from service.routes import analyze, effects, examples, health, optimize, pin_loads, rating
 from service.settings import Settings
 
 _DESCRIPTION = """\
@@ -56,7 +56,7 @@ def create_app(settings: Settings | None = None, warm_up: Callable[[], None] = s
     app.state.computing = Computing(chosen, readiness)
     app.add_middleware(HeadAsGet)
     errors.install(app)
-    for resource in (optimize, analyze, rating, effects, examples, health):
+    for resource in (optimize, analyze, pin_loads, rating, effects, examples, health):
         app.include_router(resource.router)
     docs.install(app)
 

@@ -75,6 +75,21 @@ def analyze(file: File, as_json: AsJson = False, output: Outputs = None) -> None
         _show(analyze_report(request.machine.name or "machine", answer))
 
 
+@app.command(name="pin-loads")
+def pin_loads(file: File, as_json: AsJson = False) -> None:
+    """Say what the anti-rotation pins of a scroll carry over a turn."""
+    from optimizer.pin_loads import pin_loads as compute
+    from schemas.scroll import PinLoadsRequest
+
+    answer = _answer(compute, _question(PinLoadsRequest, file))
+    if as_json:
+        _print(answer.model_dump_json())
+    else:
+        from service.pin_tables import pin_loads_report
+
+        _show(pin_loads_report(answer))
+
+
 @app.command()
 def rating(file: File, as_json: AsJson = False) -> None:
     """Size the cylinders of a compressor, and say what they deliver and need."""

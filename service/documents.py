@@ -10,6 +10,7 @@ from schemas.effects import EffectCatalogue
 from schemas.problem import Problem
 from schemas.rating import RatingAnswer, RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,8 @@ DOCUMENTS: Mapping[str, Document] = {
     "optimize-answer": Document(OptimizeAnswer, "serialization", "answer of /v1/optimize"),
     "analyze": Document(AnalyzeRequest, "validation", "request of /v1/analyze"),
     "analyze-answer": Document(AnalyzeAnswer, "serialization", "answer of /v1/analyze"),
+    "pin-loads": Document(PinLoadsRequest, "validation", "request of /v1/scroll/pin-loads"),
+    "pin-loads-answer": Document(PinLoadsAnswer, "serialization", "answer of /v1/scroll/pin-loads"),
     "rating": Document(RatingRequest, "validation", "request of /v1/rating"),
     "rating-answer": Document(RatingAnswer, "serialization", "answer of /v1/rating"),
     "effects": Document(EffectCatalogue, "serialization", "answer of /v1/effects"),

@@ -13,6 +13,7 @@ from schemas.base import Model
 from schemas.problem import Problem
 from schemas.rating import RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.scroll import PinLoadsRequest
 from service.errors import PROBLEM_JSON
 from service.examples import bodies
 
@@ -58,7 +59,7 @@ class Documented(FastAPI):
         known = document["components"]["schemas"]
         # the framework keeps the document and makes a new one when routes are added
         if Problem.__name__ not in known:
-            models: list[type[Model]] = [OptimizeRequest, AnalyzeRequest, RatingRequest, Problem]
+            models: list[type[Model]] = [OptimizeRequest, AnalyzeRequest, RatingRequest, PinLoadsRequest, Problem]
             _, schemas = models_json_schema([(model, "validation") for model in models], ref_template=_REF)
             # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
             known |= schemas["$defs"]

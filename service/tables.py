@@ -22,6 +22,7 @@ from schemas.outputs import Hodograph, Hodographs, OrdersComparison, Stages
 from schemas.requests import Objective
 from service.cells import add, number, table
 from service.dynamics_tables import dynamics
+from service.pin_tables import pin_loads_report
 
 _STYLES = {"optimal": "bold green", "inaccurate": "bold yellow", "infeasible": "bold red"}
 
@@ -137,6 +138,8 @@ def _others(answer: Outputs) -> Iterator[RenderableType]:
     if answer.hodograph is not None:
         yield from _hodographs(answer.hodograph)
     yield from dynamics(answer)
+    if answer.pin_loads is not None:
+        yield pin_loads_report(answer.pin_loads)
 
 
 def _orders(orders: OrdersComparison) -> Table:

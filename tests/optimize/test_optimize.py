@@ -304,3 +304,21 @@ def test_scroll_machines_use_the_same_program(anti_rotation: dict[str, Any]) -> 
     assert found.status == "optimal"
     assert found.floor.force_N == pytest.approx(ring / 2, rel=1e-12)
     assert found.residual.after.force.peak_N == pytest.approx(ring / 2, abs=2e-3)
+
+
+def test_two_planes_balance_an_orbiting_scroll_with_the_closed_form_masses() -> None:
+    # analytic: u1 + u2 = -m r, z1 u1 + z2 u2 = -z m r, so u1 = -m r (z - z2)/(z1 - z2)
+    body = {
+        "kind": "scroll",
+        "speed_rpm": 3000.0,
+        "orbit_radius_m": 0.005,
+        "orbiting_mass_kg": 1.2,
+        "orbiting_position_m": 0.05,
+        "anti_rotation": {"type": "crank_pins", "count": 3, "pin_circle_radius_m": 0.05, "position_m": 0.03},
+        "webs": [web("near", 0.02, 2.0, 0.02), web("far", -0.1, 2.0, 0.02)],
+    }
+    near, far = answer(body).counterweights
+    assert near.mass_kg == pytest.approx(1.2 * 0.005 / 0.02 * (0.05 + 0.1) / 0.12, rel=1e-5)
+    assert far.mass_kg == pytest.approx(1.2 * 0.005 / 0.02 * (0.05 - 0.02) / 0.12, rel=1e-5)
+    assert near.angle_deg == pytest.approx(180.0)
+    assert far.angle_deg % 360.0 == pytest.approx(0.0, abs=1e-3)

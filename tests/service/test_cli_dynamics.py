@@ -148,3 +148,12 @@ def test_effects(client: Any) -> None:
 def test_examples_of_ratings_are_no_machines() -> None:
     assert "2d12" in bodies("rating")
     assert "air-single-stage" not in names()
+
+
+@pytest.mark.parametrize(
+    ("name", "title"),
+    [("rating", "RatingRequest"), ("rating-answer", "RatingAnswer"), ("effects", "EffectCatalogue")],
+)
+def test_schemas(name: str, title: str) -> None:
+    assert name in run("schema").stdout
+    assert json.loads(run("schema", name).stdout)["title"] == title

@@ -14,6 +14,7 @@ OPERATIONS = {
     ("post", "/v1/optimize"): "optimize",
     ("post", "/v1/analyze"): "analyze",
     ("post", "/v1/rating"): "rating",
+    ("post", "/v1/scroll/pin-loads"): "pin_loads",
     ("get", "/v1/effects"): "list_effects",
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
@@ -55,6 +56,7 @@ def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
         ("/v1/optimize", {"200", "400", "413", "415", "422", "503", "default"}),
         ("/v1/analyze", {"200", "400", "413", "415", "422", "503", "default"}),
         ("/v1/rating", {"200", "400", "413", "415", "422", "503", "default"}),
+        ("/v1/scroll/pin-loads", {"200", "400", "413", "415", "422", "503", "default"}),
         ("/v1/effects", {"200", "default"}),
         ("/v1/examples", {"200", "default"}),
         ("/v1/examples/{name}", {"200", "404", "default"}),
@@ -73,7 +75,12 @@ def test_errors_are_problems(document: dict[str, Any], path: str, statuses: set[
 
 
 def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
-    for path, name in (("/v1/optimize", "Optimize"), ("/v1/analyze", "Analyze"), ("/v1/rating", "Rating")):
+    for path, name in (
+        ("/v1/optimize", "Optimize"),
+        ("/v1/analyze", "Analyze"),
+        ("/v1/rating", "Rating"),
+        ("/v1/scroll/pin-loads", "PinLoads"),
+    ):
         operation = document["paths"][path]["post"]
         body = operation["requestBody"]["content"]["application/json"]
         assert operation["requestBody"]["required"]
@@ -106,7 +113,9 @@ def test_every_field_is_described_with_examples_and_its_unit(document: dict[str,
             assert PHYSICAL.search(name) is None or "x-unit" in str(field), (model, name)
 
 
-@pytest.mark.parametrize(("path", "least"), [("/v1/optimize", 11), ("/v1/analyze", 11), ("/v1/rating", 2)])
+@pytest.mark.parametrize(
+    ("path", "least"), [("/v1/optimize", 11), ("/v1/analyze", 11), ("/v1/rating", 2), ("/v1/scroll/pin-loads", 2)]
+)
 def test_the_examples_of_bodies_are_valid(document: dict[str, Any], path: str, least: int) -> None:
     body = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]
     validator = Draft202012Validator({**body["schema"], "components": document["components"]})
