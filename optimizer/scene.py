@@ -58,7 +58,7 @@ def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
         if the machine lacks what an output needs.
     """
     outputs = tuple(dict.fromkeys((*always, *request.outputs)))
-    require_inputs(request.machine, outputs)
+    require_inputs(request.machine, outputs, request.angles.count)
     start = time.perf_counter()
     plan = layout(request.machine)
     turn: Real = np.arange(request.angles.count, dtype=float) * (360.0 / request.angles.count)

@@ -14,6 +14,7 @@ from schemas.units import Unit, positive
 
 MAX_THROWS = 500
 MAX_ROWS = 60
+MAX_ROWS_TOGETHER = 500
 MAX_WEBS = 500
 
 
@@ -157,6 +158,8 @@ class ReciprocatingMachine(Rotor):
         return self
 
     def _throw_problems(self) -> Iterator[FieldProblem]:
+        if sum(len(throw.rows) for throw in self.throws) > MAX_ROWS_TOGETHER:
+            yield FieldProblem(("throws",), f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows")
         yield from duplicate_names(("throws",), [throw.name for throw in self.throws])
         for t, throw in enumerate(self.throws):
             yield from duplicate_names(("throws", t, "rows"), [row.name for row in throw.rows])

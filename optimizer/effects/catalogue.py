@@ -1,6 +1,6 @@
 """Outputs and effects described for people and clients."""
 
-from optimizer.effects.registry import EFFECTS, OUTPUTS, _closure, inputs_of
+from optimizer.effects.registry import EFFECTS, OUTPUTS, effects_of, inputs_of
 from schemas.effects import EffectCatalogue, EffectEntry, OutputEntry
 
 
@@ -8,7 +8,9 @@ def catalogue() -> EffectCatalogue:
     """Every output with the effects and inputs behind it, and every effect."""
     return EffectCatalogue(
         outputs=tuple(
-            OutputEntry(name=name, meaning=output.meaning, needs=tuple(_closure(output.needs)), inputs=inputs_of(name))
+            OutputEntry(
+                name=name, meaning=output.meaning, needs=tuple(effects_of(output.needs)), inputs=inputs_of(name)
+            )
             for name, output in OUTPUTS.items()
         ),
         effects=tuple(

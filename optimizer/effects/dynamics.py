@@ -18,7 +18,9 @@ from optimizer.response import Complex, Real
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
 
-_FINEST_PANEL = np.deg2rad(5.0)
+_WIDEST_PANEL = np.deg2rad(10.0)
+#: rows times angles that are worked on at once, which bounds the memory
+_AT_ONCE = 500_000
 
 
 @dataclass(frozen=True)
@@ -164,6 +166,18 @@ def _torque(context: Context) -> TorqueSeries:
     return TorqueSeries(rows, np.sum(rows, axis=0) + friction, friction)
 
 
+def _torque_at(context: Context, angle: Real) -> TorqueSeries:
+    """Torque at other angles, piece by piece."""
+    rows = max(context.layout.reciprocating.mass.size, 1)
+    pieces = np.array_split(angle, max(1, rows * angle.size // _AT_ONCE))
+    found = [context.elsewhere(piece)["torque"] for piece in pieces]
+    return TorqueSeries(
+        np.concatenate([one.rows for one in found], axis=-1),
+        np.concatenate([one.total for one in found]),
+        found[0].rotating_friction,
+    )
+
+
 def _torque_integrals(context: Context) -> TorqueIntegrals:
     layout, cycle = context.layout, context.given["gas"]
     ahead = own_angle(layout, np.zeros(1))[:, 0]
@@ -171,9 +185,9 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
     dead = np.broadcast_to([0.0, np.pi], (ahead.size, 2))
     steep = steep_angles(layout.reciprocating.rod_ratio)
     own = np.concatenate([cycle.suction_opens, cycle.discharge_opens, dead, steep], axis=1)
-    breaks = (own - ahead[:, None])[~np.isnan(own)]
-    coarse, fine = (panels(breaks, width) for width in (2 * _FINEST_PANEL, _FINEST_PANEL))
-    at_coarse, at_fine = (context.elsewhere(turn.angle)["torque"] for turn in (coarse, fine))
+    breaks = np.unique((own - ahead[:, None])[~np.isnan(own)])
+    coarse, fine = panels(breaks, _WIDEST_PANEL), panels(breaks, _WIDEST_PANEL, halved=True)
+    at_coarse, at_fine = (_torque_at(context, turn.angle) for turn in (coarse, fine))
     omega = float(layout.omega)
     friction_power = 0.0
     if "friction" in context.given:

@@ -17,12 +17,14 @@ from optimizer.mechanics.layout import Layout
 from optimizer.response import Real
 from schemas.answers import EffectUse
 from schemas.base import FieldProblem
-from schemas.machine import Machine
+from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Fidelity
 
 #: every effect; each stands after those that it needs
 EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}
 
+#: rows and bearings times shaft angles that one answer may hold
+MAX_SAMPLES = 200_000
 _FIRST_ORDER = ("rotating_inertia", "reciprocating_inertia")
 
 
@@ -53,10 +55,11 @@ OUTPUTS: dict[str, Output] = {
 
 def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     """Effects that have to run for these, in the order in which they can; those that do not apply left out."""
-    return [name for name in _closure(needs) if EFFECTS[name].applies(machine)]
+    return [name for name in effects_of(needs) if EFFECTS[name].applies(machine)]
 
 
-def _closure(needs: Sequence[str]) -> list[str]:
+def effects_of(needs: Sequence[str]) -> list[str]:
+    """These effects and all that they need, in the order in which they can run, whatever the machine."""
     wanted = set(needs)
     for name in reversed(EFFECTS):
         if name in wanted:
@@ -64,8 +67,12 @@ def _closure(needs: Sequence[str]) -> list[str]:
     return [name for name in EFFECTS if name in wanted]
 
 
-def require_inputs(machine: Machine, outputs: Sequence[str]) -> None:
-    """Check that the machine gives what the outputs need.
+def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:
+    """Check that the machine gives what the outputs need, and that not too much is asked for.
+
+    Parameters
+    ----------
+    samples : number of shaft angles asked for.
 
     Raises
     ------
@@ -78,8 +85,19 @@ def require_inputs(machine: Machine, outputs: Sequence[str]) -> None:
             for path, message in EFFECTS[name].problems(machine):
                 full = ("machine", *path)
                 problems.setdefault(full, FieldProblem(full, f"{message}; asked for by output '{output}'"))
+        if "kinematics" in closure(machine, OUTPUTS[output].needs) and _series(machine) * samples > MAX_SAMPLES:
+            path = ("angles", "step_deg")
+            message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
+            problems[path] = FieldProblem(path, message)
     if problems:
         raise MissingInput(problems.values())
+
+
+def _series(machine: Machine) -> int:
+    """Rows and bearings of a machine: so many series does an output hold."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return 0
+    return sum(len(throw.rows) for throw in machine.throws) + len(machine.bearings)
 
 
 @dataclass
@@ -137,5 +155,5 @@ def _context(
 
 def inputs_of(output: str) -> tuple[str, ...]:
     """Fields that an output reads beyond masses and geometry, each once."""
-    names = _closure(OUTPUTS[output].needs)
+    names = effects_of(OUTPUTS[output].needs)
     return tuple(dict.fromkeys(each for name in names for each in EFFECTS[name].inputs))

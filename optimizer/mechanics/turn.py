@@ -23,6 +23,11 @@ def _integration_matrix() -> Real:
 
 
 _INTEGRATE = _integration_matrix()
+#: from values at the Gauss nodes to those of their interpolant at both ends
+_AT_ENDS = legendre.legvander(np.array([-1.0, 1.0]), _NODES - 1) @ np.linalg.inv(
+    legendre.legvander(_ABSCISSAE, _NODES - 1)
+)
+_STEPS = np.diff(np.concatenate([[-1.0], _ABSCISSAE, [1.0]]))
 
 
 @dataclass(frozen=True)
@@ -40,22 +45,25 @@ class Turn:
         return nodes.reshape(*nodes.shape[:-2], -1)
 
 
-def panels(breaks: Real, finest: float) -> Turn:
-    """Panels between break angles, none wider than ``finest``.
+def panels(breaks: Real, widest: float, halved: bool = False) -> Turn:
+    """Panels between break angles, cut at a regular grid as well; their number grows with that of the breaks.
 
     Parameters
     ----------
     breaks : (..., B) rad, any order; taken modulo one turn, nan counts as none.
-    finest : rad.
+    widest : rad, step of the grid.
+    halved : every panel cut in two, for an estimate of the error.
     """
-    inner = np.sort(np.mod(np.where(np.isnan(breaks), 0.0, breaks), 2.0 * np.pi), axis=-1)
-    ends = np.zeros((*inner.shape[:-1], 1))
-    edges = np.concatenate([ends, inner, ends + 2.0 * np.pi], axis=-1)
-    gaps = np.diff(edges, axis=-1)
-    parts = max(1, int(np.ceil(np.max(gaps) / finest)))
-    width = np.repeat(gaps / parts, parts, axis=-1)
-    step = np.tile(np.arange(parts), gaps.shape[-1])
-    return Turn(np.repeat(edges[..., :-1], parts, axis=-1) + step * width, width)
+    inner = np.mod(np.where(np.isnan(breaks), 0.0, breaks), 2.0 * np.pi)
+    grid = np.linspace(0.0, 2.0 * np.pi, int(np.ceil(2.0 * np.pi / widest)) + 1)
+    edges = np.sort(np.concatenate([inner, np.broadcast_to(grid, (*inner.shape[:-1], grid.size))], axis=-1), axis=-1)
+    width = np.diff(edges, axis=-1)
+    if not halved:
+        return Turn(edges[..., :-1], width)
+    half = np.repeat(0.5 * width, 2, axis=-1)
+    start = np.repeat(edges[..., :-1], 2, axis=-1)
+    start[..., 1::2] += half[..., 1::2]
+    return Turn(start, half)
 
 
 def mean(turn: Turn, values: Real) -> Real:
@@ -69,21 +77,19 @@ def fluctuation(turn: Turn, values: Real) -> Real:
     For a torque that is the energy a flywheel has to take up and give back (seed 004, 2-27, E004-17).
     The extremes lie where the value crosses its mean, between two nodes.
     """
-    rest = values - mean(turn, values)[..., None]
-    shaped = _per_panel(turn, rest)
-    half = 0.5 * turn.width
-    panel = shaped @ _WEIGHTS * half
-    before = np.cumsum(panel, axis=-1) - panel
-    running = before[..., None] + (shaped @ _INTEGRATE.T) * half[..., None]
-    running = running.reshape(rest.shape)
-    angle = turn.angle
-    left, right = rest[..., :-1], rest[..., 1:]
-    crosses = (left * right < 0.0) & (np.diff(angle, axis=-1) > 0.0)
-    to_crossing = np.where(crosses, left / np.where(crosses, left - right, 1.0), 0.0) * np.diff(angle, axis=-1)
-    at_crossing = running[..., :-1] + 0.5 * left * to_crossing
-    # panel ends count as well: the value may jump across its mean there
-    extremes = np.concatenate([running, np.where(crosses, at_crossing, 0.0), before], axis=-1)
-    return np.max(extremes, axis=-1) - np.min(extremes, axis=-1)
+    rest = _per_panel(turn, values - mean(turn, values)[..., None])
+    half = 0.5 * turn.width[..., None]
+    # every panel by itself, from end to end: the value may jump from one to the next
+    first, last = np.split(rest @ _AT_ENDS.T, 2, axis=-1)
+    value = np.concatenate([first, rest, last], axis=-1)
+    whole = rest @ _WEIGHTS * half[..., 0]
+    within = np.concatenate([np.zeros_like(first), rest @ _INTEGRATE.T * half, whole[..., None]], axis=-1)
+    running = (np.cumsum(whole, axis=-1) - whole)[..., None] + within
+    left, right = value[..., :-1], value[..., 1:]
+    crosses = left * right < 0.0
+    to_crossing = np.where(crosses, left / np.where(crosses, left - right, 1.0), 0.0) * _STEPS * half
+    extremes = np.concatenate([running, running[..., :-1] + 0.5 * left * to_crossing], axis=-1)
+    return np.max(extremes, axis=(-2, -1)) - np.min(extremes, axis=(-2, -1))
 
 
 def _per_panel(turn: Turn, values: Real) -> Real:

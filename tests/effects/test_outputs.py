@@ -217,3 +217,14 @@ def test_more_pins_than_can_be_sampled_are_refused() -> None:
     with pytest.raises(MissingInput) as caught:
         ask(body, "pin_loads", step_deg=0.1)
     assert [problem.path for problem in caught.value.problems] == [("angles", "step_deg")]
+
+
+def test_more_rows_than_can_be_sampled_are_refused() -> None:
+    body = complete()
+    count = sum(len(one["rows"]) for one in body["throws"]) + len(body["bearings"])
+    with pytest.raises(MissingInput) as caught:
+        ask(body | {"throws": body["throws"] * 3}, "gas", "residual", step_deg=0.01)
+    assert ("angles", "step_deg") in [problem.path for problem in caught.value.problems]
+    assert count * 36000 * 3 > registry.MAX_SAMPLES
+    # outputs without series are not sampled
+    assert ask(body, "residual", step_deg=0.01).residual is not None

@@ -82,3 +82,9 @@ def test_refused(more: dict[str, Any], where: str) -> None:
 )
 def test_accepted(more: dict[str, Any]) -> None:
     ReciprocatingMachine.model_validate(copy.deepcopy(BODY) | more)
+
+
+def test_more_rows_than_a_machine_may_hold_are_refused() -> None:
+    throw = BODY["throws"][0] | {"rows": [ROW] * 60}
+    assert refused(throws=[throw] * 9) == ["throws"]
+    ReciprocatingMachine.model_validate(BODY | {"throws": [throw] * 8})
