@@ -1,4 +1,4 @@
-"""The thermal design of a compressor: what is asked, and what is answered. Equations (1-1) to (1-32) of seed 004."""
+"""The thermal design of a compressor as it is asked for. Equations (1-1) to (1-32) of seed 004."""
 
 from collections.abc import Iterator
 from itertools import pairwise
@@ -7,8 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, Strict, model_validator
 
 from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
-from schemas.cylinder import Cylinder
-from schemas.quantities import Count, Fraction, Name, Newtons
+from schemas.quantities import Count, Fraction, Name
 from schemas.units import Unit
 
 MAX_STAGES = 12
@@ -28,15 +27,6 @@ Power = Annotated[float, Field(gt=0, le=1e15), Unit("W")]
 Exponent = Annotated[float, Strict(), Field(ge=1.0001, le=10)]
 Share = Annotated[float, Strict(), Field(ge=0.01, le=1)]
 Loss = Annotated[float, Strict(), Field(ge=0, lt=1)]
-
-Kelvins = Annotated[float, Unit("K")]
-Pascals = Annotated[float, Unit("Pa")]
-Metres = Annotated[float, Unit("m")]
-SquareMetres = Annotated[float, Unit("m2")]
-CubicMetres = Annotated[float, Unit("m3")]
-CubicMetresPerMinute = Annotated[float, Unit("m3/min")]
-MetresPerSecond = Annotated[float, Unit("m/s")]
-Watts = Annotated[float, Unit("W")]
 
 
 class RelativeLeaks(Model):
@@ -241,152 +231,3 @@ class RatingRequest(Model):
                 # the last pair ends at the discharge: what is wrong there is the pressure before it
                 place = ("interstage_pressures_Pa", min(index, len(between) - 1))
                 yield FieldProblem(place, "must rise from the suction to the discharge pressure")
-
-
-class StageState(Model):
-    """What a stage does to the gas, at one level of detail."""
-
-    suction_pressure_Pa: Pascals = Field(description="absolute pressure at suction", examples=[300000.0])
-    discharge_pressure_Pa: Pascals = Field(description="absolute pressure at discharge", examples=[793725.4])
-    pressure_ratio: float = Field(description="discharge over suction pressure", examples=[2.6458])
-    discharge_temperature_K: Kelvins = Field(description="temperature after the compression", examples=[413.3])
-
-
-class DeadCentre(Model):
-    """The gas on both sides of a piston at a dead centre."""
-
-    head_pressure_Pa: Pascals = Field(description="absolute pressure on the head side", examples=[852000.0])
-    crank_pressure_Pa: Pascals = Field(description="absolute pressure on the crank side", examples=[286000.0])
-    gas_force_N: Newtons = Field(
-        description="gas force on the piston of one cylinder, positive in rod tension", examples=[-239491.5]
-    )
-
-
-class GasLoads(Model):
-    """Gas forces in the piston rod of one cylinder at its dead centres."""
-
-    outer: DeadCentre = Field(description="outer dead centre, piston at the head", examples=[{"gas_force_N": -239491}])
-    inner: DeadCentre = Field(description="inner dead centre, piston at the crank", examples=[{"gas_force_N": 228682}])
-    largest_N: Newtons = Field(description="the larger of the two, as a magnitude", examples=[239491.5])
-
-
-class DeliveryCoefficients(Model):
-    """What share of its swept volume a stage takes in, and why not all of it."""
-
-    volumetric: float = Field(description="left by the re-expansion of the clearance volume", examples=[0.8822])
-    pressure: float = Field(description="left by the pressure drop at suction", examples=[0.97])
-    temperature: float = Field(description="left by the warming of the gas at suction", examples=[0.96])
-    leakage: float = Field(description="left by the leaks", examples=[0.945])
-    delivery: float = Field(description="product of the four", examples=[0.7763])
-
-
-class CylinderSize(Model):
-    """The size of the cylinders of a stage."""
-
-    bore_m: Metres = Field(description="bore", examples=[0.73])
-    head_area_m2: SquareMetres = Field(description="piston area of one cylinder on the head side", examples=[0.41854])
-    crank_area_m2: SquareMetres = Field(
-        description="piston area of one cylinder on the crank side, without the rod", examples=[0.40904]
-    )
-    swept_volume_m3: CubicMetres = Field(
-        description="volume swept in one turn by all working sides of all cylinders of the stage", examples=[0.23172]
-    )
-
-
-class PressureLosses(Model):
-    """Pressure losses in valves and ducts, relative to the pressure."""
-
-    suction: float = Field(description="at suction", examples=[0.047])
-    discharge: float = Field(description="at discharge", examples=[0.0797])
-
-
-class StageRating(Model):
-    """One stage, from the nominal pressures to the power."""
-
-    name: str | None = Field(description="name of the stage", examples=["I"])
-    cylinders: int = Field(description="number of equal cylinders of the stage", examples=[1])
-    nominal: StageState = Field(description="between the nominal pressures", examples=[{"pressure_ratio": 2.6458}])
-    expansion_exponent: float = Field(description="exponent m of the re-expansion", examples=[1.25])
-    design_coefficients: DeliveryCoefficients = Field(
-        description="delivery at the nominal pressures", examples=[{"delivery": 0.7763}]
-    )
-    saturation_pressure_Pa: Pascals | None = Field(
-        description="pressure of saturated steam at the suction temperature; null where the gas is dry",
-        examples=[7375.0],
-    )
-    condensate_coefficient: float = Field(
-        description="what the condensation of water vapour before this stage leaves of the flow", examples=[0.9846]
-    )
-    calculated: CylinderSize = Field(description="the size that the capacity asks for", examples=[{"bore_m": 0.7301}])
-    nominal_loads: GasLoads = Field(
-        description="gas forces of the calculated size at the nominal pressures", examples=[{"largest_N": 206383}]
-    )
-    actual: CylinderSize = Field(description="the size with the bore as built", examples=[{"bore_m": 0.73}])
-    suction_pressure_correction: float = Field(
-        description="what the rounding of the bores makes of the suction pressure", examples=[1.0]
-    )
-    discharge_pressure_correction: float = Field(
-        description="what the rounding of the bores makes of the discharge pressure", examples=[0.9987]
-    )
-    corrected: StageState = Field(description="between the corrected pressures", examples=[{"pressure_ratio": 2.63}])
-    reference_losses: PressureLosses = Field(
-        description="pressure losses of air at 3.5 m/s", examples=[{"suction": 0.036}]
-    )
-    losses: PressureLosses = Field(
-        description="pressure losses of this gas at the mean piston speed", examples=[{"suction": 0.047}]
-    )
-    in_cylinder: StageState = Field(
-        description="between the pressures in the cylinder", examples=[{"suction_pressure_Pa": 286000}]
-    )
-    actual_coefficients: DeliveryCoefficients = Field(
-        description="delivery at the pressures in the cylinder", examples=[{"volumetric": 0.8605}]
-    )
-    actual_loads: GasLoads = Field(
-        description="gas forces of the actual size at the pressures in the cylinder", examples=[{"largest_N": 239491}]
-    )
-    indicated_power_W: Watts = Field(description="indicated power of all cylinders of the stage", examples=[608300.0])
-    cylinder: Cylinder = Field(
-        description="gas data of one cylinder, as a row of a machine takes them", examples=[{"bore_m": 0.73}]
-    )
-
-
-class RatingWarning(Model):
-    """A figure that leaves its customary range; the answer stands nevertheless."""
-
-    code: Literal[
-        "discharge_temperature",
-        "pressure_coefficient",
-        "temperature_coefficient",
-        "leakage_coefficient",
-        "pressure_losses",
-        "capacity",
-        "mean_piston_speed",
-        "rod_load",
-        "motor_power",
-    ] = Field(description="what is out of range", examples=["discharge_temperature"])
-    message: str = Field(description="the figure and its range", examples=["discharge at 437 K, above 433.15 K"])
-    stage: int | None = Field(description="number of the stage from 1; null is the whole machine", examples=[1])
-
-
-class RatingAnswer(Model):
-    """The thermal design of a compressor."""
-
-    total_pressure_ratio: float = Field(description="discharge over suction pressure of the machine", examples=[7.0])
-    mean_piston_speed_m_s: MetresPerSecond = Field(
-        description="mean piston speed for which the pressure losses were corrected", examples=[4.6667]
-    )
-    capacity_m3_per_min: CubicMetresPerMinute = Field(
-        description="what the built machine delivers, in the state in which the asked capacity is measured",
-        examples=[87.67],
-    )
-    capacity_share: float = Field(description="that over the asked capacity", examples=[0.974])
-    stages: tuple[StageRating, ...] = Field(description="the stages in the order of the request", examples=[[]])
-    largest_rod_load_N: Newtons = Field(
-        description="largest gas force in a piston rod at a dead centre, with the built sizes", examples=[239937.4]
-    )
-    indicated_power_W: Watts = Field(description="indicated power of all stages", examples=[1191300.0])
-    shaft_power_W: Watts = Field(description="indicated power over mechanical efficiency", examples=[1267340.0])
-    motor_power_W: Watts = Field(description="motor needed, with its margin", examples=[1394074.0])
-    warnings: tuple[RatingWarning, ...] = Field(
-        description="figures that leave their customary range", examples=[[{"code": "capacity"}]]
-    )

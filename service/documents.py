@@ -8,7 +8,8 @@ from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.base import Model
 from schemas.effects import EffectCatalogue
 from schemas.problem import Problem
-from schemas.rating import RatingAnswer, RatingRequest
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingAnswer
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
 

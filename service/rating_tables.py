@@ -6,7 +6,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from schemas.rating import RatingAnswer, StageRating
+from schemas.rating_answer import RatingAnswer, StageRating
 from service.cells import Cell, add, table
 
 Figure = Callable[[StageRating], Cell]

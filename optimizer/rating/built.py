@@ -9,7 +9,8 @@ from optimizer.rating.losses import DISCHARGE, SUCTION, corrected_loss, mean_pis
 from optimizer.rating.ratios import stage_state
 from optimizer.rating.sizes import nominal_bore, pressure_correction
 from schemas.base import FieldProblem
-from schemas.rating import CylinderSize, DeliveryCoefficients, PressureLosses, RatingRequest, StageState
+from schemas.rating import RatingRequest
+from schemas.rating_answer import CylinderSize, DeliveryCoefficients, PressureLosses, StageState
 
 
 @dataclass(frozen=True)

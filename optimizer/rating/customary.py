@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 from optimizer.rating.built import StageBuilt
 from optimizer.rating.design import StageDesign
 from optimizer.rating.losses import DISCHARGE, SUCTION, mean_piston_speed
-from schemas.rating import RatingRequest, RatingWarning
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingWarning
 
 #: section 1.3.2 of seed 004: first stage, other stages
 PRESSURE_COEFFICIENTS = ((0.95, 0.98), (0.98, 1.0))

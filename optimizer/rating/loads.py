@@ -1,7 +1,7 @@
 """Gas forces in the piston rod at the dead centres."""
 
 from optimizer.rating.sizes import Acting
-from schemas.rating import CylinderSize, DeadCentre, GasLoads
+from schemas.rating_answer import CylinderSize, DeadCentre, GasLoads
 
 
 def gas_loads(p1: float, p2: float, ambient: float, acting: Acting, size: CylinderSize) -> GasLoads:

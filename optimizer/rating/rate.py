@@ -6,7 +6,8 @@ from optimizer.rating.design import StageDesign, design, suction_per_capacity
 from optimizer.rating.loads import gas_loads
 from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
 from schemas.cylinder import Cylinder
-from schemas.rating import RatingAnswer, RatingRequest, StageRating
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingAnswer, StageRating
 
 
 def rate(request: RatingRequest) -> RatingAnswer:

@@ -5,7 +5,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from optimizer.rating.rate import rate
-from schemas.rating import RatingAnswer, RatingRequest
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingAnswer
 from service.computing import Computes
 from service.openapi import COMPUTE_PROBLEMS, problems, request_body
 

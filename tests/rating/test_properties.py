@@ -14,7 +14,8 @@ from optimizer.rating.rate import rate
 from optimizer.rating.sizes import Piston, nominal_bore
 from schemas.cylinder import Cylinder
 from schemas.machine import Row
-from schemas.rating import RatingAnswer, RatingRequest
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingAnswer
 from tests.rating.design import body, request, requests
 
 

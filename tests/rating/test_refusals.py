@@ -11,7 +11,8 @@ from pydantic import ValidationError
 
 from optimizer.rating.errors import OutOfRange
 from optimizer.rating.rate import rate
-from schemas.rating import RatingAnswer, RatingRequest
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingAnswer
 from tests.rating.design import SEED, body, request
 
 Path = tuple[str | int, ...]

@@ -10,7 +10,8 @@ from pydantic.fields import FieldInfo
 
 import schemas.rating
 from schemas.base import Model
-from schemas.rating import RatingAnswer, RatingRequest
+from schemas.rating import RatingRequest
+from schemas.rating_answer import RatingAnswer
 from tests.rating.design import body, request
 
 #: suffix of a field's name -> unit; the longest suffix that fits counts

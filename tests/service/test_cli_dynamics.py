@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from schemas.effects import EffectCatalogue
-from schemas.rating import RatingAnswer
+from schemas.rating_answer import RatingAnswer
 from service.examples import bodies, directory, names
 from tests.service.test_cli import refused, run
 from tests.service.test_dynamics import OVER_THE_TURN

@@ -12,7 +12,7 @@ from starlette.testclient import TestClient
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.base import Model
 from schemas.problem import Problem
-from schemas.rating import RatingAnswer
+from schemas.rating_answer import RatingAnswer
 from schemas.requests import Output
 from service.examples import bodies
 from tests.service.test_dynamics import OVER_THE_TURN
