@@ -9,6 +9,7 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
+from optimizer.program.cone import ConeProgram
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
@@ -322,3 +323,27 @@ def test_two_planes_balance_an_orbiting_scroll_with_the_closed_form_masses() -> 
     assert far.mass_kg == pytest.approx(1.2 * 0.005 / 0.02 * (0.05 - 0.02) / 0.12, rel=1e-5)
     assert near.angle_deg == pytest.approx(180.0)
     assert far.angle_deg % 360.0 == pytest.approx(0.0, abs=1e-3)
+
+
+def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
+    body = single([(90.0, 20.0)])
+    monkeypatch.setattr(ConeProgram, "solve", lambda *_: None)
+    found = answer(body)
+    assert found.status == "inaccurate"
+    assert found.total_mass_kg == 0.0
+    # analytic: nothing but the floor is proven, half of what there is
+    assert found.certificate.relative_gap == pytest.approx(0.5, rel=1e-12)
+
+
+def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
+    honest = ConeProgram.solve
+
+    def lying(self: ConeProgram, *arguments: Any) -> Any:
+        found = honest(self, *arguments)
+        return None if found is None else found._replace(x=0.3 * found.x, row=-found.row, term=5j * found.term)
+
+    monkeypatch.setattr(ConeProgram, "solve", lying)
+    found = answer(random_machine(1))
+    assert found.status == "inaccurate"
+    assert found.certificate.lower_bound <= found.certificate.objective
+    assert found.certificate.relative_gap > 1e-6
