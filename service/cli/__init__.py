@@ -1,0 +1,31 @@
+"""The command line ``counterweight``: the service without a server, on the same JSON.
+
+Exit codes: 0 optimal or computed, 1 infeasible or inaccurate, 2 bad input. The optimiser and the server are imported by
+the commands that need them, so that ``--help`` answers at once.
+"""
+
+import typer
+
+from service.cli.catalogue import effects, examples, schema
+from service.cli.compute import analyze, optimize, pin_loads, rating
+from service.cli.serve import serve
+
+app = typer.Typer(
+    help="Certified optimum counterweights for reciprocating and scroll machines.",
+    no_args_is_help=True,
+    add_completion=False,
+    pretty_exceptions_enable=False,
+)
+app.command()(optimize)
+app.command()(analyze)
+app.command(name="pin-loads")(pin_loads)
+app.command()(rating)
+app.command()(effects)
+app.command()(examples)
+app.command()(schema)
+app.command()(serve)
+
+
+def main() -> None:
+    """Run the command line."""
+    app()

@@ -1,0 +1,57 @@
+"""Commands that say what there is: effects, examples, schemas."""
+
+from typing import Annotated
+
+import typer
+
+from service.cli.terminal import AsJson, fail, put, show
+
+
+def effects(as_json: AsJson = False) -> None:
+    """List what can be asked for, and what is simulated and read for it."""
+    from optimizer.effects.catalogue import catalogue
+
+    if as_json:
+        put(catalogue().model_dump_json())
+    else:
+        from service.tables import effects_report
+
+        show(effects_report(catalogue()))
+
+
+def examples(
+    name: Annotated[str | None, typer.Argument(metavar="NAME", help="Print this one, ready for optimize.")] = None,
+    as_json: AsJson = False,
+) -> None:
+    """List the examples, or print one of them."""
+    from service.examples import UnknownExample, catalogue, load
+
+    if name is not None:
+        try:
+            put(load(name).decode().rstrip("\n"))
+        except UnknownExample:
+            fail("there is no example of this name; `counterweight examples` lists them")
+    elif as_json:
+        put(catalogue().model_dump_json())
+    else:
+        from service.tables import names_report
+
+        show(names_report("examples", [(one.name, one.title) for one in catalogue().examples]))
+
+
+def schema(
+    name: Annotated[str | None, typer.Argument(metavar="NAME", help="Print the JSON schema of this document.")] = None,
+) -> None:
+    """List the documents that go in and come out, or print the JSON schema of one of them."""
+    import json
+
+    from service.documents import DOCUMENTS
+
+    if name is None:
+        from service.tables import names_report
+
+        show(names_report("documents", [(key, document.meaning) for key, document in DOCUMENTS.items()]))
+    elif name in DOCUMENTS:
+        put(json.dumps(DOCUMENTS[name].json_schema(), indent=2))
+    else:
+        fail(f"there is no document of this name; there are {', '.join(DOCUMENTS)}")

@@ -1,0 +1,99 @@
+"""What a command reads from files and writes to the terminal."""
+
+import os
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, NoReturn, TypeVar
+
+import typer
+
+if TYPE_CHECKING:
+    from rich.console import RenderableType
+
+    from schemas.base import FieldProblem, Model
+
+    Question = TypeVar("Question", bound=Model)
+    Answer = TypeVar("Answer", bound=Model)
+
+BAD_INPUT = 2
+
+File = Annotated[str, typer.Argument(metavar="FILE", help="JSON file, or - for standard input.")]
+AsJson = Annotated[bool, typer.Option("--json", help="Print the exact answer of the REST service.")]
+Outputs = Annotated[
+    list[str] | None,
+    typer.Option("--output", help="What the answer shall hold, in place of `outputs` in the file; repeatable."),
+]
+
+
+def question(model: "type[Question]", file: str, outputs: Sequence[str] | None = None) -> "Question":
+    """The request in a file, with other outputs if they were given."""
+    from service.validation import InvalidRequest, UnreadableJson, check, read_json
+
+    source = "standard input" if file == "-" else file
+    try:
+        body = read_json(_read(file))
+        if outputs and isinstance(body, dict):
+            body = {**body, "outputs": outputs}
+        return check(model, body)
+    except OSError as error:
+        fail(f"cannot read {source}: {error.strerror}")
+    except UnreadableJson as error:
+        fail(f"{source} is not JSON: {error}")
+    except InvalidRequest as error:
+        fail_fields(error.problems, error.more)
+
+
+def _read(file: str) -> bytes:
+    if file != "-":
+        return Path(file).read_bytes()
+    if sys.stdin is None:
+        fail("standard input is closed")
+    return sys.stdin.buffer.read()
+
+
+def answer(compute: "Callable[[Question], Answer]", question: "Question") -> "Answer":
+    from optimizer.errors import MissingInput
+    from optimizer.rating.errors import OutOfRange
+
+    try:
+        return compute(question)
+    except (MissingInput, OutOfRange) as error:
+        fail_fields(error.problems)
+
+
+def fail_fields(problems: "Sequence[FieldProblem]", more: bool = False) -> NoReturn:
+    from service.validation import pointer
+
+    lines = [f"{pointer(problem.path) or 'the request'}: {problem.message}" for problem in problems]
+    fail(*lines, *(["... and more"] if more else []))
+
+
+def fail(*lines: str) -> NoReturn:
+    for line in lines:
+        typer.echo(line, err=True)
+    raise typer.Exit(BAD_INPUT)
+
+
+def show(content: "RenderableType") -> None:
+    from rich.console import Console
+
+    console = Console()
+    if not console.is_terminal:
+        console.width = 160
+    with console.capture() as rendered:
+        console.print(content)
+    put(rendered.get().rstrip("\n"))
+
+
+def put(text: str) -> None:
+    if sys.stdout is None:
+        fail("standard output is closed")
+    try:
+        sys.stdout.reconfigure(errors="replace")  # type: ignore[union-attr]
+        sys.stdout.write(text + "\n")
+        sys.stdout.flush()
+    except OSError as error:
+        # what is still in the buffer must not fail once more at exit
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        fail(f"cannot write to standard output: {error.strerror}")
