@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 
 Real = NDArray[np.float64]
 Complex = NDArray[np.complex128]
+#: one number, or one for each of many programs
+Reals = Real | float
 
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
 _ROUNDING = 16 * np.finfo(float).eps

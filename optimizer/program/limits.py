@@ -53,6 +53,18 @@ class Limits:
         edge = rotated.real * self.half_angle_cos + across * self.half_angle_sin
         return np.where(self.free | inside, np.abs(g), np.maximum(edge, 0.0))
 
+    def chosen(self, programs: "int | np.ndarray") -> "Limits":
+        """The limits of some of the programs of one leading axis."""
+        return Limits(
+            self.radius[programs],
+            self.max_mass[programs],
+            self.free[programs],
+            self.centre[programs],
+            self.half_angle_cos[programs],
+            self.half_angle_sin[programs],
+            self.max_total_mass[programs],
+        )
+
     def only(self, webs: np.ndarray) -> "Limits":
         """The limits of some of the webs, for one program (no leading axes)."""
         return Limits(

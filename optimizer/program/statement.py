@@ -4,13 +4,13 @@ minimise    P(u) = max_r ( floor_r + sum_{j in r} |c_j + H_j u| )
 subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.program.limits import Limits
-from optimizer.response import SMALLEST, Complex, Real, Response, total
+from optimizer.response import SMALLEST, Complex, Real, Reals, Response, total
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,9 @@ class Norms:
         largest = np.max(np.abs(self.influence), axis=-1, initial=0.0)
         return np.where(largest > 0, largest, 1.0)
 
+    def chosen(self, programs: "int | np.ndarray") -> "Norms":
+        return Norms(self.constant[programs], self.influence[programs])
+
     def only(self, webs: np.ndarray) -> "Norms":
         return Norms(self.constant, self.influence[..., webs])
 
@@ -38,7 +41,7 @@ class Norms:
 class WeightedPeak:
     """One weighted peak over a turn, as a floor and norm terms."""
 
-    floor: float
+    floor: Real  # (...)
     norms: Norms
 
 
@@ -54,6 +57,9 @@ class Ceilings:
     def excess(self, u: Complex) -> Real:
         """How far each response is above its ceiling, relative to its size; <= 0 if met."""
         return (np.abs(self.norms.at(u)) - self.cap) / self.size
+
+    def chosen(self, programs: "int | np.ndarray") -> "Ceilings":
+        return Ceilings(self.names, self.norms.chosen(programs), self.cap[programs], self.size[programs])
 
     def only(self, webs: np.ndarray) -> "Ceilings":
         return Ceilings(self.names, self.norms.only(webs), self.cap, self.size)
@@ -83,61 +89,94 @@ class Statement:
         """Total counterweight mass, kg."""
         return np.sum(np.abs(u) / self.limits.radius, axis=-1)
 
+    def each(self) -> Iterator["Statement"]:
+        """The programs one by one, of one leading axis (N,)."""
+        for n in range(self.norms.constant.shape[0]):
+            yield self.chosen(n)
+
+    def chosen(self, programs: "int | np.ndarray") -> "Statement":
+        """Some of the programs of one leading axis."""
+        return Statement(
+            self.norms.chosen(programs),
+            self.row,
+            self.floor[programs],
+            self.ceilings.chosen(programs),
+            self.limits.chosen(programs),
+        )
+
     def only(self, webs: np.ndarray) -> "Statement":
         """The program with some of the webs, for one program (no leading axes)."""
         return Statement(self.norms.only(webs), self.row, self.floor, self.ceilings.only(webs), self.limits.only(webs))
 
 
-def weighted_peak(response: Response, weight: float, weight_x: float = 1.0, weight_y: float = 1.0) -> WeightedPeak:
+def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weight_y: Reals = 1.0) -> WeightedPeak:
     """Weighted peak of a response over a turn, exactly (docs/mathematics.md section 3).
 
     With p = (w_x + w_y)/2 and q = (w_x - w_y)/2 the weighted vector is the pair of phasors
     p f + q conj(b) and p b + q conj(f), so its peak is |p f + q conj b| + |q f + p conj b|; both are
     affine in u with real factors. With equal weights the second is the constant p |b|.
+
+    Parameters
+    ----------
+    weight, weight_x, weight_y : (...) one for each program.
     """
-    p, q = 0.5 * weight * (weight_x + weight_y), 0.5 * weight * (weight_x - weight_y)
+    p = np.asarray(0.5 * weight * (weight_x + weight_y))
+    q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, np.conj(response.baseline.counter)
-    if q == 0.0:
-        return WeightedPeak(float(p * np.abs(b)), Norms(total(np.array([[p * f]])), p * response.influence[None, :]))
-    constant = total(np.array([[p * f, q * b], [q * f, p * b]]))
-    return WeightedPeak(0.0, Norms(constant, np.array([[p], [q]]) * response.influence))
+    if not np.any(q):
+        alone = total((p * f)[..., None, None])
+        return WeightedPeak(p * np.abs(b), Norms(alone, p[..., None, None] * response.influence[..., None, :]))
+    terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)
+    constant = total(np.stack(terms, axis=-1).reshape(*terms[0].shape, 2, 2))
+    influence = np.stack([p, q], axis=-1)[..., None] * response.influence[..., None, :]
+    return WeightedPeak(np.zeros_like(p), Norms(constant, influence))
 
 
 def statement(
-    peaks: Sequence[WeightedPeak], combine: str, ceilings: Sequence[tuple[Response, float]], limits: Limits
+    peaks: Sequence[WeightedPeak], combine: str, ceilings: Sequence[tuple[Response, Reals]], limits: Limits
 ) -> Statement:
-    """Put a program together.
+    """Put a program together, or many of one shape.
 
     Parameters
     ----------
     peaks : the weighted peaks to be small, at least one.
     combine : "sum" or "max" of them.
-    ceilings : responses with the largest peak allowed, in the units of the response.
+    ceilings : responses with the largest peak allowed (...), in the units of the response.
     """
-    floors = np.array([peak.floor for peak in peaks])
-    owner = np.repeat(np.arange(len(peaks)), [peak.norms.constant.size for peak in peaks])
-    norms = _join([peak.norms for peak in peaks], limits.radius.shape[-1])
+    floors = np.stack(np.broadcast_arrays(*(peak.floor for peak in peaks)), axis=-1)
+    owner = np.repeat(np.arange(len(peaks)), [peak.norms.constant.shape[-1] for peak in peaks])
+    norms = _join([peak.norms for peak in peaks])
+    floors = np.broadcast_to(floors, (*norms.constant.shape[:-1], floors.shape[-1]))
     return Statement(
         norms=norms,
         row=owner if combine == "max" else np.zeros_like(owner),
-        floor=floors if combine == "max" else floors.sum(keepdims=True),
+        floor=floors if combine == "max" else floors.sum(axis=-1, keepdims=True),
         ceilings=_ceilings(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
     )
 
 
-def _ceilings(ceilings: Sequence[tuple[Response, float]], objective: Norms, webs: int) -> Ceilings:
-    norms = _join([Norms(response.baseline.co[None], response.influence[None, :]) for response, _ in ceilings], webs)
+def _ceilings(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: int) -> Ceilings:
+    leading = objective.constant.shape[:-1]
+    none = Norms(np.zeros((*leading, 0), complex), np.zeros((*leading, 0, webs)))
+    terms = [Norms(response.baseline.co[..., None], response.influence[..., None, :]) for response, _ in ceilings]
+    norms = _join([none, *terms])
     # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
-    cap = np.array([ceiling - np.abs(response.baseline.counter) for response, ceiling in ceilings])
+    cap = np.zeros((*leading, len(ceilings)))
+    for index, (response, ceiling) in enumerate(ceilings):
+        cap[..., index] = ceiling - np.abs(response.baseline.counter)
     size = np.maximum(np.abs(norms.constant), np.abs(cap))
     # where both vanish: what the unbalance that the objective calls for does to the response
-    called_for = np.max(np.abs(objective.constant) / objective.largest_influence, initial=0.0)
-    size = np.where(size > SMALLEST, size, norms.largest_influence * called_for)
+    called_for = np.max(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
+    size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
     return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, np.where(size > SMALLEST, size, 1.0))
 
 
-def _join(norms: Sequence[Norms], webs: int) -> Norms:
-    constant = np.concatenate([np.zeros(0, complex), *(part.constant for part in norms)])
-    influence = np.concatenate([np.zeros((0, webs)), *(part.influence for part in norms)])
-    return Norms(constant, influence)
+def _join(norms: Sequence[Norms]) -> Norms:
+    """All terms side by side, (..., J) and (..., J, K)."""
+    leading = np.broadcast_shapes(
+        *(part.constant.shape[:-1] for part in norms), *(part.influence.shape[:-2] for part in norms)
+    )
+    constant = [np.broadcast_to(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
+    influence = [np.broadcast_to(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
+    return Norms(np.concatenate(constant, axis=-1), np.concatenate(influence, axis=-2))
