@@ -124,14 +124,17 @@ def bending_moment(bearing: Real, reaction: Complex, position: Real, load: Compl
     (..., S, T) N m, or kg m^2.
     """
     bearing, position, station = (np.asarray(place, dtype=float) for place in (bearing, position, station))
-    middle = 0.5 * np.min(bearing, axis=-1, keepdims=True) + 0.5 * np.max(bearing, axis=-1, keepdims=True)
-    # the nearer end: both sides give the same, but this one is exactly zero where the shaft ends
-    side = np.where(station < middle, -1.0, 1.0)[..., :, None]
 
-    def arms(place: Real) -> Real:
+    def arms(place: Real, side: Real | float) -> Real:
         return np.maximum(side * (place[..., None, :] - station[..., :, None]), 0.0)
 
-    return arms(bearing) @ reaction - arms(position) @ load
+    def terms(side: float) -> Real:
+        largest = [np.max(np.abs(force), axis=-1)[..., None] for force in (reaction, load)]
+        return arms(bearing, side) @ largest[0] + arms(position, side) @ largest[1]
+
+    # both sides give the same, but one has the smaller terms, and no terms at all where the shaft ends
+    side = np.where(terms(-1.0) < terms(1.0), -1.0, 1.0)
+    return arms(bearing, side) @ reaction - arms(position, side) @ load
 
 
 class _Spans(NamedTuple):

@@ -5,7 +5,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from optimizer.mechanics.gas import Chambers, switching_travels
-from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.layout import Layout, stacked
+from optimizer.response import Real
 from schemas.base import FieldProblem
 from schemas.cylinder import Cylinder
 from schemas.machine import ReciprocatingMachine
@@ -24,10 +25,17 @@ _NEVER_DELIVERS = "with this clearance and pressure ratio the chamber never deli
 
 
 def chambers(machine: ReciprocatingMachine) -> Chambers:
-    """Chambers of all rows (rows, 2), throw by throw; every row has complete data (``gas_problems``)."""
+    """Chambers of all rows (..., rows, 2), throw by throw; every row has complete data (``gas_problems``).
+
+    Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
+    """
     rows = [_row(row.cylinder) for throw in machine.throws for row in throw.rows if row.cylinder is not None]
-    table = np.array(rows, dtype=float).reshape(-1, 2, 7)
-    area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -1, 0)
+
+    def part(number: int) -> Real:
+        values = stacked([row[side][number] for row in rows for side in (0, 1)])
+        return values.reshape(*values.shape[:-1], -1, 2)
+
+    area, low, high, clearance, expansion, compression, closed = (part(number) for number in range(7))
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 
 

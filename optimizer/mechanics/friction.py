@@ -35,7 +35,8 @@ def share_of_losses(
     efficiency, reciprocating_share, omega : (...).
     stroke : (..., rows) m.
     """
-    losses = indicated_power * (1.0 / efficiency - 1.0)[..., None]
+    # 1/eta - 1 would cancel for small losses
+    losses = indicated_power * ((1.0 - efficiency) / efficiency)[..., None]
     per_turn = losses * 2.0 * np.pi / omega[..., None]
     force = reciprocating_share[..., None] * per_turn / (2.0 * stroke)
     torque = (1.0 - reciprocating_share) * np.sum(losses, axis=-1) / omega

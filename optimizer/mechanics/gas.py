@@ -8,6 +8,7 @@ head side -p A, crank side +p A (seed 004, 2-14 and 2-15).
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial.legendre import leggauss
 
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
@@ -15,6 +16,8 @@ from optimizer.response import Real
 
 #: sign of a chamber's force, head and crank side
 _SIGN = np.array([-1.0, 1.0])
+#: Gauss-Legendre quadrature on [0, 1]
+_INSIDE, _SHARES = (np.array(values) for values in (0.5 * (1.0 + leggauss(10)[0]), 0.5 * leggauss(10)[1]))
 
 
 @dataclass(frozen=True)
@@ -51,7 +54,9 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout) -> GasForces:
     """
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None, None]
     head = motion.displacement[..., None, :]
-    travel = np.concatenate([head, stroke - head], axis=-2)
+    # the crank side empties where the difference from the stroke has no digits left
+    crank = stroke - head if motion.remaining is None else motion.remaining[..., None, :]
+    travel = np.concatenate([head, crank], axis=-2)
     clear = chambers.clearance[..., None] * stroke
     to_shaft = np.mod(motion.crank_angle, 2.0 * np.pi) < np.pi
     growing = np.stack([to_shaft, ~to_shaft], axis=-2)
@@ -67,26 +72,43 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout) -> GasForces:
 
 def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
     """Own travel at which suction opens and at which discharge opens, (..., rows, 2) m; nan where open."""
+    suction, discharge, _ = _switching(chambers, layout)
+    return suction, discharge
+
+
+def _switching(chambers: Chambers, layout: Layout) -> tuple[Real, Real, Real]:
+    """Switching travels, and how far before full volume discharge opens: each by itself, without cancellation."""
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
     clear = chambers.clearance * stroke
-    # an open side may be open to a vacuum
-    ratio = np.where(chambers.closed, chambers.discharge, 1.0) / np.where(chambers.closed, chambers.suction, 1.0)
-    suction = clear * (ratio ** (1.0 / chambers.expansion_exponent) - 1.0)
-    discharge = (stroke + clear) * ratio ** (-1.0 / chambers.compression_exponent) - clear
+    log = _log_ratio(chambers)
+    suction = clear * np.expm1(log / chambers.expansion_exponent)
+    # share of the full volume that compression takes away
+    taken = -np.expm1(-log / chambers.compression_exponent)
+    discharge, before = stroke * (1.0 - taken) - clear * taken, (stroke + clear) * taken
     opens = chambers.closed & (suction < stroke) & (discharge > 0.0)
-    return np.where(opens, suction, np.nan), np.where(opens, discharge, np.nan)
+    return np.where(opens, suction, np.nan), np.where(opens, discharge, np.nan), np.where(opens, before, np.nan)
+
+
+def _log_ratio(chambers: Chambers) -> Real:
+    """ln(p_d / p_s), 0 on open sides; good for pressures that hardly differ."""
+    # an open side may be open to a vacuum
+    low = np.where(chambers.closed, chambers.suction, 1.0)
+    return np.log1p(np.where(chambers.closed, chambers.discharge - chambers.suction, 0.0) / low)
 
 
 def switching_angles(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
     """Own crank angles in [0, 2 pi) at which suction and discharge open, (..., rows, 2) rad; nan where never."""
     rows = layout.reciprocating
-    radius, lam = rows.crank_radius[..., None], rows.rod_ratio[..., None]
+    radius, lam, margin = rows.crank_radius[..., None], rows.rod_ratio[..., None], rows.rod_margin[..., None]
     stroke = 2.0 * radius
-    suction, discharge = switching_travels(chambers, layout)
+    suction, discharge, before = _switching(chambers, layout)
     from_head = np.array([True, False])
     # the head chamber grows over 0..pi and shrinks over pi..2 pi; the crank chamber the other way round
-    opens = angle_at(np.where(from_head, suction, stroke - suction), radius, lam)
-    closes = angle_at(np.where(from_head, discharge, stroke - discharge), radius, lam)
+
+    def own_angle(travel: Real, left: Real) -> Real:
+        return angle_at(np.where(from_head, travel, left), radius, lam, np.where(from_head, left, travel), margin)
+
+    opens, closes = own_angle(suction, stroke - suction), own_angle(discharge, before)
     return (
         np.where(from_head, opens, 2.0 * np.pi - opens),
         np.where(from_head, 2.0 * np.pi - closes, closes),
@@ -96,21 +118,29 @@ def switching_angles(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
 def indicated_work(chambers: Chambers, layout: Layout) -> Real:
     """Work put into the gas in one turn, in closed form, (..., rows, 2) J; 0 on open sides.
 
-    Compression and discharge minus re-expansion and suction; nan where the chamber never delivers.
+    The work above the suction pressure, which would do none by itself: with the volumes V and their polytropes,
+    p_s V_full g(l_n, n) + (p_d - p_s) V_delivered - p_s V_opens g(l_m, m), where l_n = ln(p_d / p_s) / n and
+    g(l, n) = integral from 0 to l of (e^{nu} - 1) e^{-u} du. So pressures that hardly differ keep their digits.
+    nan where the chamber never delivers.
     """
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
     clear = np.where(chambers.closed, chambers.clearance, 1.0) * stroke
-    low, high = chambers.suction, chambers.discharge
+    low, rise, log = chambers.suction, chambers.discharge - chambers.suction, _log_ratio(chambers)
     suction, discharge = switching_travels(chambers, layout)
-    put_in = _polytropic(low, stroke + clear, discharge + clear, chambers.compression_exponent) + high * discharge
-    given_back = _polytropic(high, clear, suction + clear, chambers.expansion_exponent) + low * (stroke - suction)
+    compression, expansion = (
+        _above_start(log, n) for n in (chambers.compression_exponent, chambers.expansion_exponent)
+    )
+    put_in = low * (stroke + clear) * compression + rise * discharge
+    given_back = low * (clear + suction) * expansion
     return np.where(chambers.closed, chambers.area * (put_in - given_back), 0.0)
 
 
-def _polytropic(pressure: Real, start: Real, end: Real, exponent: Real) -> Real:
-    """|integral of p dx| along p x^n = const from start to end, per unit of area."""
-    power = 1.0 - exponent
-    # expm1 keeps the digits where the exponent is near 1
-    log = np.log(end / start)
-    quotient = np.where(power == 0.0, log, np.expm1(power * log) / np.where(power == 0.0, 1.0, power))
-    return np.abs(pressure * start * quotient)
+def _above_start(log: Real, exponent: Real) -> Real:
+    """g(log / n, n), work of a compression above its first pressure over first pressure times first volume."""
+    length, power = log / exponent, exponent - 1.0
+    safe = np.where(power == 0.0, 1.0, power)
+    direct = np.where(power == 0.0, length, np.expm1(power * length) / safe) + np.expm1(-length)
+    # the two terms cancel for small pressure ratios, and the integrand is smooth
+    u = length[..., None] * _INSIDE
+    near = length * (np.expm1(np.minimum(exponent[..., None] * u, 1.0)) * np.exp(-u) @ _SHARES)
+    return np.where(log < 1.0, near, direct)

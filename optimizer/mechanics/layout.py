@@ -4,7 +4,9 @@ All arrays broadcast over leading axes, so that one machine and a million design
 the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -33,6 +35,14 @@ class Reciprocating:
     axis: Complex
     position: Real  # m
     rod_ratio: Real  # r/l; 0 for an infinite rod, nan where the rod is not given
+    #: r/l - rod_ratio, what rounding the quotient took off; None where that is not known
+    rod_ratio_rest: Real | None = None
+
+    @property
+    def rod_margin(self) -> Real:
+        """1 - r/l (..., n). The quotient alone has lost its digits where rod and crank are nearly equal."""
+        margin = 1.0 - self.rod_ratio
+        return margin if self.rod_ratio_rest is None else margin - self.rod_ratio_rest
 
 
 @dataclass(frozen=True)
@@ -57,48 +67,78 @@ class Layout:
 
 
 def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
-    """Arrays of one machine (no leading axes); rods are shared between crosshead and pin here.
+    """Arrays of one machine, or of many; rods are shared between crosshead and pin here.
 
+    A field may hold a column (N,), one value for each of N machines that differ in nothing else; what depends on it
+    then has the leading axis (N,), the rest has none. Without columns there are no leading axes.
     Source: seed 001 l. 4 and 7 (share of the rod), seed 002 l. 735.
     """
     if isinstance(machine, ScrollMachine):
         rotating, reciprocating, planes = _scroll(machine)
     else:
         rotating, reciprocating, planes = _reciprocating(machine)
-    centre = 0.5 * (min(planes) + max(planes))
+    places = stacked(planes)
+    centre = 0.5 * (np.min(places, axis=-1) + np.max(places, axis=-1))
     return Layout(
         omega=np.asarray(machine.speed_rpm * np.pi / 30.0),
         sense=np.asarray(1.0 if machine.rotation == "ccw" else -1.0),
         centre_plane=np.asarray(centre),
-        reference_plane=np.asarray(centre if machine.reference_plane_m is None else machine.reference_plane_m),
+        reference_plane=np.asarray(
+            centre if machine.reference_plane_m is None else machine.reference_plane_m, dtype=float
+        ),
         rotating=rotating,
         reciprocating=reciprocating,
         webs=_webs(machine),
     )
 
 
+def stacked(fields: Sequence[Any]) -> Real:
+    """Fields side by side on a last axis, (..., len(fields)); each is a number or a column (N,)."""
+    if all(isinstance(field, float | int) for field in fields):
+        return np.array(fields, dtype=float)
+    return np.stack(np.broadcast_arrays(*(np.asarray(field, dtype=float) for field in fields)), axis=-1)
+
+
+def quotient(numerator: Any, denominator: Any) -> tuple[Any, Any]:
+    """A quotient and what rounding took off it, so that their sum has the digits of two doubles (...)."""
+    value = numerator / denominator
+    # exact product (Dekker 1971), so that the remainder is exact
+    product = value * denominator
+    (high, low), (other_high, other_low) = _halves(value), _halves(denominator)
+    error = ((high * other_high - product) + high * other_low + low * other_high) + low * other_low
+    return value, ((numerator - product) - error) / denominator
+
+
+def _halves(value: Any) -> tuple[Any, Any]:
+    """Two numbers of half the digits whose sum is the value (Veltkamp)."""
+    scaled = 134217729.0 * value
+    high = scaled - (scaled - value)
+    return high, value - high
+
+
 def _webs(machine: Rotor) -> Webs:
     return Webs(
-        position=np.array([web.position_m for web in machine.webs], dtype=float),
-        radius=np.array([web.counterweight_radius_m for web in machine.webs], dtype=float),
+        position=stacked([web.position_m for web in machine.webs]),
+        radius=stacked([web.counterweight_radius_m for web in machine.webs]),
     )
 
 
 def _reciprocating(machine: ReciprocatingMachine) -> tuple[Rotating, Reciprocating, list[float]]:
     turning = []  # mass, radius, angle, position
-    moving = []  # mass, radius, crank angle, axis, position, rod ratio
+    moving = []  # mass, radius, crank angle, axis, position, rod ratio and its rest
     for throw in machine.throws:
         radius, angle, plane = throw.crank_radius_m, throw.crank_angle_deg, throw.position_m
         turning.append((throw.rotating_mass_kg, radius, angle, plane))
         for row in throw.rows:
-            mass, ratio = row.reciprocating_mass_kg, np.nan
+            mass: Any = row.reciprocating_mass_kg
+            ratio, rest = np.nan, 0.0
             if row.connecting_rod is not None:
                 rod = row.connecting_rod
-                mass += rod.reciprocating_share * rod.mass_kg
-                ratio = 0.0 if rod.length_m is None else radius / rod.length_m
+                mass = mass + rod.reciprocating_share * rod.mass_kg
+                ratio, rest = (0.0, 0.0) if rod.length_m is None else quotient(radius, rod.length_m)
                 # the big end turns in the plane of its own row, not in that of the throw
                 turning.append(((1.0 - rod.reciprocating_share) * rod.mass_kg, radius, angle, plane + row.offset_m))
-            moving.append((mass, radius, angle, row.axis_deg, plane + row.offset_m, ratio))
+            moving.append((mass, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
     return _rotating_table(turning), _reciprocating_table(moving), [throw.position_m for throw in machine.throws]
 
 
@@ -108,17 +148,17 @@ def _scroll(machine: ScrollMachine) -> tuple[Rotating, Reciprocating, list[float
     moving = []
     if guide.type == "oldham":
         # the ring slides along one axis with the orbit's projection: a crank with an infinite rod
-        moving.append((guide.mass_kg, orbit, 0.0, guide.axis_deg, guide.position_m, 0.0))
+        moving.append((guide.mass_kg, orbit, 0.0, guide.axis_deg, guide.position_m, 0.0, 0.0))
     else:
         turning.append((guide.count * guide.eccentric_mass_kg, orbit, 0.0, guide.position_m))
     return _rotating_table(turning), _reciprocating_table(moving), [machine.orbiting_position_m]
 
 
-def _rotating_table(rows: list[tuple[float, float, float, float]]) -> Rotating:
-    mass, radius, angle, position = np.array(rows, dtype=float).reshape(-1, 4).T
+def _rotating_table(rows: list[Any]) -> Rotating:
+    mass, radius, angle, position = (stacked([row[part] for row in rows]) for part in range(4))
     return Rotating(mass, radius, direction(angle), position)
 
 
-def _reciprocating_table(rows: list[tuple[float, float, float, float, float, float]]) -> Reciprocating:
-    mass, radius, angle, axis, position, ratio = np.array(rows, dtype=float).reshape(-1, 6).T
-    return Reciprocating(mass, radius, direction(angle), direction(axis), position, ratio)
+def _reciprocating_table(rows: list[Any]) -> Reciprocating:
+    mass, radius, angle, axis, position, ratio, rest = (stacked([row[part] for row in rows]) for part in range(7))
+    return Reciprocating(mass, radius, direction(angle), direction(axis), position, ratio, rest)

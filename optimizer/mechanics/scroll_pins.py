@@ -39,7 +39,9 @@ class Pins:
     def offset(self) -> Complex:
         """Places from their mean, weighted with the stiffnesses, w (..., n) m."""
         weight = self.stiffness / np.sum(self.stiffness, axis=-1, keepdims=True)
-        return self.place - np.sum(weight * self.place, axis=-1, keepdims=True)
+        # from pin to pin: the mean is next to a pin that is much stiffer than the others, and would cancel there
+        apart = self.place[..., :, None] - self.place[..., None, :]
+        return np.sum(weight[..., None, :] * apart, axis=-1)
 
 
 @dataclass(frozen=True)
@@ -130,12 +132,16 @@ def _distribute(moment: Real, force: Real, lever: Real, stiffness: Real) -> Real
 def principal(offset: Complex, weight: Real) -> tuple[Real, Real, Real]:
     """Principal axes of sum weight w w^T: major and minor semi-axis (...) m and direction of the major, rad (...).
 
-    Singular values, not their squares, so that a pattern near a line keeps its width.
+    The minor one from the area, major^2 minor^2 = sum over pairs of (w_i x w_k)^2 (Cauchy and Binet): a sum without
+    cancellation, so that a pattern near a line, or one whose soft pins alone keep it off a line, keeps its width.
     """
     weighted = np.sqrt(weight) * offset
     axes, values, _ = np.linalg.svd(np.stack([weighted.real, weighted.imag], axis=-2), full_matrices=False)
-    minor = values[..., 1] if values.shape[-1] > 1 else np.zeros_like(values[..., 0])
-    return values[..., 0], minor, np.arctan2(axes[..., 1, 0], axes[..., 0, 0])
+    major = values[..., 0]
+    cross = np.imag(np.conj(weighted)[..., :, None] * weighted[..., None, :])
+    area = np.sqrt(0.5 * np.sum(cross**2, axis=(-2, -1)))
+    minor = np.where(major > 0.0, area / np.where(major > 0.0, major, 1.0), 0.0)
+    return major, minor, np.arctan2(axes[..., 1, 0], axes[..., 0, 0])
 
 
 def dead_points(place: Complex) -> Real:

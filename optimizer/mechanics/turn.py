@@ -5,29 +5,37 @@ Gauss-Legendre panels between them converge fast; the end point of the turn is n
 """
 
 from dataclasses import dataclass
+from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 from numpy.polynomial import legendre
+from numpy.typing import NDArray
 
 from optimizer.response import Real
 
-_NODES = 6
-_ABSCISSAE, _WEIGHTS = legendre.leggauss(_NODES)
+#: nodes of a panel, by the number of panels up to which they serve: many breaks make narrow panels, which need fewer
+_NODES = ((500, 12), (1500, 8))
+_FEWEST_NODES = 6
+_NEWTON_STEPS = 5
 
 
-def _integration_matrix() -> Real:
-    """Matrix from values at the Gauss nodes of [-1, 1] to the integrals of their interpolant from -1."""
-    to_legendre = np.linalg.inv(legendre.legvander(_ABSCISSAE, _NODES - 1))
-    integrals = [legendre.legval(_ABSCISSAE, legendre.legint(unit, lbnd=-1)) for unit in np.eye(_NODES)]
-    return np.array(integrals).T @ to_legendre
+class _Rule(NamedTuple):
+    """Gauss-Legendre quadrature on [-1, 1] with n nodes, and the interpolant between them."""
+
+    abscissae: Real  # (n,)
+    weights: Real  # (n,)
+    to_legendre: Real  # (n, n) from values at the nodes to Legendre coefficients
+    at_ends: Real  # (2, n) from values at the nodes to those at -1 and 1
 
 
-_INTEGRATE = _integration_matrix()
-#: from values at the Gauss nodes to those of their interpolant at both ends
-_AT_ENDS = legendre.legvander(np.array([-1.0, 1.0]), _NODES - 1) @ np.linalg.inv(
-    legendre.legvander(_ABSCISSAE, _NODES - 1)
-)
-_STEPS = np.diff(np.concatenate([[-1.0], _ABSCISSAE, [1.0]]))
+@cache
+def _rule(nodes: int) -> _Rule:
+    abscissae, weights = legendre.leggauss(nodes)
+    vander = legendre.legvander(abscissae, nodes - 1)
+    to_legendre = (np.arange(nodes) + 0.5)[:, None] * vander.T * weights
+    at_ends = legendre.legvander(np.array([-1.0, 1.0]), nodes - 1) @ to_legendre
+    return _Rule(abscissae, weights, to_legendre, at_ends)
 
 
 @dataclass(frozen=True)
@@ -38,9 +46,14 @@ class Turn:
     width: Real  # (..., P) rad; 0 where two break angles coincide
 
     @property
+    def rule(self) -> _Rule:
+        count = self.width.shape[-1]
+        return _rule(next((nodes for most, nodes in _NODES if count <= most), _FEWEST_NODES))
+
+    @property
     def angle(self) -> Real:
         """Nodes in rising order, (..., P * nodes) rad."""
-        inside = 0.5 * (_ABSCISSAE + 1.0)
+        inside = 0.5 * (self.rule.abscissae + 1.0)
         nodes = self.start[..., None] + self.width[..., None] * inside
         return nodes.reshape(*nodes.shape[:-2], -1)
 
@@ -68,29 +81,52 @@ def panels(breaks: Real, widest: float, halved: bool = False) -> Turn:
 
 def mean(turn: Turn, values: Real) -> Real:
     """Mean over the turn of values at its nodes (...)."""
-    return np.sum(_per_panel(turn, values) @ _WEIGHTS * (0.5 * turn.width), axis=-1) / (2.0 * np.pi)
+    return np.sum(_per_panel(turn, values) @ turn.rule.weights * (0.5 * turn.width), axis=-1) / (2.0 * np.pi)
 
 
 def fluctuation(turn: Turn, values: Real) -> Real:
     """Range of the running integral of values - mean over the turn (...).
 
     For a torque that is the energy a flywheel has to take up and give back (seed 004, 2-27, E004-17).
-    The extremes lie where the value crosses its mean, between two nodes.
+    The extremes lie at the ends of panels and where the value crosses its mean: roots of its interpolant, where the
+    running integral of the interpolant is taken.
     """
     rest = _per_panel(turn, values - mean(turn, values)[..., None])
-    half = 0.5 * turn.width[..., None]
     # every panel by itself, from end to end: the value may jump from one to the next
-    first, last = np.split(rest @ _AT_ENDS.T, 2, axis=-1)
+    first, last = np.split(rest @ turn.rule.at_ends.T, 2, axis=-1)
     value = np.concatenate([first, rest, last], axis=-1)
-    whole = rest @ _WEIGHTS * half[..., 0]
-    within = np.concatenate([np.zeros_like(first), rest @ _INTEGRATE.T * half, whole[..., None]], axis=-1)
-    running = (np.cumsum(whole, axis=-1) - whole)[..., None] + within
-    left, right = value[..., :-1], value[..., 1:]
-    crosses = left * right < 0.0
-    to_crossing = np.where(crosses, left / np.where(crosses, left - right, 1.0), 0.0) * _STEPS * half
-    extremes = np.concatenate([running, running[..., :-1] + 0.5 * left * to_crossing], axis=-1)
-    return np.max(extremes, axis=(-2, -1)) - np.min(extremes, axis=(-2, -1))
+    whole = rest @ turn.rule.weights * (0.5 * turn.width)
+    # summed in the order of the panels, so that neighbours agree on the end that they share
+    end = np.cumsum(whole, axis=-1)
+    crossing = np.nonzero(value[..., :-1] * value[..., 1:] < 0.0)
+    panel, interval = crossing[:-1], crossing[-1]
+    inner = np.zeros(value[..., :-1].shape)
+    inner[crossing] = _to_crossing(turn.rule, rest[panel], interval) * (0.5 * turn.width[panel])
+    extremes = (end - whole)[..., None] + inner
+    high = np.maximum(np.max(extremes, axis=(-2, -1)), np.max(end, axis=-1))
+    return high - np.minimum(np.min(extremes, axis=(-2, -1)), np.min(end, axis=-1))
+
+
+def _to_crossing(rule: _Rule, values: Real, interval: NDArray[np.intp]) -> Real:
+    """Integral over [-1, root] of the interpolants of values (m, nodes), each with a root in an interval (m,).
+
+    Newton's method inside the interval. Where it stops short of the root the integral is off by the square of that.
+    """
+    coefficients = rule.to_legendre @ values.T
+    places = np.concatenate([[-1.0], rule.abscissae, [1.0]])
+    slopes = legendre.legder(coefficients)
+    low, high = places[interval], places[interval + 1]
+    at_low, at_high = (legendre.legval(place, coefficients, tensor=False) for place in (low, high))
+    root = np.clip(low + (high - low) * at_low / _or_one(at_low - at_high), low, high)
+    for _ in range(_NEWTON_STEPS):
+        step = legendre.legval(root, coefficients, tensor=False) / _or_one(legendre.legval(root, slopes, tensor=False))
+        root = np.clip(root - step, low, high)
+    return np.asarray(legendre.legval(root, legendre.legint(coefficients, lbnd=-1), tensor=False), dtype=float)
+
+
+def _or_one(value: Real) -> Real:
+    return np.where(value == 0.0, 1.0, value)
 
 
 def _per_panel(turn: Turn, values: Real) -> Real:
-    return values.reshape(*turn.width.shape, _NODES)
+    return values.reshape(*turn.width.shape, turn.rule.weights.size)

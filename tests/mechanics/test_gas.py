@@ -229,3 +229,21 @@ def test_a_batch_is_the_loop() -> None:
         np.testing.assert_allclose(indicated_work(data, plan)[k], indicated_work(chambers, one), rtol=1e-13)
         for got, expected in zip(switching_angles(data, plan), switching_angles(chambers, one), strict=True):
             np.testing.assert_allclose(got[k], expected, rtol=1e-13)
+
+
+@pytest.mark.parametrize("rise", [1e-13, 1e-9, 1e-5, 0.1, 2.0])
+@pytest.mark.parametrize("exponent", [1.0 + 2.3e-16, 1.3, 10.0])
+def test_work_of_pressures_that_hardly_differ(exponent: float, rise: float) -> None:
+    plan, low = one_row(), 1e5
+    high = low * (1.0 + rise)
+    same = {"discharge": (high, high), "expansion_exponent": (exponent,) * 2, "compression_exponent": (exponent,) * 2}
+    data = one_cylinder(**same)
+    found = indicated_work(data, plan)[0]
+    with mpmath.workdps(50):
+        n, ratio = mpmath.mpf(exponent), mpmath.mpf(high) / mpmath.mpf(low)
+        for side, (area, clearance) in enumerate(((0.05, 0.1), (0.045, 0.12))):
+            full, clear = 0.2 * (1 + mpmath.mpf(clearance)), 0.2 * mpmath.mpf(clearance)
+            drawn = full - clear * ratio ** (1 / n)
+            # analytic: equal exponents, volume drawn in times p_s n/(n-1) (ratio^((n-1)/n) - 1)
+            expected = area * low * drawn * n / (n - 1) * (ratio ** ((n - 1) / n) - 1)
+            assert float(found[side]) == pytest.approx(float(expected), rel=1e-12)

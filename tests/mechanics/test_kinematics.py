@@ -154,3 +154,22 @@ def test_a_batch_is_the_loop(exact: bool) -> None:
         same(shared.acceleration[k], motion(one, angles[0], exact).acceleration)
         same(batch.tangential_factor[k], alone.tangential_factor)
         same(batch.radial_factor[k], alone.radial_factor)
+
+
+@pytest.mark.parametrize("rod_ratio", [*RATIOS, 1.0 - 1e-7])
+def test_what_remains_to_the_inner_dead_centre(rod_ratio: float) -> None:
+    away = np.array([1e-9, 1e-5, 1e-2, 1.0, 1.6, 3.0])
+    found = motion(one_row(rod_ratio), np.pi - away)
+    assert found.remaining is not None
+    np.testing.assert_allclose(found.remaining[0], 2.0 * RADIUS - found.displacement[0], atol=1e-15 * RADIUS * 8)
+    with mpmath.workdps(60):
+        # independent: the stroke less the travel at 60 digits
+        expected = [float(_pin(rod_ratio, mpmath.pi) - _pin(rod_ratio, mpmath.mpf(t))) for t in np.pi - away]
+    tolerance = 1e-12 if rod_ratio < 0.9999 else 1e-8  # the rod ratio alone has 1 - lam to 1e-9 only
+    assert np.abs(found.remaining[0, 1:]) == pytest.approx(np.abs(expected[1:]), rel=max(tolerance, 1e-10))
+
+
+def test_the_quotient_keeps_what_rounding_takes_off() -> None:
+    made = layout(machine(throw(0.0, row(0.0, length_m=0.10000001), radius_m=0.1)))
+    # analytic: (l - r) / l, the difference exact
+    assert made.reciprocating.rod_margin[0] == pytest.approx((0.10000001 - 0.1) / 0.10000001, rel=1e-15)

@@ -58,8 +58,8 @@ def test_sines(order: int) -> None:
     values = 30.0 + 8.0 * np.sin(order * turn.angle)
     assert mean(turn, values) == pytest.approx(30.0, rel=1e-13)
     assert mean(turn, values**2) == pytest.approx(900.0 + 32.0, rel=1e-12)
-    # analytic: 2 A / k; the crossing is found between nodes by a straight line
-    assert fluctuation(turn, values) == pytest.approx(2.0 * 8.0 / order, rel=1e-5)
+    # analytic: 2 A / k; the crossing is a root of the interpolant
+    assert fluctuation(turn, values) == pytest.approx(2.0 * 8.0 / order, rel=1e-12)
 
 
 def test_fluctuation_converges_to_the_analytic_value() -> None:
@@ -71,8 +71,8 @@ def test_fluctuation_converges_to_the_analytic_value() -> None:
     x = np.linspace(0.0, TURN, 2_000_001)
     running = np.sin(x) - 0.15 * np.cos(2.0 * x)
     expected = float(running.max() - running.min())
-    assert error(0.1) < 1e-4
-    assert error(0.01) < 1e-7
+    assert error(0.1) < 1e-11
+    assert error(0.01) < 1e-11
 
 
 def _square(x: Real) -> Real:
