@@ -1,46 +1,52 @@
-"""From machine, objective and responses to the statement of the convex program."""
+"""From machine, objective and responses to the statement of the convex program.
+
+Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
+"""
 
 from collections.abc import Mapping
 
 import numpy as np
 
 from optimizer.mechanics.angles import direction
+from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement, statement, weighted_peak
-from optimizer.response import Response
+from optimizer.response import SMALLEST, Reals, Response
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Objective
 
 
 def limits(machine: Machine) -> Limits:
-    """Limits of the counterweights on the webs of a machine (K,)."""
+    """Limits of the counterweights on the webs of a machine (..., K)."""
     webs, budget = machine.webs, machine.max_total_mass_kg
     free = np.array([web.sector is None for web in webs], dtype=bool)
-    centre = np.array([web.sector.centre_deg if web.sector else 0.0 for web in webs], dtype=float)
-    half_angle = np.array([web.sector.half_angle_deg if web.sector else 90.0 for web in webs], dtype=float)
+    centre = stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs])
+    half_angle = stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs])
     edge = direction(half_angle)
     return Limits(
-        radius=np.array([web.counterweight_radius_m for web in webs], dtype=float),
-        max_mass=np.array([web.max_mass_kg for web in webs], dtype=float),
+        radius=stacked([web.counterweight_radius_m for web in webs]),
+        max_mass=stacked([web.max_mass_kg for web in webs]),
         free=free,
         centre=direction(centre),
         half_angle_cos=edge.real,
         half_angle_sin=edge.imag,
-        max_total_mass=np.asarray(np.inf if budget is None else budget),
+        max_total_mass=np.asarray(np.inf if budget is None else budget, dtype=float),
     )
 
 
-def span(machine: Machine) -> float:
+def span(machine: Machine) -> Reals:
     """Axial span L of throws and webs, m; 1 m if that is zero (docs/api.md)."""
     if isinstance(machine, ReciprocatingMachine):
         planes = [throw.position_m for throw in machine.throws]
     else:
         planes = [machine.orbiting_position_m, machine.anti_rotation.position_m]
     planes += [web.position_m for web in machine.webs]
-    return (max(planes) - min(planes)) or 1.0
+    places = stacked(planes)
+    length = np.max(places, axis=-1) - np.min(places, axis=-1)
+    return np.where(length <= SMALLEST, 1.0, length)[()]
 
 
-def weights(machine: Machine, objective: Objective) -> Mapping[str, float]:
+def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
     """Weight of each response, by name: w_F [1/N] and w_M [1/(N m)]."""
     moment = 1.0 / span(machine) if objective.moment_weight is None else objective.moment_weight
     return {"force": objective.force_weight, "moment": moment}

@@ -4,13 +4,16 @@ import time
 
 import numpy as np
 
-from optimizer.formulate import ceilings, formulate, smallest_peak
+from optimizer.formulate import ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import outputs
 from optimizer.program.optimum import Unreachable, optimum
-from optimizer.program.solve import Solution, Solver
+from optimizer.program.sensitivity import shadow_prices
+from optimizer.program.solution import Solution
+from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
 from optimizer.report.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.report.first_order import first_order
+from optimizer.report.shadow_prices import shadow_prices as priced
 from optimizer.response import Complex
 from optimizer.scene import Prepared, prepare
 from schemas.answers import (
@@ -93,11 +96,25 @@ def _certified(
         and relative_gap <= request.accuracy.relative_gap
         and (mass_gap is None or mass_gap <= MASS_GAP)
     )
+    touched = _touched(request, scene, u, mass)
     return {
         "status": "optimal" if certified else "inaccurate",
         "counterweights": fitted,
         "total_mass_kg": mass,
-        "active_limits": _touched(request, scene, u, mass),
+        "active_limits": touched,
+        "shadow_prices": ()
+        if solution.multipliers is None
+        else priced(
+            request.machine,
+            goal,
+            {name: float(weight) for name, weight in weights(request.machine, goal).items()},
+            shadow_prices(statement, u, solution.multipliers),
+            fitted,
+            touched,
+            square,
+            gap,
+            rest,
+        ),
         "certificate": Certificate(
             objective=value * square,
             lower_bound=bound * square,

@@ -30,6 +30,9 @@ from schemas.scroll import PinLoadsAnswer
 
 WebLimit = Literal["max_mass", "sector"]
 MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
+PriceUnit = Literal[
+    "N/kg", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/deg", "N m/N", "N m/(N m)"
+]  # fmt: skip
 
 
 class Counterweight(Model):
@@ -126,6 +129,20 @@ class Certificate(Model):
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
 
 
+class ShadowPrice(Model):
+    """What a limit costs: how much the smallest objective falls per unit by which the limit is raised."""
+
+    limit: WebLimit | MachineLimit = Field(description="the limit", examples=["max_mass"])
+    web: Name | None = Field(description="web whose limit it is; null for a limit of the machine", examples=["1a"])
+    value: float = Field(
+        ge=0,
+        description="fall of the objective per unit of the limit, the objective taken as a force (over the force "
+        "weight) or, where the force has no weight, as a moment; 0 if it cannot be told from 0 by the certificate",
+        examples=[102.8],
+    )
+    unit: PriceUnit = Field(description="unit of the value; sectors are opened to both sides", examples=["N/kg"])
+
+
 class EffectUse(Model):
     """Whether an effect was simulated, for which outputs, and how long it took."""
 
@@ -205,6 +222,12 @@ class OptimizeAnswer(Outputs):
     )
     active_limits: tuple[MachineLimit, ...] = Field(
         (), description="limits of the whole machine that the answer touches", examples=[["max_total_mass"]]
+    )
+    shadow_prices: tuple[ShadowPrice, ...] = Field(
+        (),
+        description="price of every limit that the answer touches or that holds the objective up, webs in the "
+        "machine's order and then the machine's limits; empty if infeasible",
+        examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
     )
     residual: Residual = Field(description="first order before and after", examples=[{"before": {}, "after": {}}])
     floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 2498.7}])

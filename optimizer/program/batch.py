@@ -4,8 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.program.optimum import Unreachable, optimum
-from optimizer.program.solve import Solution, Solver
+from optimizer.program.fast import fast
+from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
+from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
 from optimizer.response import Complex, Real
 
@@ -25,32 +27,40 @@ class Optima:
 
 
 def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
-    """Certified optima of N statements of one shape, one leading axis (N,).
+    """Certified optima of N statements of one shape, one leading axis (N,); each as if it were alone.
 
     Parameters
     ----------
     relative_gap, least_mass : as in :func:`optimizer.program.optimum.optimum`.
     """
-    found = [optimum(each, relative_gap, least_mass, solver) for each in statement.each()]
-    points = [_point(each, one) for each, one in zip(statement.each(), found, strict=True)]
-
-    def column(name: str) -> Real:
-        return np.array([getattr(point, name) for point in points], dtype=float)
-
-    return Optima(
-        unbalance=np.array([point.unbalance for point in points]),
-        objective=column("objective"),
-        lower_bound=column("lower_bound"),
-        mass=column("mass"),
-        mass_lower_bound=column("mass_lower_bound"),
-        excess=column("excess"),
-        unreachable=np.array([isinstance(one, Unreachable) for one in found]),
-        method=np.array([point.method for point in points]),
+    size = yardstick(statement)
+    share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
+    found = fast(statement, share, demand, least_mass)
+    answer = Optima(
+        found.unbalance,
+        found.objective,
+        found.lower_bound,
+        found.mass,
+        found.mass_lower_bound,
+        found.excess,
+        np.zeros(share.shape, bool),
+        np.full(share.shape, INTERIOR_POINT, dtype=object),
     )
+    for n in map(int, np.flatnonzero(~found.certified)):
+        _put(answer, n, statement.chosen(n), optimum(statement.chosen(n), relative_gap, least_mass, solver))
+    return answer
 
 
-def _point(statement: Statement, found: Solution | Unreachable) -> Solution:
-    if isinstance(found, Solution):
-        return found
-    nowhere = Solution(found.closest, np.inf, -np.inf, np.inf, 0.0, np.inf)
-    return nowhere.moved_to(statement, found.closest)
+def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreachable) -> None:
+    point = found
+    if isinstance(point, Unreachable):
+        answer.unreachable[n] = True
+        nowhere = Solution(point.closest, np.inf, -np.inf, np.inf, 0.0, np.inf)
+        point = nowhere.moved_to(statement, point.closest)
+    answer.unbalance[n], answer.objective[n], answer.lower_bound[n] = (
+        point.unbalance,
+        point.objective,
+        point.lower_bound,
+    )
+    answer.mass[n], answer.mass_lower_bound[n] = point.mass, point.mass_lower_bound
+    answer.excess[n], answer.method[n] = point.excess, point.method

@@ -34,6 +34,19 @@ class Multipliers:
         factor = np.asarray(factor)[..., None]
         return Multipliers(self.term * factor, self.row * factor, self.ceiling * factor)
 
+    def where(self, chosen: np.ndarray, other: "Multipliers") -> "Multipliers":
+        """These where ``chosen`` (...), those of another elsewhere."""
+        chosen = chosen[..., None]
+        return Multipliers(
+            np.where(chosen, self.term, other.term),
+            np.where(chosen, self.row, other.row),
+            np.where(chosen, self.ceiling, other.ceiling),
+        )
+
+    def chosen(self, programs: "int | np.ndarray") -> "Multipliers":
+        """Those of some of the programs of one leading axis."""
+        return Multipliers(self.term[programs], self.row[programs], self.ceiling[programs])
+
     def admissible(self, statement: Statement) -> "Multipliers":
         """The same multipliers with lam >= 0 and |y| <= 1, without which they prove nothing."""
         row = np.maximum(self.row, 0.0)

@@ -53,6 +53,13 @@ class Limits:
         edge = rotated.real * self.half_angle_cos + across * self.half_angle_sin
         return np.where(self.free | inside, np.abs(g), np.maximum(edge, 0.0))
 
+    def opening(self, g: Complex) -> Real:
+        """Growth of :meth:`support` per radian of half-angle, 1/rad (..., K)."""
+        rotated = g * np.conj(self.centre)
+        growth = np.abs(rotated.imag) * self.half_angle_cos - rotated.real * self.half_angle_sin
+        outwards = np.abs(rotated.imag) * self.half_angle_sin + rotated.real * self.half_angle_cos > 0
+        return np.where(self.free | ~outwards, 0.0, np.maximum(growth, 0.0))
+
     def chosen(self, programs: "int | np.ndarray") -> "Limits":
         """The limits of some of the programs of one leading axis."""
         return Limits(

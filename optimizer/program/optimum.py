@@ -1,18 +1,24 @@
 """The whole program for one machine: smallest objective, ceilings, least mass."""
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.program.extended import PRECISIONS, Precision
+from optimizer.program.fast import fast
 from optimizer.program.scaling import natural_reach
-from optimizer.program.solve import OPTIMUM_SHARE, Solution, Solver
+from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
+from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
-from optimizer.response import Complex
+from optimizer.response import Complex, Real
 
 #: the smallest objective is sought this much more sharply than optima are told apart
 _SHARPNESS = 1e-4
 #: relative gap of the least mass that ends the search
 _MASS_GAP = 1e-6
+#: relative gap of the least mass above which finer numbers are worth their time
+_MASS_WORTH = 1e-5
 
 
 @dataclass(frozen=True)
@@ -40,30 +46,98 @@ def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver:
     """
     webs = statement.limits.reach > 0
     part = statement.only(webs)
-    share = min(OPTIMUM_SHARE, relative_gap) * _yardstick(part)
-    first = solver.smallest_objective(part, _SHARPNESS * share)
+    size = float(yardstick(part))
+    share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
+    quick = _interior_point(part, share, demand, least_mass) if np.any(webs) else None
+    if quick is not None and quick.certified:
+        found: Solution | Unreachable = quick.lightest
+    else:
+        found = _by_cone_program(part, share, least_mass, solver, quick)
+        for precision in PRECISIONS:
+            if _proven(found, share, least_mass) or not 0 < part.limits.radius.size <= precision.most_webs:
+                break
+            fine = _interior_point(part, share, demand, least_mass, precision)
+            found = fine.lightest if fine.certified else _better_of(found, fine.lightest, share)
+    if isinstance(found, Unreachable):
+        return replace(found, closest=_everywhere(found.closest, webs))
+    return replace(found, unbalance=_everywhere(found.unbalance, webs))
+
+
+def _by_cone_program(
+    statement: Statement, share: float, least_mass: bool, solver: Solver, known: "_Found | None"
+) -> Solution | Unreachable:
+    first = solver.smallest_objective(statement, _SHARPNESS * share, known.smallest if known else None)
     if first.excess > 0:
         # perhaps only by rounding: the sign of the smallest excess decides
-        nearest = solver.smallest_excess(part.ceilings, part.limits)
+        nearest = solver.smallest_excess(statement.ceilings, statement.limits)
         certify_s = first.certify_s + nearest.certify_s
         if nearest.lower_bound > 0:
-            closest = _everywhere(nearest.unbalance, webs)
-            return Unreachable(closest, nearest.objective, nearest.lower_bound, certify_s)
+            return Unreachable(nearest.unbalance, nearest.objective, nearest.lower_bound, certify_s)
         first = replace(first, certify_s=certify_s)
         if not first.keeps_ceilings:
-            first = first.moved_to(part, nearest.unbalance)
+            first = first.moved_to(statement, nearest.unbalance)
     if least_mass and first.keeps_ceilings:
-        first = solver.least_mass(part, first, share, _MASS_GAP)
-    return replace(first, unbalance=_everywhere(first.unbalance, webs))
+        first = solver.least_mass(statement, first, share, _MASS_GAP, known.lightest if known else None)
+    return first
 
 
-def _yardstick(statement: Statement) -> float:
-    """What gaps are relative to: the objective without counterweights, or what they could change."""
-    rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    if rest > 0:
-        return rest
-    reach = np.minimum(statement.limits.reach, natural_reach(statement))
-    return float(np.sum(np.abs(statement.norms.influence) * reach))
+def _proven(found: Solution | Unreachable, share: float, least_mass: bool) -> bool:
+    """Whether finer numbers are not worth their time."""
+    if isinstance(found, Unreachable):
+        return True
+    proven = found.keeps_ceilings and found.gap <= share
+    return proven and (not least_mass or found.mass - found.mass_lower_bound <= _MASS_WORTH * found.mass)
+
+
+def _better_of(one: Solution | Unreachable, other: Solution, share: float) -> Solution | Unreachable:
+    """The better point with the better bound on the objective; of two optima the lighter one."""
+    if isinstance(one, Unreachable) or not other.keeps_ceilings:
+        return one
+    one = one.bounded(other.lower_bound, other.multipliers)
+    bound = one.lower_bound
+    both_optimal = max(one.objective, other.objective) - bound <= share
+    lighter = other.mass < one.mass
+    chosen = other if not one.keeps_ceilings or (lighter if both_optimal else other.objective < one.objective) else one
+    # a bound on the mass holds for its own first stage only, unless that stage was the worse one
+    mass_bound = max(one.mass_lower_bound, other.mass_lower_bound) if both_optimal else chosen.mass_lower_bound
+    return replace(chosen.bounded(bound, one.multipliers), mass_lower_bound=min(mass_bound, chosen.mass))
+
+
+class _Found(NamedTuple):
+    """What the interior point found."""
+
+    smallest: Solution
+    lightest: Solution
+    certified: bool
+
+
+def _interior_point(
+    statement: Statement, share: float, demand: float, least_mass: bool, precision: Precision | None = None
+) -> _Found:
+    found = fast(statement.alone(), np.array([share]), np.array([demand]), least_mass, precision)
+    method = precision.name if precision else INTERIOR_POINT
+    nothing = Solution(
+        found.smallest[0],
+        np.inf,
+        float(found.lower_bound[0]),
+        np.inf,
+        0.0,
+        np.inf,
+        method,
+        found.certify_s,
+        found.multipliers.chosen(0),
+    )
+    smallest = nothing.moved_to(statement, found.smallest[0])
+    lightest = replace(smallest, mass_lower_bound=float(found.mass_lower_bound[0]))
+    return _Found(smallest, lightest.moved_to(statement, found.unbalance[0]), bool(found.certified[0]))
+
+
+def yardstick(statement: Statement) -> Real:
+    """What gaps are relative to: the objective without counterweights, or what they could change (...)."""
+    rest = statement.objective(np.zeros(statement.limits.radius.shape, complex))
+    reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
+    change = np.sum(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
+    return np.where(rest > 0, rest, change)
 
 
 def _everywhere(u: Complex, webs: np.ndarray) -> Complex:

@@ -21,12 +21,14 @@ def resting_multipliers(statement: Statement) -> Iterator[Multipliers]:
     """Multipliers that need no solver: they prove the floor, and rest where rest is optimal."""
     norms = statement.norms
     size = np.abs(norms.constant)
-    none = np.zeros(len(statement.ceilings.names), complex)
-    floor = np.eye(statement.floor.size)[np.argmax(statement.floor)]
+    none = np.zeros_like(statement.ceilings.norms.constant)
+    rows = np.arange(statement.floor.shape[-1])
+    floor = (rows == np.argmax(statement.floor, axis=-1)[..., None]).astype(float)
     yield Multipliers(np.zeros_like(norms.constant), floor, none)
-    largest = np.eye(statement.floor.size)[np.argmax(statement.floor + statement.membership @ size)]
+    at_rest = statement.floor + np.sum(statement.membership * size[..., None, :], axis=-1)
+    largest = (rows == np.argmax(at_rest, axis=-1)[..., None]).astype(float)
     direction = norms.constant / np.where(size > 0, size, 1.0)
-    yield Multipliers(direction * largest[statement.row], largest, none)
+    yield Multipliers(direction * largest[..., statement.row], largest, none)
 
 
 def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:
@@ -65,6 +67,23 @@ def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> I
     most = float(np.max(worth[untouched], initial=0.0))
     if most > 1.0:
         yield usable.times(np.asarray((1.0 - 8 * np.finfo(float).eps) / most))
+
+
+def supporting_multipliers(statement: Statement, u: Complex) -> Multipliers:
+    """Multipliers of the least mass for which every counterweight inside its limits is worth its mass exactly.
+
+    R_k w_k = -u_k / |u_k| for those webs, by least squares; w_k as in docs/mathematics.md section 5.
+    """
+    inside = _interior(statement, u) & (np.abs(u) > TOUCHED * np.max(np.abs(u), initial=0.0))
+    terms = statement.norms.constant.size
+    influence = np.concatenate([statement.norms.influence[:, inside], statement.ceilings.norms.influence[:, inside]])
+    size = np.max(np.abs(influence), axis=1, initial=0.0)
+    size = np.where(size > 0, size, 1.0)
+    worth = -u[inside] / np.abs(u[inside]) / statement.limits.radius[inside]
+    found = np.linalg.lstsq((influence / size[:, None]).T, worth, rcond=None)[0] / size
+    row = np.zeros(statement.floor.size)
+    np.maximum.at(row, statement.row, np.abs(found[:terms]))
+    return Multipliers(found[:terms], row, found[terms:])
 
 
 def _interior(statement: Statement, u: Complex) -> np.ndarray:

@@ -15,6 +15,9 @@ from optimizer.program.cone import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Norms, Statement
 from optimizer.response import Complex, Real
 
+#: a term whose influence is this close to those before it is not cancelled on its own
+_DEPENDENT = 1e-13
+
 
 @dataclass(frozen=True)
 class Scaling:
@@ -39,21 +42,54 @@ class Scaling:
         )
 
 
-def natural_reach(statement: Statement) -> float:
-    """Size of the smallest unbalance that comes closest to cancelling every term, kg m.
+def natural_reach(statement: Statement) -> Real:
+    """Size of the unbalance that cancels every term by the least change, kg m (...).
 
     Far larger counterweights are never needed; limits beyond a multiple of it are as good as none.
     """
     norms, ceilings = statement.norms, statement.ceilings.norms
-    influence = np.concatenate([norms.influence, ceilings.influence])
-    constant = np.concatenate([norms.constant, ceilings.constant])
-    size = np.max(np.abs(influence), axis=1, initial=0.0)
+    largest = 0.0
+    for each in (norms, ceilings):
+        apart = np.where(np.any(each.influence != 0, axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
+        largest = np.maximum(largest, np.max(apart, axis=-1, initial=0.0))
+    return np.maximum(np.max(np.abs(cancelling(statement)), axis=-1, initial=0.0), largest)
+
+
+def cancelling(statement: Statement, passes: int = 1) -> Complex:
+    """The least unbalance that cancels the terms and what the ceilings limit, as far as they allow it together.
+
+    Parameters
+    ----------
+    passes : three are exact to rounding also where webs can hardly be told apart.
+
+    Returns
+    -------
+    (..., K) kg m, whatever the limits.
+    """
+    norms, ceilings = statement.norms, statement.ceilings.norms
+    influence = np.concatenate([norms.influence, ceilings.influence], axis=-2)
+    constant = np.concatenate([norms.constant, ceilings.constant], axis=-1)
+    size = np.max(np.abs(influence), axis=-1, initial=0.0)
     known = size > 0
-    if not np.any(known):
-        return 0.0
-    influence, constant = influence[known] / size[known, None], constant[known] / size[known]
-    least_squares = np.linalg.lstsq(influence, constant, rcond=1e-9)[0]
-    return float(max(np.max(np.abs(least_squares)), np.max(np.abs(constant))))
+    size = np.where(known, size, 1.0)
+    influence = influence / size[..., None]
+    constant = np.where(known, constant / size, 0.0)
+    # one term after the other, each by the least change that leaves those before it alone
+    u = np.zeros_like(influence[..., 0, :], dtype=complex)
+    for _ in range(passes):
+        basis: list[Real] = []
+        for term in range(influence.shape[-2]):
+            direction = influence[..., term, :]
+            for other in basis * passes:
+                direction = direction - np.sum(direction * other, axis=-1, keepdims=True) * other
+            length = np.sqrt(np.sum(direction**2, axis=-1))
+            new = length > _DEPENDENT
+            length = np.where(new, length, 1.0)
+            direction = np.where(new[..., None], direction / length[..., None], 0.0)
+            left = constant[..., term] + np.sum(influence[..., term, :] * u, axis=-1)
+            u = u - direction * (left / length)[..., None]
+            basis.append(direction)
+    return u
 
 
 def scale(

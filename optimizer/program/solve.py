@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
@@ -10,17 +10,16 @@ import numpy as np
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
 from optimizer.program.cone import CompiledPrograms, ScaledData, ScaledSolution
 from optimizer.program.limits import Limits
-from optimizer.program.polish import mass_multipliers, objective_multipliers, resting_multipliers
-from optimizer.program.scaling import Scaling, natural_reach, scale
+from optimizer.program.polish import (
+    mass_multipliers,
+    objective_multipliers,
+    resting_multipliers,
+    supporting_multipliers,
+)
+from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
+from optimizer.program.solution import CEILING_TOLERANCE, CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
 from optimizer.program.statement import Ceilings, Norms, Statement
 from optimizer.response import Complex
-
-#: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
-CEILING_TOLERANCE = 1e-9
-#: optima are within this share of the objective without counterweights (docs/api.md)
-OPTIMUM_SHARE = 1e-6
-#: counterweights below this share of the largest are left out where the answer stays optimal
-NEGLIGIBLE = 1e-7
 
 
 class _Attempt(NamedTuple):
@@ -46,41 +45,6 @@ _ATTEMPTS = (
 _MASS_ATTEMPTS = (_ATTEMPTS[1], _ATTEMPTS[0], *_ATTEMPTS[2:])
 _TARGET_MARGIN = 1e-7
 
-CONE_PROGRAM = "cone program, clarabel"
-CLOSED_FORM = "closed form, nothing to choose"
-
-
-@dataclass(frozen=True)
-class Solution:
-    """Counterweights with their proof; every figure is evaluated from ``unbalance``, none is the solver's."""
-
-    unbalance: Complex  # (K,) kg m
-    objective: float
-    lower_bound: float
-    mass: float  # kg
-    mass_lower_bound: float  # kg, 0 until the least mass was sought
-    excess: float  # largest relative excess over a ceiling; -inf without ceilings
-    method: str = CLOSED_FORM
-    certify_s: float = 0.0  # time spent on bounds
-
-    @property
-    def gap(self) -> float:
-        return self.objective - self.lower_bound
-
-    @property
-    def keeps_ceilings(self) -> bool:
-        return self.excess <= CEILING_TOLERANCE
-
-    def moved_to(self, statement: Statement, u: Complex) -> "Solution":
-        """Another point with the bounds that are proven already."""
-        return replace(
-            self,
-            unbalance=u,
-            objective=float(statement.objective(u)),
-            mass=float(statement.mass(u)),
-            excess=float(np.max(statement.ceilings.excess(u), initial=-np.inf)),
-        )
-
 
 class Solver:
     """Solves statements with compiled programs of its own."""
@@ -88,7 +52,7 @@ class Solver:
     def __init__(self, programs: CompiledPrograms | None = None) -> None:
         self._programs = programs or CompiledPrograms()
 
-    def smallest_objective(self, statement: Statement, enough: float) -> Solution:
+    def smallest_objective(self, statement: Statement, enough: float, start: Solution | None = None) -> Solution:
         """The smallest objective, with its bound.
 
         Tries harder until the certified gap is at most ``enough``. If no point that keeps the
@@ -97,31 +61,34 @@ class Solver:
         Parameters
         ----------
         enough : gap that ends the search, in units of the objective.
+        start : what is known already.
         """
-        best = _at(statement, np.zeros(statement.limits.radius.shape, complex))
-        bound = _largest(objective_lower_bound(statement, each) for each in resting_multipliers(statement))
-        best = replace(best, lower_bound=bound)
+        best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
+        best = _proven(statement, best, resting_multipliers(statement))
+        cancelled = evaluated(statement, statement.limits.into(cancelling(statement, passes=3)))
+        if _better_objective(best, cancelled):
+            best = cancelled.bounded(best.lower_bound, best.multipliers)
+        if start is not None:
+            chosen, other = (start, best) if _better_objective(best, start) else (best, start)
+            best = chosen.bounded(other.lower_bound, other.multipliers)
         if statement.limits.radius.size == 0 or (best.keeps_ceilings and best.gap <= enough):
             return best
-        natural, largest = natural_reach(statement), float(np.max(statement.limits.reach))
+        natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
         for attempt in _ATTEMPTS:
             clip = min(attempt.reach * natural, largest)
             data, scaling = scale(statement, "objective", clip, attempt.ceiling_margin)
             best, solved = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
             if solved is not None:
-                start = time.perf_counter()
-                candidates = objective_multipliers(statement, *solved)
-                bound = _largest(objective_lower_bound(statement, each) for each in candidates)
-                best = replace(
-                    best,
-                    lower_bound=max(best.lower_bound, bound),
-                    certify_s=best.certify_s + time.perf_counter() - start,
-                )
+                began = time.perf_counter()
+                best = _proven(statement, best, objective_multipliers(statement, *solved))
+                best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
             if best.keeps_ceilings and best.gap <= enough:
                 break
         return best
 
-    def least_mass(self, statement: Statement, first: Solution, share: float, enough: float) -> Solution:
+    def least_mass(
+        self, statement: Statement, first: Solution, share: float, enough: float, start: Solution | None = None
+    ) -> Solution:
         """The least total mass among the optima, with its bound.
 
         Parameters
@@ -129,20 +96,29 @@ class Solver:
         first : a solution whose objective is the smallest.
         share : how far above the smallest objective an optimum may be, in units of the objective.
         enough : relative gap of the mass that ends the search.
+        start : what is known already; its bound counts all objectives up to the share above its own first stage.
         """
-        target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share)
+        rounding = float(statement.rounding(first.unbalance))
+        target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
         nothing = first.moved_to(statement, np.zeros_like(first.unbalance))
         if nothing.objective <= target and nothing.keeps_ceilings:
             return nothing
         # the smallest objective lies between first.lower_bound and first.objective: a bound for all
         # that are within the share of it must allow for the larger
         counted = first.objective + share
-        best, natural = first, natural_reach(statement)
+        best, natural = first, float(natural_reach(statement))
         needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
 
         def admit(old: Solution, new: Solution) -> bool:
             return new.keeps_ceilings and new.objective <= target and new.mass < old.mass
 
+        if start is not None:
+            known = replace(first, mass_lower_bound=start.mass_lower_bound)
+            best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
+        if np.any(best.unbalance):
+            multipliers = supporting_multipliers(statement, best.unbalance)
+            bound = float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
+            best = replace(best, mass_lower_bound=max(best.mass_lower_bound, bound))
         for attempt in _MASS_ATTEMPTS:
             inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
             clip = min(max(attempt.reach * natural, needed), largest)
@@ -151,13 +127,13 @@ class Solver:
                 statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target)
             )
             if solved is not None:
-                start = time.perf_counter()
+                began = time.perf_counter()
                 candidates = mass_multipliers(statement, *solved)
                 bound = _largest(mass_lower_bound(statement, each, np.asarray(counted)) for each in candidates)
                 best = replace(
                     best,
                     mass_lower_bound=max(best.mass_lower_bound, bound),
-                    certify_s=best.certify_s + time.perf_counter() - start,
+                    certify_s=best.certify_s + time.perf_counter() - began,
                 )
             if best.mass - best.mass_lower_bound <= enough * best.mass:
                 break
@@ -194,16 +170,10 @@ class Solver:
             return best, None
         u = statement.limits.into(scaling.unbalance(statement, found))
         for point in _tidied(u):
-            new = _at(statement, point if blend is None else _blended(statement, point, *blend))
+            new = evaluated(statement, point if blend is None else _blended(statement, point, *blend))
             if better(best, new):
                 best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
         return best, (u, scaling.multipliers(statement, found))
-
-
-def _at(statement: Statement, u: Complex) -> Solution:
-    """What an unbalance amounts to; nothing proven yet."""
-    nothing = Solution(u, objective=np.inf, lower_bound=-np.inf, mass=np.inf, mass_lower_bound=0.0, excess=np.inf)
-    return nothing.moved_to(statement, u)
 
 
 def _better_objective(old: Solution, new: Solution) -> bool:
@@ -225,6 +195,12 @@ def _blended(statement: Statement, u: Complex, safe: Solution, target: float) ->
         return u
     step = min(1.0, (value - target) / (value - safe.objective) * (1.0 + 1e-12))
     return u + step * (safe.unbalance - u)
+
+
+def _proven(statement: Statement, solution: Solution, candidates: Iterable[Multipliers]) -> Solution:
+    for multipliers in candidates:
+        solution = solution.bounded(float(objective_lower_bound(statement, multipliers)), multipliers)
+    return solution
 
 
 def _largest(bounds: Iterable[np.ndarray]) -> float:

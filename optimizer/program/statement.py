@@ -12,6 +12,9 @@ import numpy as np
 from optimizer.program.limits import Limits
 from optimizer.response import SMALLEST, Complex, Real, Reals, Response, total
 
+#: of a sum, in units of the sum of the magnitudes of its terms
+_ROUNDING = 4 * np.finfo(float).eps
+
 
 @dataclass(frozen=True)
 class Norms:
@@ -85,9 +88,38 @@ class Statement:
         rows = self.floor + np.sum(self.membership * np.abs(self.norms.at(u))[..., None, :], axis=-1)
         return np.max(rows, axis=-1)
 
+    def rounding(self, u: Complex) -> Real:
+        """What the objective may change by where masses and angles are rounded (...)."""
+        size = np.sum(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
+        return _ROUNDING * (size + np.sum(np.abs(self.norms.constant), axis=-1))
+
     def mass(self, u: Complex) -> Real:
         """Total counterweight mass, kg."""
         return np.sum(np.abs(u) / self.limits.radius, axis=-1)
+
+    def alone(self) -> "Statement":
+        """One program as the only one of a leading axis (1,)."""
+        limits, ceilings = self.limits, self.ceilings
+        return Statement(
+            Norms(self.norms.constant[None], self.norms.influence[None]),
+            self.row,
+            self.floor[None],
+            Ceilings(
+                ceilings.names,
+                Norms(ceilings.norms.constant[None], ceilings.norms.influence[None]),
+                ceilings.cap[None],
+                ceilings.size[None],
+            ),
+            Limits(
+                limits.radius[None],
+                limits.max_mass[None],
+                limits.free[None],
+                limits.centre[None],
+                limits.half_angle_cos[None],
+                limits.half_angle_sin[None],
+                limits.max_total_mass[None],
+            ),
+        )
 
     def each(self) -> Iterator["Statement"]:
         """The programs one by one, of one leading axis (N,)."""
@@ -179,4 +211,6 @@ def _join(norms: Sequence[Norms]) -> Norms:
     )
     constant = [np.broadcast_to(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
     influence = [np.broadcast_to(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
-    return Norms(np.concatenate(constant, axis=-1), np.concatenate(influence, axis=-2))
+    joined = np.concatenate(influence, axis=-2)
+    # what is too small to divide by has no influence, as in `total`
+    return Norms(np.concatenate(constant, axis=-1), np.where(np.abs(joined) > SMALLEST, joined, 0.0))

@@ -1,6 +1,7 @@
 """The whole flow: rules of the field, statuses, limits, and answers re-simulated by other means."""
 
 import math
+from collections.abc import Callable
 from itertools import pairwise
 from typing import Any
 
@@ -9,6 +10,7 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
+from optimizer.program import fast, interior_point, solve
 from optimizer.program.cone import ConeProgram
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
@@ -325,9 +327,28 @@ def test_two_planes_balance_an_orbiting_scroll_with_the_closed_form_masses() -> 
     assert far.angle_deg % 360.0 == pytest.approx(0.0, abs=1e-3)
 
 
+def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], dict[str, Any]]) -> None:
+    """Every interior point, in whatever numbers, hands out its arrays (points, cones, rows) with this change."""
+
+    def changed(solve: Callable[..., Any]) -> Callable[..., Any]:
+        def run(*arguments: Any) -> Any:
+            v, cone, row, unit = solve(*arguments)
+            found = change({"v": v, "cone": cone, "row": row})
+            return found["v"], found["cone"], found["row"], unit
+
+        return run
+
+    finer = fast.solve_in
+    monkeypatch.setattr(interior_point, "solve", changed(interior_point.solve))
+    monkeypatch.setattr(fast, "solve_in", lambda precision: changed(finer(precision)))
+
+
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
     body = single([(90.0, 20.0)])
     monkeypatch.setattr(ConeProgram, "solve", lambda *_: None)
+    broken(monkeypatch, lambda found: {name: np.full_like(np.asarray(a, float), np.nan) for name, a in found.items()})
+    # the closed form would answer without any solver
+    monkeypatch.setattr(solve, "cancelling", lambda statement, **_: np.zeros(statement.limits.radius.shape, complex))
     found = answer(body)
     assert found.status == "inaccurate"
     assert found.total_mass_kg == 0.0
@@ -343,6 +364,9 @@ def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
         return None if found is None else found._replace(x=0.3 * found.x, row=-found.row, term=5j * found.term)
 
     monkeypatch.setattr(ConeProgram, "solve", lying)
+    broken(
+        monkeypatch, lambda found: {"v": 0.3 * found["v"], "cone": 5.0 * found["cone"][..., ::-1], "row": -found["row"]}
+    )
     found = answer(random_machine(1))
     assert found.status == "inaccurate"
     assert found.certificate.lower_bound <= found.certificate.objective

@@ -1,6 +1,9 @@
 """Random programs with every combination of limits, in plain numbers."""
 
+from collections.abc import Sequence
+from dataclasses import fields, is_dataclass, replace
 from itertools import product
+from typing import Any
 
 import numpy as np
 
@@ -60,6 +63,21 @@ def random_statement(
     inside = random_point(rng, limits)
     allowed = [(response, 1.01 * float(response.to(inside).peak)) for response in responses] if ceilings else []
     return statement([weighted_peak(response, 1.0, *weights) for response in responses], combine, allowed, limits)
+
+
+def stacked(problems: Sequence[Statement]) -> Statement:
+    """Programs of one shape as one statement, with a leading axis."""
+
+    def stack(parts: list[Any]) -> Any:
+        first = parts[0]
+        if isinstance(first, np.ndarray):
+            return np.stack(parts)
+        if is_dataclass(first):
+            return replace(first, **{f.name: stack([getattr(part, f.name) for part in parts]) for f in fields(first)})
+        assert all(part == first for part in parts)
+        return first
+
+    return replace(stack(list(problems)), row=problems[0].row)
 
 
 def random_point(rng: np.random.Generator, limits: Limits) -> Complex:

@@ -1,7 +1,5 @@
 """The bound is true whatever the multipliers, and sharp for the right ones."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -9,7 +7,7 @@ from hypothesis import strategies as st
 from scipy.optimize import linprog
 
 from optimizer.program.certificate import Multipliers, _least_over_limits, mass_lower_bound, objective_lower_bound
-from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement
+from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement, stacked
 
 
 def _random_multipliers(rng: np.random.Generator, problem) -> Multipliers:
@@ -57,30 +55,13 @@ def test_bounds_broadcast_over_designs() -> None:
     problems = [random_statement(seed, "max", (1.0, 0.3), True, True, True, webs=4) for seed in range(6)]
     rng = np.random.default_rng(0)
     singles = [_random_multipliers(rng, problem) for problem in problems]
-    block = _stack(problems)
+    block = stacked(problems)
     multipliers = Multipliers(*(np.stack([getattr(m, name) for m in singles]) for name in ("term", "row", "ceiling")))
     expected = [objective_lower_bound(p, m) for p, m in zip(problems, singles, strict=True)]
     np.testing.assert_allclose(objective_lower_bound(block, multipliers), expected, rtol=1e-14)
     target = np.full(6, 2.0)
     expected = [mass_lower_bound(p, m, np.asarray(2.0)) for p, m in zip(problems, singles, strict=True)]
     np.testing.assert_allclose(mass_lower_bound(block, multipliers, target), expected, rtol=1e-14)
-
-
-def _stack(problems):
-    """One statement with a leading axis of designs."""
-    from dataclasses import fields, replace
-
-    def stack(parts):
-        first = parts[0]
-        if isinstance(first, np.ndarray):
-            return np.stack(parts)
-        if hasattr(first, "__dataclass_fields__"):
-            names = [f.name for f in fields(first)]
-            return replace(first, **{n: stack([getattr(p, n) for p in parts]) for n in names})
-        assert all(a == b for a, b in pairwise(parts))
-        return first
-
-    return replace(stack(problems), row=problems[0].row)
 
 
 def test_multipliers_of_zero_prove_nothing() -> None:

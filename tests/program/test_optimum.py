@@ -9,7 +9,8 @@ import pytest
 
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import Unreachable, optimum
-from optimizer.program.solve import CEILING_TOLERANCE, Solution, Solver
+from optimizer.program.solution import CEILING_TOLERANCE, Solution
+from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, random_statement

@@ -1,0 +1,194 @@
+"""The compiled interior point behind the certificate: many programs at once, each with its own proof."""
+
+import time
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+
+from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
+from optimizer.program.extended import Precision, solve_in
+from optimizer.program.polish import resting_multipliers
+from optimizer.program.scaling import natural_reach
+from optimizer.program.solution import CEILING_TOLERANCE, NEGLIGIBLE
+from optimizer.program.statement import Statement
+from optimizer.response import Complex, Real
+
+if TYPE_CHECKING:
+    from optimizer.program.interior_point import Programs
+
+#: multiple of the natural reach beyond which limits are ignored
+_REACH = 10.0
+#: share by which ceilings are lowered, so that the answer keeps them
+_CEILING_MARGIN = 2e-11
+
+
+class _Tolerances(NamedTuple):
+    """Gaps at which the stages end."""
+
+    sharpness: float  # first stage, as a share of what optima may differ by, between finest and coarsest
+    finest: float
+    coarsest: float
+    mass: float  # second stage, relative to the mass
+
+
+_DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-9)
+#: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
+#: the answer and where the lightest is; and the largest relative gap of the mass
+_ENOUGH, _ENOUGH_FOR_MASS, _MASS_ENOUGH = 1e-3, 1e-2, 1e-5
+#: optima reach this far into the share, which leaves room for rounding
+_TARGET = 1.0 - 1e-7
+
+
+@dataclass(frozen=True)
+class Fast:
+    """Counterweights of N programs with their proofs; figures are evaluated from ``unbalance``."""
+
+    unbalance: Complex  # (N, K) kg m
+    objective: Real  # (N,)
+    lower_bound: Real  # (N,)
+    mass: Real  # (N,) kg
+    mass_lower_bound: Real  # (N,) kg, of all with objectives up to the share above the smallest one found
+    excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
+    smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
+    certified: np.ndarray  # (N,) bool: nothing better is worth looking for
+    multipliers: Multipliers  # (N, ...), those of the lower bound
+    certify_s: float  # time spent on bounds
+
+
+def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, precision: Precision | None = None) -> Fast:
+    """Both stages of N statements of one shape, one leading axis (N,).
+
+    What is found for one program does not depend on the others.
+
+    Parameters
+    ----------
+    share : (N,) how far above the smallest objective an optimum may be, in units of the objective.
+    demand : (N,) gap that is asked for; one above the share is met by less than the best.
+    precision : solve in finer numbers, interpreted: a thousand times slower.
+    """
+    smallest, lightest, multipliers, mass_unit = _solve(statement, share, least_mass, precision)
+    none = np.zeros_like(smallest)
+    began = time.perf_counter()
+    proof = multipliers(0, np.ones_like(share))
+    lower_bound = objective_lower_bound(statement, proof)
+    for each in resting_multipliers(statement):
+        bound = objective_lower_bound(statement, each)
+        better = bound > np.where(np.isnan(lower_bound), -np.inf, lower_bound)
+        lower_bound, proof = np.where(better, bound, lower_bound), each.where(better, proof)
+    certify_s = time.perf_counter() - began
+    smallest = _better(statement, none, smallest)
+    value = statement.objective(smallest)
+    target = np.maximum(value, lower_bound + _TARGET * share - statement.rounding(smallest))
+    if not least_mass:
+        chosen, mass_bound = smallest, np.zeros_like(value)
+    else:
+        chosen = smallest
+        size = np.abs(lightest)
+        tidied = np.where(size < NEGLIGIBLE * np.max(size, axis=-1, keepdims=True, initial=0.0), 0.0, lightest)
+        for point in (lightest, _nearer(statement, lightest, smallest, target), tidied, none):
+            lighter = statement.mass(point) < statement.mass(chosen)
+            admitted = (statement.objective(point) <= target) & (_excess(statement, point) <= CEILING_TOLERANCE)
+            chosen = np.where((lighter & admitted)[:, None], point, chosen)
+        began = time.perf_counter()
+        mass_bound = mass_lower_bound(statement, multipliers(1, mass_unit), np.maximum(value, lower_bound) + share)
+        certify_s += time.perf_counter() - began
+    mass, excess = statement.mass(chosen), _excess(statement, chosen)
+    objective = statement.objective(chosen)
+    loose = (demand > share) & (objective - lower_bound <= demand)
+    enough = (_ENOUGH_FOR_MASS if least_mass else _ENOUGH) * share
+    certified = (loose | (value - lower_bound <= enough)) & (excess <= CEILING_TOLERANCE)
+    if least_mass:
+        certified &= mass - mass_bound <= _MASS_ENOUGH * mass
+    return Fast(chosen, objective, lower_bound, mass, mass_bound, excess, smallest, certified, proof, certify_s)
+
+
+def _solve(statement: Statement, share: Real, least_mass: bool, precision: Precision | None):  # type: ignore[no-untyped-def]
+    """Points of both stages, the multipliers of either, and the unit of mass."""
+    # the compiler is loaded when it is first needed
+    from optimizer.program.interior_point import solve
+
+    tolerances, method = _DOUBLE, solve
+    if precision is not None:
+        tolerances = _Tolerances(1e-7, precision.finest, 100 * precision.finest, precision.mass)
+        method = solve_in(precision)
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
+    unit = np.sum(np.abs(norms.constant), axis=-1)
+    reachable = np.sum(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
+    unit = np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0))
+    # interpreted numbers would warn where compiled ones end in a NaN, and the search with it
+    with np.errstate(all="ignore"):
+        v, cone, row, mass_unit = method(
+            _programs(statement, reach, unit),
+            least_mass,
+            share / unit,
+            np.clip(tolerances.sharpness * share / unit, tolerances.finest, tolerances.coarsest),
+            tolerances.mass,
+        )
+    v, cone, row, mass_unit = (np.asarray(values, dtype=float) for values in (v, cone, row, mass_unit))
+    points = limits.into(reach * limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2]))
+    vectors, terms = cone[..., 0] + 1j * cone[..., 1], norms.constant.shape[-1]
+
+    def multipliers(stage: int, value: Real) -> Multipliers:
+        """In ``value`` (N,), the unit of what is minimised (0: any), per unit of objective or response."""
+        return Multipliers(
+            term=vectors[stage, :, :terms] * (value / unit)[:, None],
+            row=row[stage] * (value / unit)[:, None],
+            ceiling=vectors[stage, :, terms:] * value[:, None] / ceilings.size,
+        )
+
+    return points[0], points[1], multipliers, mass_unit
+
+
+def _better(statement: Statement, old: Complex, new: Complex) -> Complex:
+    """Of two points the one with the smaller objective, or the smaller excess where one breaks a ceiling (N, K)."""
+    excess = _excess(statement, old), _excess(statement, new)
+    kept = excess[0] <= CEILING_TOLERANCE, excess[1] <= CEILING_TOLERANCE
+    smaller = statement.objective(new) < statement.objective(old)
+    better = np.where(kept[0] & kept[1], smaller, kept[1] | (~kept[0] & (excess[1] < excess[0])))
+    return np.where(better[:, None], new, old)
+
+
+def _nearer(statement: Statement, lightest: Complex, smallest: Complex, target: Real) -> Complex:
+    """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target."""
+    value, rounding = statement.objective(lightest), statement.rounding(smallest)
+    over, fall = value - target + rounding, value - statement.objective(smallest)
+    needed = (over > 0) & (fall > over)
+    step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
+    return lightest + step[:, None] * (smallest - lightest)
+
+
+def _excess(statement: Statement, u: Complex) -> Real:
+    return np.max(statement.ceilings.excess(u), axis=-1, initial=-np.inf)
+
+
+def _programs(statement: Statement, reach: Real, unit: Real) -> "Programs":
+    from optimizer.program.interior_point import Programs
+
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    constant = np.concatenate([norms.constant / unit[:, None], ceilings.norms.constant / ceilings.size], axis=-1)
+    influence = np.concatenate(
+        [norms.influence / unit[:, None, None], ceilings.norms.influence / ceilings.size[..., None]], axis=-2
+    )
+    cap = ceilings.cap / ceilings.size
+    mass = reach / limits.radius
+    highest = np.max(statement.floor, axis=-1)
+    budget = limits.max_total_mass[:, None]
+    return Programs(
+        row=statement.row.astype(np.int64),
+        floor=np.ascontiguousarray((statement.floor - highest[:, None]) / unit[:, None]),
+        cap=np.ascontiguousarray(cap - np.clip(cap, 0.0, _CEILING_MARGIN)),
+        constant=_parts(constant),
+        influence=np.ascontiguousarray(influence * reach[:, None, :]),
+        centre=_parts(limits.centre),
+        sine=np.ascontiguousarray(limits.half_angle_sin),
+        cosine=np.ascontiguousarray(limits.half_angle_cos),
+        sector=np.where(limits.free, 0.0, 1.0),
+        mass=mass,
+        budget=np.where(np.sum(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
+    )
+
+
+def _parts(vectors: Complex) -> Real:
+    return np.stack([vectors.real, vectors.imag], axis=-1)

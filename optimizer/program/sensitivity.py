@@ -1,0 +1,53 @@
+"""What a limit costs: how much the smallest objective falls per unit by which a limit is raised.
+
+The lower bound of the certificate is a function of the limits too, and a lower bound for all of them. At the optimum
+it touches the smallest objective, so its slope is the shadow price (Boyd and Vandenberghe, Convex Optimization, 5.6).
+Where several sets of multipliers prove the same optimum the prices to either side differ; each lies between them.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.program.certificate import Multipliers
+from optimizer.program.statement import Statement
+from optimizer.response import Complex, Real
+
+
+@dataclass(frozen=True)
+class ShadowPrices:
+    """Fall of the smallest objective per unit of each limit, >= 0; 0 where a limit does not hold it up."""
+
+    max_mass: Real  # (..., K) per kg
+    half_angle: Real  # (..., K) per rad
+    max_total_mass: Real  # (...) per kg
+    ceiling: Real  # (..., I) per unit of response
+
+
+def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) -> ShadowPrices:
+    """Prices of all limits, from the multipliers of the lower bound.
+
+    Parameters
+    ----------
+    u : (..., K) kg m, an optimum.
+    multipliers : with rows that are not all 0.
+    """
+    usable = multipliers.admissible(statement)
+    usable = usable.times(1.0 / np.sum(usable.row, axis=-1))
+    limits = statement.limits
+    slope = np.sum(statement.norms.influence * usable.term[..., :, None], axis=-2)
+    slope = slope + np.sum(statement.ceilings.norms.influence * usable.ceiling[..., :, None], axis=-2)
+    # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
+    # worth that it does not pay in full (docs/mathematics.md section 5)
+    worth = limits.radius * limits.support(-slope)
+    order = np.argsort(-worth, axis=-1, kind="stable")
+    falling = np.take_along_axis(worth, order, axis=-1)
+    spent = np.cumsum(np.take_along_axis(np.broadcast_to(limits.max_mass, worth.shape), order, axis=-1), axis=-1)
+    unpaid = spent > limits.max_total_mass[..., None]
+    budget = np.max(np.where(unpaid, falling, 0.0), axis=-1, initial=0.0)
+    return ShadowPrices(
+        max_mass=np.maximum(worth - budget[..., None], 0.0),
+        half_angle=np.abs(u) * limits.opening(-slope),
+        max_total_mass=budget,
+        ceiling=np.abs(usable.ceiling),
+    )

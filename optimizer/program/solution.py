@@ -1,0 +1,63 @@
+"""Counterweights with their proof."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.program.certificate import Multipliers
+from optimizer.program.statement import Statement
+from optimizer.response import Complex
+
+#: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
+CEILING_TOLERANCE = 1e-9
+#: optima are within this share of the objective without counterweights (docs/api.md)
+OPTIMUM_SHARE = 1e-6
+#: counterweights below this share of the largest are left out where the answer stays optimal
+NEGLIGIBLE = 1e-7
+
+CONE_PROGRAM = "cone program, clarabel"
+INTERIOR_POINT = "interior point, compiled"
+CLOSED_FORM = "closed form, nothing to choose"
+
+
+@dataclass(frozen=True)
+class Solution:
+    """Counterweights with their proof; every figure is evaluated from ``unbalance``, none is the solver's."""
+
+    unbalance: Complex  # (K,) kg m
+    objective: float
+    lower_bound: float
+    mass: float  # kg
+    mass_lower_bound: float  # kg, 0 until the least mass was sought
+    excess: float  # largest relative excess over a ceiling; -inf without ceilings
+    method: str = CLOSED_FORM
+    certify_s: float = 0.0  # time spent on bounds
+    multipliers: Multipliers | None = None  # those of the lower bound
+
+    @property
+    def gap(self) -> float:
+        return self.objective - self.lower_bound
+
+    @property
+    def keeps_ceilings(self) -> bool:
+        return self.excess <= CEILING_TOLERANCE
+
+    def bounded(self, bound: float, multipliers: Multipliers | None) -> "Solution":
+        """The same point with the better of two proofs of its objective."""
+        return self if bound <= self.lower_bound else replace(self, lower_bound=bound, multipliers=multipliers)
+
+    def moved_to(self, statement: Statement, u: Complex) -> "Solution":
+        """Another point with the bounds that are proven already."""
+        return replace(
+            self,
+            unbalance=u,
+            objective=float(statement.objective(u)),
+            mass=float(statement.mass(u)),
+            excess=float(np.max(statement.ceilings.excess(u), initial=-np.inf)),
+        )
+
+
+def evaluated(statement: Statement, u: Complex) -> Solution:
+    """What an unbalance amounts to; nothing proven yet."""
+    nothing = Solution(u, objective=np.inf, lower_bound=-np.inf, mass=np.inf, mass_lower_bound=0.0, excess=np.inf)
+    return nothing.moved_to(statement, u)

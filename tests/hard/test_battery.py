@@ -1,0 +1,65 @@
+"""Every hard case, through the service's own computation, against its 100-digit reference.
+
+All expected numbers are independent: tests/hard/reference.json, computed by tests/hard/reference.py.
+"""
+
+import pytest
+
+from tests.hard import stored
+from tests.hard.battery import run
+from tests.hard.cases import all_cases
+from tests.hard.cases.case import Case, case, machine, v_twin, web
+from tests.hard.reference import reference
+
+_CASES = all_cases()
+_KNOWN = stored.read()
+#: every eleventh case of moderate size is computed anew
+_SAMPLE = [case for case in _CASES if len(case.body["machine"]["webs"]) <= 4][::11]
+
+
+def _name(case: Case) -> str:
+    return case.name
+
+
+@pytest.mark.parametrize("case", _CASES, ids=_name)
+def test_case(case: Case) -> None:
+    """Optimal within the asked gap, or infeasible where it is; nothing differs from the reference."""
+    verdict = run(case, _KNOWN[stored.digest(case.body)])
+    assert not verdict.faults, "\n".join([case.why, *verdict.faults])
+
+
+@pytest.mark.parametrize("case", _SAMPLE, ids=_name)
+def test_stored_reference_is_what_the_reference_computes(case: Case) -> None:
+    """Independent: the same numbers again, to the digits that are stored and the gap that is proven."""
+    known, again = _KNOWN[stored.digest(case.body)], reference(case.body)
+    assert known.feasible == again.feasible
+    for name in ("excess", "objective", "relaxed", "rest", "mass", "mass_relaxed", "force", "moment"):
+        left, right = getattr(known, name), getattr(again, name)
+        assert (left is None) == (right is None)
+        if left is not None:
+            assert abs(left - right) <= 1e-15 * abs(right), name
+
+
+def test_the_battery_is_what_was_promised() -> None:
+    """At least 150 cases, each with a reason; two in five or more are ordinary ones."""
+    assert len(_CASES) >= 150
+    assert all(len(case.why) > 5 for case in _CASES)
+    assert sum(case.ordinary for case in _CASES) >= 0.4 * len(_CASES)
+    assert {len(case.body["machine"]["webs"]) for case in _CASES} >= {1, 2, 200}
+
+
+def test_no_reference_is_left_over() -> None:
+    """The file holds the cases there are, and no others."""
+    assert set(_KNOWN) == {stored.digest(case.body) for case in _CASES}
+
+
+def test_what_a_double_cannot_hold_is_called_inaccurate() -> None:
+    """A couple of 88 000 t on webs 1e-12 m apart, rounded to doubles, moves the least mass by more than is allowed.
+
+    The status says so, and the bounds hold all the same (independent: the 100-digit reference).
+    """
+    webs = [web("a", 0.1, 1e8), web("b", 0.1 + 1e-12, 1e8)]
+    beyond = case("webs/beyond-doubles", "masses of 1/gap in 53 bits", machine(v_twin(), webs))
+    verdict = run(beyond, reference(beyond.body))
+    assert verdict.status == "inaccurate"
+    assert not [fault for fault in verdict.faults if "bound" in fault or "below" in fault]
