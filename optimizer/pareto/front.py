@@ -1,0 +1,213 @@
+"""The front of two peaks: its ends, and points spread evenly between them, each with its proof.
+
+The peaks are convex in the unbalance, so the points that nobody beats in both make a convex falling curve.
+A line that rises in both peaks meets it once, where the larger of the two scaled excesses over the line's
+anchor is smallest (normal-boundary intersection, Das and Dennis 1998): one program of optimizer.program,
+whose lower bound t_low proves that no counterweights reach below the corner anchor + t_low unit in both.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.optimize import MASS_GAP
+from optimizer.pareto.trade import Trade
+from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.solution import OPTIMUM_SHARE, Solution
+from optimizer.program.solve import Solver
+from optimizer.response import SMALLEST, Complex, Real
+
+#: a smallest peak by itself is sought to this share of its size
+_SHARPNESS = 1e-9
+#: a front that is narrower than this share of the sizes is a single point
+_NARROW = 1e-9
+#: at an end the peak that counts first may exceed its smallest value by this share of the asked gap, without which
+#: nothing could be proven about the other
+_END_SLACK = 0.1
+#: the least mass at an end may give away this part of what it may elsewhere
+_END_SHARE = 0.3
+#: most lines that find an end
+_END_STEPS = 12
+#: parts of the asked share of t, each tried where the least mass could not be certified with the one before
+_ALLOWANCES = (1.0, 0.5, 0.2)
+#: intersections that show where the front bends before its points are spread
+_SOUNDINGS = 16
+
+
+@dataclass(frozen=True)
+class Point:
+    """Counterweights on the front; the figures are evaluated from ``solution.unbalance``."""
+
+    solution: Solution
+    corner: Real  # (2,) proven: no counterweights are below this in both peaks
+
+
+@dataclass(frozen=True)
+class Front:
+    """Points in the order of rising force; a single one where both smallest peaks are reached together."""
+
+    points: tuple[Point, ...]
+    ideal: Real  # (2,) proven: no counterweights have a smaller force, none a smaller moment
+    size: Real  # (2,) what gaps are relative to (:func:`_size`)
+    undecided: bool = False  # the ceilings are on the very boundary; the point comes closest to keeping them
+
+
+class _Undecided(Exception):
+    """Ceilings that were kept within their tolerance are out of reach by less than that."""
+
+
+def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | Unreachable:
+    """The front of a trade.
+
+    Parameters
+    ----------
+    count : number of points, at least 2.
+    relative_gap : asked gap of every point, relative to the sizes.
+    least_mass : take the least total mass at every point.
+
+    Returns
+    -------
+    Front, or the proof that the ceilings cannot be kept.
+    """
+    alone: list[Solution] = []
+    for each in trade.alone:
+        found = optimum(each, _SHARPNESS, True, solver)
+        if isinstance(found, Unreachable):
+            return found
+        alone.append(found)
+    ideal = np.array([found.lower_bound for found in alone])
+    size = _size(trade, np.array([found.unbalance for found in alone]))
+    try:
+        if not all(found.keeps_ceilings for found in alone):
+            raise _Undecided
+        points = _between(trade, ideal, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass, solver)
+    except _Undecided:
+        closest = min(alone, key=lambda found: found.excess)
+        return Front((Point(closest, ideal),), ideal, size, undecided=True)
+    return Front(points, ideal, size)
+
+
+def _between(
+    trade: Trade, ideal: Real, size: Real, count: int, share: float, least_mass: bool, solver: Solver
+) -> tuple[Point, ...]:
+    """The points of the front; a single one where both peaks are smallest together."""
+    # half the asked gap for the programs, half for the distance of the point from the ideal
+    together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share, solver), corner=ideal)
+    alike = np.all(trade.peaks(together.solution.unbalance) - ideal <= max(0.5 * share, _NARROW) * size)
+    ends = [] if alike else [_end(trade, first, ideal, size, share, solver) for first in (0, 1)]
+    if alike or np.any(np.abs(ends[1].peaks - ends[0].peaks) <= _NARROW * size):
+        return (together,)
+    return _points(trade, (ends[0], ends[1]), size, count, share, least_mass, solver)
+
+
+@dataclass(frozen=True)
+class _End:
+    """Where a peak is smallest and, among all such, the other is smallest."""
+
+    peaks: Real  # (2,)
+    corner: Real  # (2,)
+
+
+def _size(trade: Trade, u: Complex) -> Real:
+    """What gaps are relative to (2,): the peaks without counterweights.
+
+    Where there is none, as in a machine that balances its forces itself: what the counterweights that make the
+    other peak smallest do one by one. 1 where they do nothing either.
+
+    Parameters
+    ----------
+    u : (2, K) kg m, the lightest counterweights that make each peak smallest.
+    """
+    gross = np.max(trade.one_by_one(u), axis=0)
+    size = np.where(trade.at_rest > OPTIMUM_SHARE * gross, trade.at_rest, gross)
+    return np.where(size > SMALLEST, size, 1.0)
+
+
+def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float, solver: Solver) -> Point:
+    """The point of the front on the line anchor + t unit.
+
+    Parameters
+    ----------
+    share : how much of t the answer may lie above the smallest.
+    """
+    best: Solution | None = None
+    for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
+        found = optimum(trade.along(anchor, unit), part * share, least_mass, solver)
+        if isinstance(found, Unreachable):
+            raise _Undecided
+        if best is None or _mass_gap(found) < _mass_gap(best):
+            best = found
+        if _mass_gap(best) <= MASS_GAP:
+            break
+    assert best is not None
+    bound = min(best.lower_bound, best.objective)
+    return Point(best, anchor + trade.parameter(bound, anchor, unit) * unit)
+
+
+def _mass_gap(solution: Solution) -> float:
+    return (solution.mass - solution.mass_lower_bound) / solution.mass if solution.mass > 0 else 0.0
+
+
+def _end(trade: Trade, first: int, ideal: Real, size: Real, share: float, solver: Solver) -> _End:
+    """The end of the front where peak ``first`` is smallest.
+
+    The line starts a little above the smallest value of the first peak, at a value of the other that is proven to be
+    too small, and is so steep that the first hardly rises; the corner that is proven there starts the next line.
+    Where the front falls like a square root, the first peak still rises by the square of the slope, so that is the
+    root of the asked gap; a steeper line costs digits.
+    """
+    other = 1 - first
+    unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
+    anchor = ideal + size * np.where(np.arange(2) == first, _END_SLACK * share, 0.0)
+    peaks, corners = [], [anchor]
+    for _ in range(_END_STEPS):
+        point = _meet(trade, anchor, unit, False, share, solver)
+        peaks.append(trade.peaks(point.solution.unbalance))
+        if point.corner[first] > ideal[first]:
+            corners.append(point.corner)
+        rise = point.corner[other] - anchor[other]
+        if rise <= share * size[other]:
+            break
+        anchor = np.where(np.arange(2) == other, point.corner, anchor)
+    corner = max(corners, key=lambda each: float(each[other]))
+    # the end cannot be lower than this; the step that comes closest is it
+    target = np.where(np.arange(2) == first, ideal, corner)
+    return _End(min(peaks, key=lambda each: float(np.max((each - target) / size))), corner)
+
+
+def _points(
+    trade: Trade,
+    ends: tuple[_End, _End],
+    size: Real,
+    count: int,
+    share: float,
+    least_mass: bool,
+    solver: Solver,
+) -> tuple[Point, ...]:
+    """The ends, and points between them that are evenly apart in the plane of shares of the range."""
+    start, step = ends[0].peaks, ends[1].peaks - ends[0].peaks
+    span = np.abs(step)
+    # the answer may lie above the front by a share of its range, where that is less than the sizes
+    share *= min(1.0, float(np.min(size / span)))
+    spread = _spread(trade, start, step, count, share, solver)
+    between = [_meet(trade, start + each * step, span, least_mass, share, solver) for each in spread[1:-1]]
+    first, last = (
+        replace(_meet(trade, end.peaks, span, least_mass, _END_SHARE * share, solver), corner=end.corner)
+        for end in ends
+    )
+    return (first, *between, last)
+
+
+def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, solver: Solver) -> Real:
+    """Shares of the chord (count,) whose points of the front are evenly apart."""
+    # denser towards the ends, where a front may fall like a square root
+    sounded = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, _SOUNDINGS + 1)))
+    # depth of the front below the chord, in units of the range
+    depth = np.zeros(sounded.size)
+    for i in range(1, _SOUNDINGS):
+        anchor = start + sounded[i] * step
+        point = _meet(trade, anchor, np.abs(step), False, share, solver)
+        depth[i] = np.min((anchor - trade.peaks(point.solution.unbalance)) / np.abs(step))
+    curve = np.array([sounded - depth, 1.0 - sounded - depth])
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])
+    return np.interp(np.linspace(0.0, length[-1], count), length, sounded)

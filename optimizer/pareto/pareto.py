@@ -1,0 +1,231 @@
+"""From request to fronts: the trade-off of peak force, peak moment and total mass."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.formulate import ceilings
+from optimizer.optimize import MASS_GAP, optimize
+from optimizer.pareto.front import Front, Point, front
+from optimizer.pareto.trade import Trade, trade
+from optimizer.program.optimum import Unreachable
+from optimizer.program.solve import Solver
+from optimizer.report.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.report.first_order import first_order, floor
+from optimizer.response import Real
+from optimizer.scene import Prepared, prepare
+from schemas.answers import MachineLimit, Timing
+from schemas.machine import Machine
+from schemas.pareto import (
+    CornerCertificate,
+    Ends,
+    ParetoAnswer,
+    ParetoFront,
+    ParetoPoint,
+    ParetoRequest,
+    Reason,
+    Scale,
+    Status,
+)
+from schemas.requests import OptimizeRequest
+
+#: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
+_STRAIGHT = 1e-4
+_TOUCHED = 1e-4
+_WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
+
+# compiled programs of this process; they are lent to one thread at a time
+_SOLVER = Solver()
+
+
+def pareto(request: ParetoRequest, solver: Solver = _SOLVER) -> ParetoAnswer:
+    """The certified fronts of peak force and peak moment, one for each budget of the total mass.
+
+    Every figure is evaluated by the mechanics from the returned masses and angles.
+    """
+    start = time.perf_counter()
+    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
+    solving = time.perf_counter()
+    made = [_front(request, machine, scene, solver) for machine in _machines(request)]
+    fronts = tuple(one.front for one in made)
+    end = time.perf_counter()
+    solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
+    before = scene.first_order()
+    return ParetoAnswer(
+        status=max((one.status for one in fronts), key=_WORST.index),
+        fronts=fronts,
+        without_counterweights=first_order(before),
+        floor=floor(before),
+        reference_plane_m=float(scene.layout.reference_plane),
+        effects=scene.simulated.uses,
+        timing=Timing(
+            total_ms=(end - start) * 1e3,
+            solve_ms=(solved - certified) * 1e3,
+            mechanics_ms=scene.mechanics_ms,
+            certificate_ms=certified * 1e3,
+            report_ms=(end - solving - solved) * 1e3,
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class _Made:
+    """A front, and the time spent on its programs and on their bounds."""
+
+    front: ParetoFront
+    solve_s: float
+    certify_s: float
+
+
+def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
+    """The machine under each budget."""
+    if request.total_mass_budgets_kg is None:
+        return (request.machine,)
+    return tuple(
+        request.machine.model_copy(update={"max_total_mass_kg": budget}) for budget in request.total_mass_budgets_kg
+    )
+
+
+def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> _Made:
+    start = time.perf_counter()
+    traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
+    found = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
+    solve_s = time.perf_counter() - start
+    if isinstance(found, Unreachable):
+        return _Made(_infeasible(request, machine, solver), solve_s, found.certify_s)
+    certify_s = sum(point.solution.certify_s for point in found.points)
+    return _Made(_certified(request, machine, scene, traded, found), solve_s, certify_s)
+
+
+def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded: Trade, found: Front) -> ParetoFront:
+    points = [_point(request, machine, scene, traded, found, each) for each in found.points]
+    kept = undominated(points)
+    square = scene.omega_squared
+    ideal, scale = found.ideal * square, found.size * square
+    first, last = kept[0], kept[-1]
+    ends = Ends(
+        smallest_force_N=first.weighted_force_peak_N,
+        # a bound above the value by rounding, or by what a ceiling is exceeded within its tolerance, is lowered to it
+        smallest_force_lower_bound_N=min(float(ideal[0]), first.weighted_force_peak_N),
+        moment_at_smallest_force_Nm=first.weighted_moment_peak_Nm,
+        smallest_moment_Nm=last.weighted_moment_peak_Nm,
+        smallest_moment_lower_bound_Nm=min(float(ideal[1]), last.weighted_moment_peak_Nm),
+        force_at_smallest_moment_N=last.weighted_force_peak_N,
+    )
+    excess = max(
+        (ends.smallest_force_N - ends.smallest_force_lower_bound_N) / scale[0],
+        (ends.smallest_moment_Nm - ends.smallest_moment_lower_bound_Nm) / scale[1],
+    )
+    exact = (
+        not found.undecided
+        and excess <= request.accuracy.relative_gap
+        and all(point.status == "optimal" for point in kept)
+    )
+    return ParetoFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        status="optimal" if exact else "inaccurate",
+        points=tuple(kept),
+        reason=_reason(request, found, kept),
+        knee=knee(kept),
+        ends=ends,
+        scale=Scale(force_N=float(scale[0]), moment_Nm=float(scale[1])),
+    )
+
+
+def _point(
+    request: ParetoRequest, machine: Machine, scene: Prepared, traded: Trade, found: Front, point: Point
+) -> ParetoPoint:
+    solution, square, radius = point.solution, scene.omega_squared, scene.layout.webs.radius
+    masses, angles = masses_and_angles(solution.unbalance, radius)
+    fitted, u = counterweights(machine, masses, angles), unbalance(masses, angles, radius)
+    peaks = traded.peaks(u)
+    corner = np.minimum(point.corner, peaks)
+    gap = float(np.max((peaks - corner) / found.size))
+    mass = float(sum(counterweight.mass_kg for counterweight in fitted))
+    mass_bound = min(solution.mass_lower_bound, mass) if request.objective.least_mass else None
+    mass_gap = None if mass_bound is None else ((mass - mass_bound) / mass if mass > 0 else 0.0)
+    certified = (
+        solution.keeps_ceilings and gap <= request.accuracy.relative_gap and (mass_gap is None or mass_gap <= MASS_GAP)
+    )
+    plain = scene.first_order(u)
+    weighted: Real = peaks * square
+    proven: Real = corner * square
+    return ParetoPoint(
+        status="optimal" if certified else "inaccurate",
+        force_peak_N=float(plain.force.peak),
+        moment_peak_Nm=float(plain.moment.peak),
+        weighted_force_peak_N=float(weighted[0]),
+        weighted_moment_peak_Nm=float(weighted[1]),
+        total_mass_kg=mass,
+        counterweights=fitted,
+        active_limits=_touched(request, machine, float(plain.force.peak), float(plain.moment.peak), mass),
+        certificate=CornerCertificate(
+            force_N=float(proven[0]),
+            moment_Nm=float(proven[1]),
+            relative_gap=gap,
+            mass_lower_bound_kg=mass_bound,
+            mass_relative_gap=mass_gap,
+            method=solution.method,
+        ),
+    )
+
+
+def undominated(points: Sequence[ParetoPoint]) -> list[ParetoPoint]:
+    """The points that no other equals or beats in both weighted peaks, in the order of rising force.
+
+    Points that are nearer to each other than their gaps can be out of order; no tolerance is applied.
+    """
+    kept: list[ParetoPoint] = []
+    for point in sorted(points, key=lambda one: (one.weighted_force_peak_N, one.weighted_moment_peak_Nm)):
+        if not kept or point.weighted_moment_peak_Nm < kept[-1].weighted_moment_peak_Nm:
+            kept.append(point)
+    return kept
+
+
+def knee(points: Sequence[ParetoPoint]) -> int | None:
+    """Index of the point farthest below the straight line between the ends, in the plane of shares of the range."""
+    if len(points) < 3:
+        return None
+    peaks = np.array([(point.weighted_force_peak_N, point.weighted_moment_peak_Nm) for point in points])
+    share = (peaks - peaks[0]) / (peaks[-1] - peaks[0])
+    # on the chord both shares of the way are equal; below it the moment is ahead of the force
+    depth = share[:, 1] - share[:, 0]
+    deepest = int(np.argmax(depth))
+    return deepest if depth[deepest] > _STRAIGHT else None
+
+
+def _reason(request: ParetoRequest, found: Front, kept: Sequence[ParetoPoint]) -> Reason | None:
+    if found.undecided:
+        return "undecided"
+    if len(found.points) == 1:
+        return "reached_together"
+    return "resolution" if len(kept) < request.points else None
+
+
+def _touched(
+    request: ParetoRequest, machine: Machine, force: float, moment: float, mass: float
+) -> tuple[MachineLimit, ...]:
+    """Limits of the whole machine that the counterweights touch."""
+    touched: list[MachineLimit] = []
+    budget, allowed = machine.max_total_mass_kg, ceilings(request.objective)
+    if budget is not None and mass >= budget * (1.0 - _TOUCHED):
+        touched.append("max_total_mass")
+    if "force" in allowed and force >= allowed["force"] * (1.0 - _TOUCHED):
+        touched.append("force_ceiling")
+    if "moment" in allowed and moment >= allowed["moment"] * (1.0 - _TOUCHED):
+        touched.append("moment_ceiling")
+    return tuple(touched)
+
+
+def _infeasible(request: ParetoRequest, machine: Machine, solver: Solver) -> ParetoFront:
+    """Which ceilings conflict, and what can be reached, as the optimum of one objective tells it."""
+    objective = request.objective
+    told = optimize(OptimizeRequest(machine=machine, objective=objective, accuracy=request.accuracy), solver)
+    return ParetoFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        status="infeasible",
+        points=(),
+        infeasibility=told.infeasibility,
+    )

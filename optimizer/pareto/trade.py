@@ -1,0 +1,75 @@
+"""Two peaks that are traded for one another, and the programs that stand on them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.formulate import ceilings, limits
+from optimizer.program.statement import Norms, Statement, statement, weighted_peak
+from optimizer.response import Complex, Real, Response
+from schemas.machine import Machine
+from schemas.requests import Objective
+
+
+@dataclass(frozen=True)
+class Trade:
+    """Weighted peak force (0) and weighted peak moment (1) under the limits and ceilings of a machine.
+
+    both : the program min max(F, M), kg m and kg m^2 (over omega^2).
+    alone : min F and min M.
+    """
+
+    both: Statement
+    alone: tuple[Statement, Statement]
+
+    def peaks(self, u: Complex) -> Real:
+        """Weighted peak force [kg m] and moment [kg m^2] with counterweights u (..., K), (..., 2)."""
+        sizes = np.abs(self.both.norms.at(u))
+        return self.both.floor + np.sum(self.both.membership * sizes[..., None, :], axis=-1)
+
+    def one_by_one(self, u: Complex) -> Real:
+        """Sum of what every counterweight by itself adds to each peak at most, (..., 2)."""
+        sizes = np.sum(np.abs(self.both.norms.influence) * np.abs(u)[..., None, :], axis=-1)
+        return np.sum(self.both.membership * sizes[..., None, :], axis=-1)
+
+    @property
+    def at_rest(self) -> Real:
+        """Peaks without counterweights (2,)."""
+        return self.peaks(np.zeros(self.both.limits.radius.shape, complex))
+
+    def along(self, anchor: Real, unit: Real) -> Statement:
+        """min max_i (P_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit.
+
+        A constant makes the objective without counterweights 1, so that relative gaps are those of t
+        and do not depend on where the anchor lies; t is read off by :meth:`parameter`.
+
+        Parameters
+        ----------
+        anchor, unit : (2,) a point of the plane of peaks, and a direction with both components above 0.
+        """
+        norms, row = self.both.norms, self.both.row
+        return replace(
+            self.both,
+            norms=Norms(norms.constant / unit[row], norms.influence / unit[row, None]),
+            floor=(self.both.floor - anchor) / unit - self._shift(anchor, unit),
+        )
+
+    def parameter(self, objective: float, anchor: Real, unit: Real) -> float:
+        """t of an objective of :meth:`along`."""
+        return objective + self._shift(anchor, unit)
+
+    def _shift(self, anchor: Real, unit: Real) -> float:
+        return float(np.max((self.at_rest - anchor) / unit)) - 1.0
+
+
+def trade(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: float) -> Trade:
+    """The trade of a machine: direction weights and ceilings count, the weights of force and moment do not."""
+    across, allowed = objective.direction_weights, ceilings(objective)
+    caps = [(each, np.asarray(allowed[each.name] / omega_squared)) for each in responses if each.name in allowed]
+    force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in responses)
+    bounds = limits(machine)
+    return Trade(
+        both=statement([force, moment], "max", caps, bounds),
+        alone=(statement([force], "sum", caps, bounds), statement([moment], "sum", caps, bounds)),
+    )

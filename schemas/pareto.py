@@ -1,0 +1,201 @@
+"""The trade-off between peak force and peak moment: what is asked, and what is answered."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field, model_validator
+
+from schemas.answers import (
+    Counterweight,
+    EffectUse,
+    FirstOrder,
+    Floor,
+    Infeasibility,
+    MachineLimit,
+    Timing,
+)
+from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.quantities import Count, Kilograms, Mass, Metres, NewtonMetres, Newtons
+from schemas.requests import OptimizeRequest
+from schemas.units import Unit, between
+
+MAX_POINTS = 201
+MAX_BUDGETS = 10
+#: points of all fronts of one request
+MAX_POINTS_TOGETHER = 600
+#: the same times the webs: what bounds the work
+MAX_PLACES = 20_000
+
+Status = Literal["optimal", "inaccurate", "infeasible"]
+Reason = Literal["reached_together", "resolution", "undecided"]
+Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MAX_BUDGETS), NotEmpty()]
+
+
+class ParetoRequest(OptimizeRequest):
+    """The force-moment front of a machine, and its change with the total mass.
+
+    Of the objective, direction weights, ceilings and ``least_mass`` count; how force and moment are weighed and
+    combined does not. Of the outputs, the residual alone is computed.
+    """
+
+    points: Annotated[Count, between(2, MAX_POINTS)] = Field(
+        21, description="number of points of each front, its ends included", examples=[21]
+    )
+    total_mass_budgets_kg: Budgets | None = Field(
+        None,
+        description="a front for each of these limits of the total mass, in place of the machine's own"
+        " max_total_mass_kg; null is one front with the machine's own",
+        examples=[[120.0, 180.0, 240.0]],
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "ParetoRequest":
+        budgets = self.total_mass_budgets_kg or ()
+        problems = [
+            FieldProblem(("total_mass_budgets_kg", index), "this budget is in the list already")
+            for index, budget in enumerate(budgets)
+            if budget in budgets[:index]
+        ]
+        if self.points * len(budgets) > MAX_POINTS_TOGETHER:
+            message = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
+            problems.append(FieldProblem(("points",), message))
+        elif self.points * max(1, len(budgets)) * len(self.machine.webs) > MAX_PLACES:
+            message = f"points times budgets times webs must be at most {MAX_PLACES}"
+            problems.append(FieldProblem(("points",), message))
+        raise_problems(problems)
+        return self
+
+
+class CornerCertificate(Model):
+    """The proof of a point: no counterweights within the limits are below this corner in both peaks."""
+
+    force_N: Newtons = Field(
+        description="no counterweights have a weighted peak force up to this and a smaller weighted peak moment than"
+        " moment_Nm",
+        examples=[7504.59],
+    )
+    moment_Nm: NewtonMetres = Field(
+        description="no counterweights have a weighted peak moment up to this and a smaller weighted peak force than"
+        " force_N",
+        examples=[20123.27],
+    )
+    relative_gap: float = Field(
+        description="how far the point is above the corner: the larger of both differences, each relative to the"
+        " front's scale",
+        examples=[8e-13],
+    )
+    mass_lower_bound_kg: Kilograms | None = Field(
+        description="no counterweights that are as good in both peaks, to within that gap, have a smaller total mass;"
+        " null if least mass was not asked for",
+        examples=[236.35],
+    )
+    mass_relative_gap: float | None = Field(
+        description="total mass above that bound, relative to the total mass", examples=[3e-8]
+    )
+    method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
+
+
+class ParetoPoint(Model):
+    """Counterweights that no others beat in both peaks."""
+
+    status: Literal["optimal", "inaccurate"] = Field(
+        description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
+        examples=["optimal"],
+    )
+    force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
+    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
+    weighted_force_peak_N: Newtons = Field(
+        description="peak of the force with direction weights, which is traded; the peak force where both are 1",
+        examples=[7504.6],
+    )
+    weighted_moment_peak_Nm: NewtonMetres = Field(
+        description="peak of the moment with direction weights, which is traded; the peak moment where both are 1",
+        examples=[20123.28],
+    )
+    total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[236.35])
+    counterweights: tuple[Counterweight, ...] = Field(
+        description="one for each web, in the machine's order", examples=[[]]
+    )
+    active_limits: tuple[MachineLimit, ...] = Field(
+        description="limits of the whole machine that the point touches", examples=[["max_total_mass"]]
+    )
+    certificate: CornerCertificate = Field(description="the proof", examples=[{"relative_gap": 8e-13}])
+
+
+class Ends(Model):
+    """Where each weighted peak is smallest and, among all such, the other is smallest."""
+
+    smallest_force_N: Newtons = Field(description="weighted peak force at the first point", examples=[5003.07])
+    smallest_force_lower_bound_N: Newtons = Field(
+        description="certified: no counterweights within the limits have a smaller one", examples=[5003.06]
+    )
+    moment_at_smallest_force_Nm: NewtonMetres = Field(
+        description="weighted peak moment at the first point", examples=[20298.4]
+    )
+    smallest_moment_Nm: NewtonMetres = Field(description="weighted peak moment at the last point", examples=[19948.2])
+    smallest_moment_lower_bound_Nm: NewtonMetres = Field(
+        description="certified: no counterweights within the limits have a smaller one", examples=[19948.1]
+    )
+    force_at_smallest_moment_N: Newtons = Field(description="weighted peak force at the last point", examples=[10006.1])
+
+
+class Scale(Model):
+    """What gaps are relative to: the weighted peaks without counterweights.
+
+    Where there is no such peak, what the counterweights at the other end do one by one.
+    """
+
+    force_N: Newtons = Field(description="of forces", examples=[10006.1])
+    moment_Nm: NewtonMetres = Field(description="of moments", examples=[48734.5])
+
+
+class ParetoFront(Model):
+    """The front under one limit of the total mass."""
+
+    max_total_mass_kg: Kilograms | None = Field(
+        description="limit of the total mass of this front; null is none", examples=[None]
+    )
+    status: Status = Field(
+        description="optimal: every point is; inaccurate: a point is not; infeasible: no counterweights satisfy the"
+        " ceilings",
+        examples=["optimal"],
+    )
+    points: tuple[ParetoPoint, ...] = Field(
+        description="in the order of rising force and falling moment; none if infeasible", examples=[[]]
+    )
+    reason: Reason | None = Field(
+        None,
+        description="why there are fewer points than asked for. reached_together: both peaks are smallest at the same"
+        " counterweights, within the asked gap. resolution: points that rounding could not tell apart were left out."
+        " undecided: the ceilings are on the very boundary of what can be reached, and the point comes closest",
+        examples=[None],
+    )
+    knee: int | None = Field(
+        None,
+        description="index of the point farthest from the straight line between the ends, in the plane of shares of the"
+        " range; null where the front is a point or straight",
+        examples=[10],
+    )
+    ends: Ends | None = Field(None, description="the ends; null if infeasible", examples=[None])
+    scale: Scale | None = Field(None, description="what gaps are relative to; null if infeasible", examples=[None])
+    infeasibility: Infeasibility | None = Field(
+        None, description="which ceilings conflict; only if infeasible", examples=[None]
+    )
+
+
+class ParetoAnswer(Model):
+    """The certified trade-off of force, moment and mass."""
+
+    status: Status = Field(description="the worst of the fronts", examples=["optimal"])
+    fronts: tuple[ParetoFront, ...] = Field(
+        description="one for each budget of the total mass, in the order asked; without budgets one", examples=[[]]
+    )
+    without_counterweights: FirstOrder = Field(
+        description="first order without counterweights", examples=[{"force": {"peak_N": 10006.1}}]
+    )
+    floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 5003.1}])
+    reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
+    effects: dict[str, EffectUse] = Field(
+        description="every effect, whether it was simulated, for which outputs, and its time",
+        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
+    )
+    timing: Timing = Field(description="where the time went", examples=[{"total_ms": 210.0}])
