@@ -1,0 +1,193 @@
+"""What accuracy costs in the simulated effects: the torque over the turn, and what a flywheel has to take.
+
+The reference is what the service computes: Gauss-Legendre panels between the angles at which valves open and
+rows reverse. Beside it stands what a spreadsheet does: values at equal steps, their average as the mean
+(which the trapezoidal rule is over a whole turn), the running trapezoidal sum for the energy.
+"""
+
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Literal
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+
+from optimizer.accuracy.ladder import median_ms
+from optimizer.effects.inertia import rod_problems
+from optimizer.effects.registry import simulate
+from optimizer.mechanics.cylinders import delivery_problems, gas_problems
+from optimizer.mechanics.kinematics import motion, own_angle, steep_angles
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.rod import rod_forces
+from optimizer.mechanics.turn import fluctuation, mean, panels
+from optimizer.response import Real
+from schemas.accuracy import EffectRow
+from schemas.machine import Machine, ReciprocatingMachine
+from schemas.requests import Fidelity
+
+STEPS_DEG = (30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1)
+#: rows of a machine up to which the ladder is made
+MAX_ROWS = 100
+_WIDEST_PANEL = np.deg2rad(10.0)
+_TURN = 2.0 * np.pi
+#: distance from a jump at which its sides are looked at, rad
+_BESIDE = 1e-9
+#: panels whose nodes come this near to the largest may hold the peak; and samples within them
+_NEARLY, _WITHIN = 0.95, 65
+
+Figure = Literal["mean", "peak", "energy"]
+Figures = Mapping[Figure, float]
+Quantity = Literal[
+    "mean_torque", "peak_torque", "fluctuation_energy", "peak_inertia_torque", "inertia_fluctuation_energy"
+]
+_WITH_GAS: Mapping[Figure, Quantity] = {
+    "mean": "mean_torque",
+    "peak": "peak_torque",
+    "energy": "fluctuation_energy",
+}
+#: inertia alone has no mean torque
+_INERTIA_ALONE: Mapping[Figure, Quantity] = {"peak": "peak_inertia_torque", "energy": "inertia_fluctuation_energy"}
+#: torque (T,) N m against rotation at shaft angles (T,) rad
+Torque = Callable[[Real], Real]
+
+
+@dataclass(frozen=True)
+class Way:
+    """One way to the figures of the turn."""
+
+    method: Literal["panels", "search", "samples"]
+    setting: str
+    figures: Callable[[], Figures]
+
+
+def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[EffectRow, ...]:
+    """Rows for every figure; none where the machine does not give what the torque takes."""
+    if not isinstance(machine, ReciprocatingMachine) or any(rod_problems(machine)):
+        return ()
+    if not 0 < layout.reciprocating.mass.size <= MAX_ROWS:
+        return ()
+    has_gas = not any(gas_problems(machine)) and not any(delivery_problems(machine, layout))
+    torque = _torque if has_gas else _inertia_torque
+    exact, cut_off = (partial(torque, machine, layout, each) for each in (Fidelity(), Fidelity(kinematics="order_2")))
+    breaks = _breaks(machine, layout, has_gas)
+    ways = [
+        Way("panels", "exact kinematics", lambda: _by_panels(exact, breaks)),
+        Way("panels", "kinematics of order 2", lambda: _by_panels(cut_off, breaks)),
+        Way("search", "exact kinematics", lambda: _by_search(exact, breaks)),
+        Way("search", "kinematics of order 2", lambda: _by_search(cut_off, breaks)),
+        *(Way("samples", f"{step:g} deg", partial(_by_samples, exact, step)) for step in STEPS_DEG),
+    ]
+    reference = {**_by_panels(exact, breaks), **_by_search(exact, breaks)}
+    estimate = _own_estimate(exact, breaks)
+    found, first, times = _timed(ways, repeats)
+    return tuple(
+        EffectRow(
+            quantity=name,
+            method=way.method,
+            setting=way.setting,
+            time_ms=median_ms(times[n]) or 0.0,
+            first_ms=first[n] * 1e3,
+            relative_error=_relative(found[n][figure], reference[figure])
+            if way.method == "samples" or way.setting != "exact kinematics"
+            else estimate.get(figure),
+            runs=len(times[n]),
+        )
+        for figure, name in (_WITH_GAS if has_gas else _INERTIA_ALONE).items()
+        for n, way in enumerate(ways)
+        if figure in found[n]
+    )
+
+
+def _timed(ways: list[Way], repeats: int) -> tuple[list[Figures], list[float], list[list[float]]]:
+    """Figures, time of the first run and of every later one; the ways take turns."""
+    found: list[Figures] = []
+    first: list[float] = []
+    times: list[list[float]] = [[] for _ in ways]
+    for way in ways:
+        start = time.perf_counter()
+        found.append(way.figures())
+        first.append(time.perf_counter() - start)
+    for _ in range(repeats):
+        for taken, way in zip(times, ways, strict=True):
+            start = time.perf_counter()
+            way.figures()
+            taken.append(time.perf_counter() - start)
+    return found, first, times
+
+
+def _torque(machine: Machine, layout: Layout, fidelity: Fidelity, angle: Real) -> Real:
+    """Torque of gas, inertia and friction."""
+    results = simulate(machine, layout, ("rod_loads",), fidelity, angle).results
+    friction = results["friction"].torque if "friction" in results else 0.0
+    return np.sum(results["rod_forces"].torque, axis=0) + friction
+
+
+def _inertia_torque(_machine: Machine, layout: Layout, fidelity: Fidelity, angle: Real) -> Real:
+    """Torque of the reciprocating masses alone."""
+    moving = motion(layout, angle, fidelity.kinematics == "exact")
+    force = layout.reciprocating.mass[:, None] * moving.acceleration
+    return np.sum(rod_forces(force, moving, layout).torque, axis=0)
+
+
+def _breaks(machine: Machine, layout: Layout, has_gas: bool) -> Real:
+    """Shaft angles at which the torque jumps, has a kink or is steep, rad."""
+    ratio = layout.reciprocating.rod_ratio
+    own = [np.broadcast_to([0.0, np.pi], (ratio.size, 2)), steep_angles(ratio)]
+    if has_gas:
+        gas = simulate(machine, layout, ("gas",), Fidelity(), np.zeros(1)).results["gas"]
+        own += [gas.suction_opens, gas.discharge_opens]
+    angles = np.concatenate(own, axis=1) - own_angle(layout, np.zeros(1))
+    return np.unique(np.mod(angles[~np.isnan(angles)], _TURN))
+
+
+def _by_panels(torque: Torque, breaks: Real) -> Figures:
+    """As the service integrates: its halved panels."""
+    turn = panels(breaks, _WIDEST_PANEL, halved=True)
+    values = torque(turn.angle)
+    return {"mean": float(mean(turn, values)), "energy": float(fluctuation(turn, values))}
+
+
+def _own_estimate(torque: Torque, breaks: Real) -> Figures:
+    """Difference from panels twice as wide, which the service reports as its error; the peak has none."""
+    coarse = panels(breaks, _WIDEST_PANEL)
+    values, fine = torque(coarse.angle), _by_panels(torque, breaks)
+    found: dict[Figure, float | None] = {
+        "mean": _relative(float(mean(coarse, values)), fine["mean"]),
+        "energy": _relative(float(fluctuation(coarse, values)), fine["energy"]),
+    }
+    return {figure: error for figure, error in found.items() if error is not None}
+
+
+def _by_search(torque: Torque, breaks: Real) -> Figures:
+    """Largest magnitude of the torque: on both sides of every break, and within the panels that may hold it."""
+    beside = np.max(np.abs(torque(np.concatenate([breaks - _BESIDE, breaks + _BESIDE]))))
+    turn = panels(breaks, _WIDEST_PANEL, halved=True)
+    highest = np.max(np.abs(torque(turn.angle)).reshape(turn.start.size, -1), axis=-1)
+    held = (highest > _NEARLY * np.max(highest)) & (turn.width > 0)
+    within = np.linspace(0.0, 1.0, _WITHIN)
+    angle = (turn.start[held, None] + turn.width[held, None] * within).ravel()
+    best = int(np.argmax(np.abs(torque(angle))))
+    # smooth within a panel, so that there is one maximum beside the best of the fine samples
+    step = float(np.max(turn.width[held])) * within[1]
+    inside = minimize_scalar(
+        lambda at: -abs(float(torque(np.array([at]))[0])),
+        bounds=(angle[best] - step, angle[best] + step),
+        method="bounded",
+        options={"xatol": 1e-9},
+    )
+    return {"peak": max(float(beside), float(-inside.fun), float(np.max(highest)))}
+
+
+def _by_samples(torque: Torque, step_deg: float) -> Figures:
+    count = round(360.0 / step_deg)
+    values = torque(np.linspace(0.0, _TURN, count, endpoint=False))
+    middle = float(np.mean(values))
+    rest = np.append(values, values[0]) - middle
+    running = np.concatenate([[0.0], np.cumsum(0.5 * (rest[:-1] + rest[1:]))]) * (_TURN / count)
+    return {"mean": middle, "peak": float(np.max(np.abs(values))), "energy": float(np.ptp(running))}
+
+
+def _relative(value: float, reference: float) -> float | None:
+    return abs(value - reference) / abs(reference) if reference != 0 else None
