@@ -1,0 +1,182 @@
+"""Optimum counterweights of many designs of one shape, as columns."""
+
+from dataclasses import fields, replace
+from typing import Any
+
+import numpy as np
+
+from optimizer.formulate import limits as limits_of
+from optimizer.formulate import weights as weights_of
+from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses, reciprocating, rotating
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.layout import layout as layout_of
+from optimizer.optimize import MASS_GAP
+from optimizer.program.batch import Optima, optima
+from optimizer.program.limits import Limits
+from optimizer.program.solution import CEILING_TOLERANCE, CLOSED_FORM, CONE_PROGRAM
+from optimizer.program.solve import Solver
+from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.report.counterweights import masses_and_angles, unbalance
+from optimizer.response import Complex, Phasors, Real, Response
+from schemas.requests import OptimizeRequest
+
+Columns = dict[str, Any]
+
+#: the limit that is not one of each web
+_WHOLE = "max_total_mass"
+_INFEASIBLE = "no counterweights within the limits keep the ceilings"
+
+
+def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
+    """Number of the shape of program that each design has (count,): which terms and rows it is made of."""
+    weights, across = weights_of(request.machine, request.objective), request.objective.direction_weights
+    facts = (weights["force"] > 0, weights["moment"] > 0, np.asarray(across.x) == across.y)
+    return sum((np.broadcast_to(fact, (count,)) << k for k, fact in enumerate(facts)), np.zeros(count, dtype=np.int64))
+
+
+def optimized(request: OptimizeRequest, count: int, solver: Solver) -> tuple[Columns, Complex]:
+    """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m.
+
+    Parameters
+    ----------
+    request : of columns (count,); its designs have one shape of program.
+    """
+    layout = layout_of(request.machine)
+    baseline = rotating(layout).plus(reciprocating(layout, 1))
+    square = np.broadcast_to(layout.omega**2, (count,))
+    program = _statement(request, layout, baseline, square)
+    found = _found(program, request, solver)
+    mass, angle = masses_and_angles(found.unbalance, program.limits.radius)
+    u = unbalance(mass, angle, program.limits.radius)
+    columns = _certified(request, program, found, u, mass, square) | first_order_peaks(layout, baseline, u)
+    columns["total_mass_kg"] = np.sum(mass, axis=-1)
+    for k, web in enumerate(request.machine.webs):
+        columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
+    columns = {
+        name: np.where(found.unreachable, np.nan, column) if column.dtype == float else column
+        for name, column in columns.items()
+    }
+    return columns, u
+
+
+def first_order_peaks(layout: Layout, baseline: Wrench, u: Complex) -> Columns:
+    """Peaks of force and moment with counterweights (count, webs) kg m."""
+    residual = baseline.plus(counterweights(layout, u)).times(layout.omega**2)
+    return {
+        "force_peak_N": np.broadcast_to(residual.force.peak, u.shape[:1]),
+        "moment_peak_Nm": np.broadcast_to(residual.moment.peak, u.shape[:1]),
+    }
+
+
+def _found(program: Statement, request: OptimizeRequest, solver: Solver) -> Optima:
+    """Optima of the programs, without the webs that cannot carry anything, as of one machine."""
+    carries = program.limits.reach > 0
+    if np.all(carries):
+        return _solved(program, request, solver)
+    patterns, which = np.unique(carries, axis=0, return_inverse=True)
+    parts = []
+    for k, webs in enumerate(patterns):
+        designs = np.flatnonzero(which.reshape(-1) == k)
+        part = _solved(_only(program.chosen(designs), webs), request, solver)
+        everywhere = np.zeros((designs.size, webs.size), complex)
+        everywhere[:, webs] = part.unbalance
+        parts.append((designs, replace(part, unbalance=everywhere)))
+    order = np.argsort(np.concatenate([designs for designs, _ in parts]))
+    names = [field.name for field in fields(Optima)]
+    return Optima(**{name: np.concatenate([getattr(part, name) for _, part in parts])[order] for name in names})
+
+
+def _solved(program: Statement, request: OptimizeRequest, solver: Solver) -> Optima:
+    found = optima(program, request.accuracy.relative_gap, request.objective.least_mass, solver)
+    if program.limits.radius.shape[-1] == 0:
+        return replace(found, method=np.full_like(found.method, CLOSED_FORM))
+    # that ceilings cannot be kept is a finding of the reference solver alone
+    return replace(found, method=np.where(found.unreachable, CONE_PROGRAM, found.method))
+
+
+def _only(program: Statement, webs: np.ndarray) -> Statement:
+    """The programs with some of the webs."""
+    limits = program.limits
+    chosen = {field.name: getattr(limits, field.name)[..., webs] for field in fields(Limits) if field.name != _WHOLE}
+    return replace(
+        program,
+        norms=program.norms.only(webs),
+        ceilings=program.ceilings.only(webs),
+        limits=replace(limits, **chosen),
+    )
+
+
+def _statement(request: OptimizeRequest, layout: Layout, baseline: Wrench, square: Real) -> Statement:
+    """The programs of all designs, every array with the leading axis (count,)."""
+    count, webs, goal = square.shape, len(request.machine.webs), request.objective
+    weights = {name: np.broadcast_to(weight, count) for name, weight in weights_of(request.machine, goal).items()}
+    across = goal.direction_weights
+    weight_x, weight_y = (np.broadcast_to(np.asarray(weight), count) for weight in (across.x, across.y))
+    ceilings = {"force": goal.force_ceiling_N, "moment": goal.moment_ceiling_Nm}
+    responses = [_spread(response, count) for response in first_order_responses(layout, baseline)]
+    return statement(
+        [
+            weighted_peak(response, weights[response.name], weight_x, weight_y)
+            for response in responses
+            if weights[response.name][0] > 0
+        ],
+        goal.combine,
+        [
+            (response, np.broadcast_to(np.asarray(ceilings[response.name]), count) / square)
+            for response in responses
+            if ceilings[response.name] is not None
+        ],
+        _spread_limits(limits_of(request.machine), count, webs),
+    )
+
+
+def _spread(response: Response, count: tuple[int, ...]) -> Response:
+    baseline = Phasors(np.broadcast_to(response.baseline.co, count), np.broadcast_to(response.baseline.counter, count))
+    influence = np.broadcast_to(response.influence, (*count, response.influence.shape[-1]))
+    return Response(response.name, baseline, influence)
+
+
+def _spread_limits(limits: Limits, count: tuple[int, ...], webs: int) -> Limits:
+    shape = (*count, webs)
+    return Limits(
+        radius=np.broadcast_to(limits.radius, shape),
+        max_mass=np.broadcast_to(limits.max_mass, shape),
+        free=np.broadcast_to(limits.free, shape),
+        centre=np.broadcast_to(limits.centre, shape),
+        half_angle_cos=np.broadcast_to(limits.half_angle_cos, shape),
+        half_angle_sin=np.broadcast_to(limits.half_angle_sin, shape),
+        max_total_mass=np.broadcast_to(limits.max_total_mass, count),
+    )
+
+
+def _certified(
+    request: OptimizeRequest, program: Statement, found: Optima, u: Complex, mass: Real, square: Real
+) -> Columns:
+    """What the counterweights are worth, recomputed, and what is proven, as in the answer to one request."""
+    value, rest = program.objective(u), program.objective(np.zeros_like(u))
+    # a bound above the value by rounding, or by what a ceiling is exceeded within its tolerance, is lowered to it
+    bound = np.minimum(found.lower_bound, value)
+    gap = np.where(rest > 0, (value - bound) / np.where(rest > 0, rest, 1.0), 0.0)
+    total = np.sum(mass, axis=-1)
+    keeps, close = found.excess <= CEILING_TOLERANCE, gap <= request.accuracy.relative_gap
+    columns: Columns = {
+        "method": found.method,
+        "objective": value * square,
+        "lower_bound": bound * square,
+        "relative_gap": gap,
+    }
+    light = np.ones_like(close)
+    if request.objective.least_mass:
+        mass_bound = np.minimum(found.mass_lower_bound, total)
+        mass_gap = np.where(total > 0, (total - mass_bound) / np.where(total > 0, total, 1.0), 0.0)
+        light = mass_gap <= MASS_GAP
+        columns |= {"mass_lower_bound_kg": mass_bound, "mass_relative_gap": mass_gap}
+    status = np.where(keeps & close & light, "optimal", "inaccurate")
+    message = np.select(
+        [keeps & close & light, ~keeps, ~close],
+        ["", "the ceilings are not kept, nor proven out of reach", "the objective is not certified to the asked gap"],
+        "the total mass is not certified to be the least",
+    )
+    columns["status"] = np.where(found.unreachable, "infeasible", status)
+    columns["message"] = np.where(found.unreachable, _INFEASIBLE, message)
+    return columns

@@ -1,0 +1,115 @@
+"""What a sweep is before it runs: how many designs, in which pieces, with which columns."""
+
+from dataclasses import dataclass
+
+import pyarrow as pa
+
+from optimizer.errors import MissingInput
+from optimizer.sweep.over_turn import work_per_design
+from optimizer.sweep.table import result_schema
+from optimizer.sweep.validity import missing_inputs
+from optimizer.sweep.variation import with_fields
+from schemas.base import FieldProblem
+from schemas.requests import OptimizeRequest
+from schemas.sweep import Column, SweepColumn, SweepEstimate, SweepRequest
+
+#: seconds of work in a chunk: long against the cost of handing it out, short against the patience of a client
+_CHUNK_S = 1.0
+#: seconds a design takes for each web, for its certified optimum
+_PROGRAM_S = 7e-6
+#: and for each row at each angle of the turn, in the outputs
+_SAMPLE_S = 3.5e-7
+_ROW_S = 6e-6
+#: cells of a chunk at most, which bounds its memory
+_CELLS = 4_000_000
+#: seconds, and rows, of a block of a chunk: between blocks a worker sees that it is to stop
+_BLOCK_S = 0.25
+_BLOCK_ROWS = 10_000
+#: a small sweep is cut into so many chunks, so that all workers have some
+_FEWEST_CHUNKS = 16
+_SMALLEST_CHUNK = 64
+#: bytes of a cell in Parquet: numbers hardly compress, texts nearly vanish
+_CELL_BYTES = {"number": 8.6, "integer": 1.5, "text": 0.2}
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A sweep before it runs."""
+
+    total: int
+    chunk_rows: int
+    seed: int
+    columns: tuple[Column, ...]
+    schema: pa.Schema
+
+    @property
+    def chunks(self) -> int:
+        """Number of chunks; the last may be shorter."""
+        return -(-self.total // self.chunk_rows)
+
+    def chunk(self, number: int) -> tuple[int, int]:
+        """First design of a chunk and the one after its last."""
+        start = number * self.chunk_rows
+        return start, min(start + self.chunk_rows, self.total)
+
+    @property
+    def estimate(self) -> SweepEstimate:
+        """The answer to a dry run."""
+        row_bytes = sum(_CELL_BYTES[column.kind] for column in self.columns)
+        return SweepEstimate(
+            total=self.total,
+            chunks=self.chunks,
+            chunk_rows=self.chunk_rows,
+            seed=self.seed,
+            bytes=round(self.total * row_bytes),
+            columns=tuple(SweepColumn(**column._asdict()) for column in self.columns),
+        )
+
+
+def plan(request: SweepRequest) -> Plan:
+    """Plan a sweep.
+
+    Raises
+    ------
+    MissingInput
+        if the base and the axes together lack what an output needs, whichever the design.
+    """
+    _require_inputs(request)
+    columns = request.chosen_columns
+    return Plan(
+        total=request.total,
+        chunk_rows=_chunk_rows(request),
+        seed=request.seed,
+        columns=columns,
+        schema=result_schema(request, request.model_dump_json().encode()),
+    )
+
+
+def _require_inputs(request: SweepRequest) -> None:
+    """Refuse what no design can give: a field that is null in the base and that no axis fills."""
+    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets})
+    problems = {
+        path: FieldProblem(("base", *path), f"{message}; asked for by output '{output}'")
+        for path, output, message in missing_inputs(filled)
+    }
+    if problems:
+        raise MissingInput(problems.values())
+
+
+def block_rows(request: SweepRequest) -> int:
+    """Rows that are computed at once: enough that calls cost little, few enough to stop soon."""
+    return max(1, min(round(_BLOCK_S / _seconds_per_design(request)), _BLOCK_ROWS))
+
+
+def _chunk_rows(request: SweepRequest) -> int:
+    largest = min(_CHUNK_S / _seconds_per_design(request), _CELLS / len(request.all_columns), 100_000)
+    fair = max(-(-request.total // _FEWEST_CHUNKS), _SMALLEST_CHUNK)
+    return max(1, min(round(largest), fair))
+
+
+def _seconds_per_design(request: SweepRequest) -> float:
+    """Rough time of a design on one core."""
+    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base)
+    if isinstance(request.base, OptimizeRequest):
+        seconds += _PROGRAM_S * max(len(request.base.machine.webs), 1)
+    return seconds

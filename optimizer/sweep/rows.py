@@ -1,0 +1,149 @@
+"""From numbers of designs to columns of the result: axes, validity, mechanics, program, outputs."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.mechanics.layout import layout
+from optimizer.program.solve import Solver
+from optimizer.response import Complex, Real
+from optimizer.sweep.analyzed import analyzed
+from optimizer.sweep.designs import axis_values
+from optimizer.sweep.optimized import optimized, shape_keys
+from optimizer.sweep.over_turn import figures, work_per_design
+from optimizer.sweep.pins import peak_pin_load
+from optimizer.sweep.validity import Finding, input_findings, range_findings, rule_findings
+from optimizer.sweep.variation import with_fields
+from schemas.machine import ScrollMachine
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep import SweepRequest, pointer
+from schemas.sweep.target import Path
+
+Designs = NDArray[np.int64]
+#: rows times angles that are worked on at once, which bounds the memory
+_AT_ONCE = 400_000
+
+
+class Rows:
+    """Columns of a range of designs, filled group by group; nan and None stand for what is not there."""
+
+    def __init__(self, request: SweepRequest, start: int, stop: int) -> None:
+        count = stop - start
+        self.columns: dict[str, Any] = {
+            column.name: np.full(count, np.nan) if column.kind == "number" else np.full(count, None, dtype=object)
+            for column in request.all_columns
+        }
+        self.columns["index"] = np.arange(start, stop, dtype=np.int64)
+
+    def put(self, designs: Designs, found: dict[str, Any]) -> None:
+        """Columns of some designs; those that the result does not have are left out."""
+        for name, column in found.items():
+            if name in self.columns:
+                self.columns[name][designs] = column
+
+    def refuse(self, designs: Designs, finding: Finding) -> None:
+        """Designs that are no valid requests."""
+        self.columns["status"][designs] = "invalid"
+        self.columns["message"][designs] = f"{pointer(finding.path)}: {finding.message}"
+
+
+def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[str, Any]:
+    """Every column of the designs start..stop-1, by name.
+
+    A design that is no valid request is a row that says which field is wrong; it ends nothing.
+    """
+    values = axis_values(request, start, stop)
+    table = Rows(request, start, stop)
+    table.put(np.arange(stop - start), {pointer(t.path): v for t, v in zip(request.targets, values, strict=True)})
+    inside = _refuse(table, np.arange(stop - start), range_findings(request.targets, values))
+    for designs in _same_nulls(values, inside):
+        _fill(table, Group(request, values), designs, solver)
+    return table.columns
+
+
+class Group:
+    """The varied requests of a range of designs."""
+
+    def __init__(self, request: SweepRequest, values: Sequence[Real]) -> None:
+        self._base, self._targets, self._values = request.base, request.targets, values
+
+    def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
+        """Some designs, with the same fields null in all, as one request of columns."""
+        contents: dict[Path, Any] = {}
+        for target, column in zip(self._targets, self._values, strict=True):
+            chosen = column[designs]
+            contents[target.path] = None if np.isnan(chosen[0]) else chosen
+        return with_fields(self._base, contents)
+
+    def one(self, design: int) -> OptimizeRequest | AnalyzeRequest:
+        """One design as a request of numbers."""
+        contents: dict[Path, Any] = {}
+        for target, column in zip(self._targets, self._values, strict=True):
+            number = float(column[design])
+            contents[target.path] = None if np.isnan(number) else int(number) if target.integer else number
+        return with_fields(self._base, contents)
+
+
+def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    designs = _refuse(table, designs, rule_findings(group.of(designs)))
+    if designs.size:
+        designs = _refuse(table, designs, input_findings(group.of(designs), group.one(designs[0])))
+    if not designs.size:
+        return
+    request = group.of(designs)
+    if isinstance(request, AnalyzeRequest):
+        found, unbalance = analyzed(request, designs.size)
+        table.put(designs, found)
+        _fill_outputs(table, group, designs, unbalance)
+        return
+    keys = shape_keys(request, designs.size)
+    for key in np.unique(keys):
+        alike = designs[keys == key]
+        part = group.of(alike)
+        assert isinstance(part, OptimizeRequest)  # all designs of a sweep are
+        found, unbalance = optimized(part, alike.size, solver)
+        table.put(alike, found)
+        _fill_outputs(table, group, alike, unbalance)
+
+
+def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Complex) -> None:
+    """Columns of the outputs, in blocks that fit into memory."""
+    request = group.of(designs[:1])
+    if "pin_loads" in request.outputs:
+        machine = group.of(designs).machine
+        assert isinstance(machine, ScrollMachine)  # missing inputs otherwise
+        table.put(designs, {"peak_pin_load_N": peak_pin_load(machine, designs.size)})
+    size = max(1, _AT_ONCE // max(work_per_design(request), 1))
+    for first in range(0, designs.size, size):
+        block = designs[first : first + size]
+        part = group.of(block)
+        found = figures(part, layout(part.machine), unbalance[first : first + size])
+        if "peak_bearing_load_N" in found:
+            # without counterweights there is no load with them
+            infeasible = table.columns["status"][block] == "infeasible"
+            found["peak_bearing_load_N"] = np.where(infeasible, np.nan, found["peak_bearing_load_N"])
+        table.put(block, found)
+
+
+def _refuse(table: Rows, designs: Designs, findings: Iterable[Finding]) -> Designs:
+    """The designs that break no rule; the others say which they break first."""
+    valid = np.ones(designs.size, dtype=bool)
+    for finding in findings:
+        broken = valid & finding.broken
+        if np.any(broken):
+            table.refuse(designs[broken], finding)
+            valid &= ~broken
+    return designs[valid]
+
+
+def _same_nulls(values: Sequence[Real], designs: Designs) -> Iterator[Designs]:
+    """The designs in groups that have the same fields null."""
+    nulls = np.stack([np.isnan(column[designs]) for column in values], axis=-1)
+    if not np.any(nulls):
+        groups = [designs] if designs.size else []
+    else:
+        patterns, which = np.unique(nulls, axis=0, return_inverse=True)
+        groups = [designs[which.reshape(-1) == k] for k in range(len(patterns))]
+    yield from groups

@@ -1,0 +1,65 @@
+"""The result as an Arrow table: units in the fields' metadata, the request and versions in the table's."""
+
+import json
+import platform
+from collections.abc import Mapping
+from functools import cache
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from schemas.sweep import SweepRequest
+
+#: keys of the table's metadata
+REQUEST, VERSIONS, SEED = b"counterweight.request", b"counterweight.versions", b"counterweight.seed"
+
+_TYPES = {"integer": pa.int64(), "number": pa.float64(), "text": pa.string()}
+_PACKAGES = ("counterweight", "numpy", "scipy", "cvxpy", "clarabel", "pyarrow")
+
+
+def result_schema(request: SweepRequest, request_json: bytes) -> pa.Schema:
+    """Columns of the result with unit, meaning and source; request, versions and seed for the whole.
+
+    Parameters
+    ----------
+    request_json : the request as it is to be kept with the result.
+    """
+    fields = []
+    for column in request.chosen_columns:
+        notes = {"unit": column.unit, "meaning": column.meaning, "pointer": column.source}
+        metadata = {key: value for key, value in notes.items() if value is not None}
+        fields.append(pa.field(column.name, _TYPES[column.kind], column.name != "index", metadata))
+    return pa.schema(
+        fields, {REQUEST: request_json, VERSIONS: json.dumps(versions()).encode(), SEED: str(request.seed).encode()}
+    )
+
+
+def result_table(columns: Mapping[str, Any], schema: pa.Schema) -> pa.Table:
+    """The columns that the schema names; numbers that are not finite and empty texts are null."""
+    return pa.Table.from_arrays([_array(columns[field.name], field.type) for field in schema], schema=schema)
+
+
+@cache
+def versions() -> dict[str, str]:
+    """Versions of what computes the rows."""
+    found = {"python": platform.python_version()}
+    for package in _PACKAGES:
+        try:
+            found[package] = version(package)
+        except PackageNotFoundError:
+            found[package] = "not installed as a package"
+    return found
+
+
+def _array(column: Any, kind: pa.DataType) -> pa.Array:
+    if kind == pa.float64():
+        return pa.array(column, kind, mask=~np.isfinite(column))
+    if kind == pa.string():
+        # few different texts: Arrow repeats them faster than Python does
+        number = {text: k for k, text in enumerate(dict.fromkeys(column))}
+        which = np.fromiter(map(number.__getitem__, column), dtype=np.int32, count=len(column))
+        dictionary = pa.array([text or None for text in number], kind)
+        return pa.DictionaryArray.from_arrays(pa.array(which), dictionary).cast(kind)
+    return pa.array(column, kind)

@@ -1,0 +1,59 @@
+"""What is answered about a sweep: how far it is, and where its results are."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from schemas.base import Model
+
+JobState = Literal["queued", "running", "done", "failed", "cancelled"]
+
+
+class SweepLinks(Model):
+    """Where to go from here."""
+
+    self: str = Field(description="state of the sweep", examples=["/v1/sweeps/5f0c"])
+    results: str = Field(description="rows of the result", examples=["/v1/sweeps/5f0c/results"])
+    events: str = Field(description="progress as server-sent events", examples=["/v1/sweeps/5f0c/events"])
+
+
+class SweepState(Model):
+    """How far a sweep is."""
+
+    id: str = Field(description="name of the sweep", examples=["5f0c"])
+    state: JobState = Field(description="how far it is", examples=["running"])
+    total: int = Field(description="number of designs", examples=[1000000])
+    done: int = Field(description="designs that have their row, whatever it says", examples=[250000])
+    failed: int = Field(
+        description="designs among them without a certified answer: invalid, infeasible, inaccurate or failed",
+        examples=[12],
+    )
+    rows: int = Field(description="rows that the results hold now; fewer than done with top or pareto", examples=[20])
+    seed: int = Field(description="seed of the designs", examples=[0])
+    eta_s: float | None = Field(description="estimate of the seconds left; null where unknown", examples=[42.0])
+    created_at: str = Field(description="when it was accepted, ISO 8601, UTC", examples=["2026-01-31T12:00:00Z"])
+    started_at: str | None = Field(description="when the first chunk began", examples=["2026-01-31T12:00:01Z"])
+    finished_at: str | None = Field(description="when it ended", examples=[None])
+    message: str | None = Field(description="why it failed; null otherwise", examples=[None])
+    links: SweepLinks = Field(description="where to go from here", examples=[{"self": "/v1/sweeps/5f0c"}])
+
+
+class SweepColumn(Model):
+    """One column of the result."""
+
+    name: str = Field(description="name of the column", examples=["force_peak_N"])
+    kind: Literal["integer", "number", "text"] = Field(description="what it holds", examples=["number"])
+    unit: str | None = Field(description="unit of its values", examples=["N"])
+    meaning: str = Field(description="what its values are", examples=["peak of the first-order force"])
+    source: str | None = Field(description="field of the base it belongs to, of axes and webs", examples=[None])
+
+
+class SweepEstimate(Model):
+    """What a sweep would be, without running it."""
+
+    total: int = Field(description="number of designs", examples=[1000000])
+    chunks: int = Field(description="pieces in which they would be computed", examples=[50])
+    chunk_rows: int = Field(description="designs in one piece", examples=[20000])
+    seed: int = Field(description="seed of the designs", examples=[0])
+    bytes: int = Field(description="rough size of the whole result as Parquet", examples=[120000000])
+    columns: tuple[SweepColumn, ...] = Field(description="columns of the result", examples=[[{"name": "index"}]])

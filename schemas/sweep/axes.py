@@ -1,0 +1,73 @@
+"""The axes of a sweep: which fields vary, and over which values."""
+
+import sys
+from collections.abc import Iterator
+from typing import Annotated, Any, Literal
+
+from pydantic import BeforeValidator, Field, Strict, model_validator
+from pydantic_core import PydanticCustomError
+
+from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.quantities import Count
+
+MAX_DESIGNS = 10_000_000
+
+
+def _number_or_text(value: Any) -> Any:
+    if isinstance(value, bool) or not isinstance(value, int | float | str | None):
+        raise PydanticCustomError("quantity", "must be a number, or a string with a unit")
+    if isinstance(value, int | float) and not abs(value) <= sys.float_info.max:
+        raise PydanticCustomError("quantity", "must be a finite number")
+    return value
+
+
+Text = Annotated[str, Field(max_length=48)]
+Value = Annotated[Annotated[float, Strict()] | Text | None, BeforeValidator(_number_or_text)]
+
+
+class Axis(Model):
+    """One field of the base request and the values that take its place: a list, or a range."""
+
+    path: Annotated[str, Field(max_length=512)] = Field(
+        description="JSON pointer (RFC 6901) of a numeric field of machine, objective or counterweights in the base",
+        examples=["/machine/throws/0/rows/0/reciprocating_mass_kg"],
+    )
+    values: Annotated[tuple[Value, ...], NotEmpty()] | None = Field(
+        None,
+        max_length=MAX_DESIGNS,
+        description="the values, as the field itself takes them: numbers, strings with a unit, null where it may be",
+        examples=[[250.0, 277.79, "310 kg"]],
+    )
+    start: Value = Field(None, description="first value of a range", examples=[250.0])
+    stop: Value = Field(None, description="last value of a range", examples=["310 kg"])
+    count: Count | None = Field(
+        None,
+        ge=1,
+        le=MAX_DESIGNS,
+        description="number of values in the range, both ends included; a Latin hypercube may leave it out and "
+        "then draws from the whole range",
+        examples=[21],
+    )
+    spacing: Literal["linear", "log"] = Field(
+        "linear", description="even steps of the value, or of its logarithm", examples=["linear"]
+    )
+
+    @model_validator(mode="after")
+    def _check(self) -> "Axis":
+        raise_problems(self._problems())
+        return self
+
+    def _problems(self) -> Iterator[FieldProblem]:
+        if self.values is not None:
+            for name in ("start", "stop", "count"):
+                if getattr(self, name) is not None:
+                    yield FieldProblem((name,), "give either the values or a range")
+            return
+        for name in ("start", "stop"):
+            if getattr(self, name) is None:
+                yield FieldProblem((name,), "an axis needs values, or a range from start to stop")
+
+    @property
+    def levels(self) -> int | None:
+        """Number of values; None for a range without a count."""
+        return self.count if self.values is None else len(self.values)

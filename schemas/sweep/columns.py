@@ -1,0 +1,101 @@
+"""The columns of the result: names, units, and the field or output that each stands for."""
+
+from collections.abc import Iterator, Sequence
+from typing import Literal, NamedTuple
+
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.target import Target, pointer
+
+Kind = Literal["integer", "number", "text"]
+
+
+class Column(NamedTuple):
+    """One column of the result."""
+
+    name: str
+    kind: Kind
+    unit: str | None
+    meaning: str
+    source: str | None = None  # JSON pointer in the base, of axes and webs
+
+
+#: columns of the outputs that a sweep can ask for beyond the residual
+OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
+    "residual": (),
+    "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
+    "piston_force": (
+        Column("peak_piston_force_N", "number", "N", "largest piston force among the samples, magnitude"),
+    ),
+    "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),
+    "torque": (
+        Column("mean_torque_Nm", "number", "N m", "mean torque over the turn, whatever the samples"),
+        Column("peak_torque_Nm", "number", "N m", "largest torque among the samples, magnitude"),
+        Column("fluctuation_energy_J", "number", "J", "energy that a flywheel takes up and gives back"),
+        Column("shaft_power_W", "number", "W", "mean torque times angular speed"),
+        Column("indicated_power_W", "number", "W", "power put into the gas"),
+        Column("friction_power_W", "number", "W", "power lost to friction"),
+    ),
+    "flywheel": (
+        Column("irregularity", "number", None, "range of the speed over its mean"),
+        Column("inertia_J_kg_m2", "number", "kg m2", "polar moment of inertia of all that turns"),
+    ),
+    "overturning": (
+        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple among the samples, magnitude"),
+    ),
+    "main_bearings": (
+        Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),
+    ),
+    "pin_loads": (Column("peak_pin_load_N", "number", "N", "largest load of all anti-rotation pins"),),
+}
+
+_ALWAYS = (
+    Column(
+        "status",
+        "text",
+        None,
+        "optimal, inaccurate, infeasible or analyzed; invalid where a field is wrong, failed where computing broke down",
+    ),
+    Column("message", "text", None, "why there is no certified answer: the field that is wrong, or what broke down"),
+)
+_RESIDUAL = (
+    Column("force_peak_N", "number", "N", "peak of the first-order force with the counterweights"),
+    Column("moment_peak_Nm", "number", "N m", "peak of the first-order moment with the counterweights"),
+)
+_CERTIFICATE = (
+    Column("method", "text", None, "what found the counterweights"),
+    Column("objective", "number", None, "objective of the counterweights, recomputed"),
+    Column("lower_bound", "number", None, "no counterweights within the limits have a smaller objective"),
+    Column("relative_gap", "number", None, "objective above that bound, over the objective without counterweights"),
+    Column("mass_lower_bound_kg", "number", "kg", "no optimum has a smaller total mass"),
+    Column("mass_relative_gap", "number", None, "total mass above that bound, relative to the total mass"),
+)
+_TOTAL_MASS = Column("total_mass_kg", "number", "kg", "total mass of the counterweights")
+
+
+def result_columns(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> tuple[Column, ...]:
+    """All columns of a sweep, in the order of the result: index, axes, status, figures, counterweights."""
+    found: dict[str, Column] = {}
+    for column in _columns(base, targets):
+        found.setdefault(column.name, column)
+    return tuple(found.values())
+
+
+def _columns(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> Iterator[Column]:
+    yield Column("index", "integer", None, "number of the design, from 0")
+    for target in targets:
+        path = pointer(target.path)
+        yield Column(path, "number", target.unit, "value of the field in this design", path)
+    yield from _ALWAYS
+    optimizes = isinstance(base, OptimizeRequest)
+    if optimizes or "residual" in base.outputs:
+        yield from _RESIDUAL
+    yield _TOTAL_MASS
+    if optimizes:
+        yield from _CERTIFICATE
+    for output in base.outputs:
+        yield from OUTPUT_COLUMNS[output]
+    if optimizes:
+        for k, web in enumerate(base.machine.webs):
+            path = pointer(("machine", "webs", k))
+            yield Column(f"mass_kg.{web.name}", "number", "kg", "mass of the counterweight on this web", path)
+            yield Column(f"angle_deg.{web.name}", "number", "deg", "its angle as drawn at shaft angle 0", path)

@@ -1,0 +1,206 @@
+"""What a client asks of a sweep: a base request, axes through it, and what to keep of the results."""
+
+from collections.abc import Iterator
+from itertools import combinations
+from typing import Annotated, Any, Literal
+
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+
+from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.quantities import Count, Flag
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.axes import MAX_DESIGNS, Axis
+from schemas.sweep.columns import OUTPUT_COLUMNS, Column, result_columns
+from schemas.sweep.target import BadPointer, Path, Target, find_target
+
+MAX_AXES = 64
+#: parts of a request that an axis may vary
+_ROOTS = ("machine", "objective", "counterweights")
+
+ColumnName = Annotated[str, Field(max_length=512)]
+
+
+class TopFilter(Model):
+    """Keep the best designs only."""
+
+    by: ColumnName = Field(description="numeric column that designs are ranked by", examples=["force_peak_N"])
+    count: Count = Field(20, ge=1, le=1_000_000, description="how many designs to keep", examples=[20])
+    largest: Flag = Field(False, description="keep the largest values instead of the smallest", examples=[False])
+
+
+class SweepRequest(Model):
+    """Thousands to millions of designs of one machine."""
+
+    task: Literal["optimize", "analyze"] = Field(
+        "optimize", description="what is done with every design", examples=["optimize"]
+    )
+    base: OptimizeRequest | AnalyzeRequest = Field(
+        description="the request that every design starts from: the body of /v1/optimize or of /v1/analyze, "
+        "as the task says",
+        examples=[{"machine": {"kind": "reciprocating"}}],
+    )
+    axes: Annotated[tuple[Axis, ...], NotEmpty()] = Field(
+        max_length=MAX_AXES,
+        description="the fields that vary",
+        examples=[[{"path": "/machine/speed_rpm", "values": [400, 500]}]],
+    )
+    design: Literal["grid", "paired", "latin_hypercube"] = Field(
+        "grid",
+        description="every combination (the last axis varies fastest), the axes side by side, or a Latin hypercube",
+        examples=["grid"],
+    )
+    samples: Count | None = Field(
+        None, ge=1, le=MAX_DESIGNS, description="number of designs of a Latin hypercube", examples=[10_000]
+    )
+    seed: Count = Field(
+        0,
+        ge=0,
+        le=2**63 - 1,
+        description="seed of a Latin hypercube; the same seed gives the same designs",
+        examples=[0],
+    )
+    columns: tuple[ColumnName, ...] | None = Field(
+        None,
+        max_length=4096,
+        description="columns of the result; null is all. The index, the status and what top and pareto compare "
+        "always come along",
+        examples=[["force_peak_N", "total_mass_kg"]],
+    )
+    top: TopFilter | None = Field(
+        None, description="keep the best designs only; null keeps all", examples=[{"by": "force_peak_N", "count": 20}]
+    )
+    pareto: Annotated[tuple[ColumnName, ...], Field(min_length=2, max_length=8)] | None = Field(
+        None,
+        description="keep the designs that no other beats in all these columns, each to be small; null keeps all",
+        examples=[["force_peak_N", "moment_peak_Nm"]],
+    )
+    dry_run: Flag = Field(
+        False, description="only count the designs and estimate the size of the result", examples=[False]
+    )
+
+    _targets: tuple[Target, ...] = PrivateAttr(())
+
+    @field_validator("base", mode="wrap")
+    @classmethod
+    def _of_the_task(cls, value: Any, _handler: Any, info: ValidationInfo) -> OptimizeRequest | AnalyzeRequest:
+        model = AnalyzeRequest if info.data.get("task") == "analyze" else OptimizeRequest
+        if isinstance(value, OptimizeRequest | AnalyzeRequest):
+            value = value.model_dump()
+        return model.model_validate(value)
+
+    @model_validator(mode="after")
+    def _check(self) -> "SweepRequest":
+        raise_problems(self._output_problems())
+        raise_problems(self._axis_problems())
+        raise_problems(self._design_problems())
+        raise_problems(self._column_problems())
+        return self
+
+    @property
+    def targets(self) -> tuple[Target, ...]:
+        """The field of each axis."""
+        return self._targets
+
+    @property
+    def total(self) -> int:
+        """Number of designs."""
+        if self.design == "latin_hypercube":
+            return self.samples or 0
+        levels = [axis.levels or 0 for axis in self.axes]
+        if self.design == "paired":
+            return levels[0]
+        product = 1
+        for count in levels:
+            product *= count
+        return product
+
+    @property
+    def all_columns(self) -> tuple[Column, ...]:
+        """Every column that the result could have."""
+        return result_columns(self.base, self.targets)
+
+    @property
+    def chosen_columns(self) -> tuple[Column, ...]:
+        """The columns of the result, in their usual order."""
+        if self.columns is None:
+            return self.all_columns
+        wanted = {"index", "status", *self.columns, *(self.pareto or ())}
+        if self.top is not None:
+            wanted.add(self.top.by)
+        return tuple(column for column in self.all_columns if column.name in wanted)
+
+    def _output_problems(self) -> Iterator[FieldProblem]:
+        for j, output in enumerate(self.base.outputs):
+            if output not in OUTPUT_COLUMNS:
+                yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")
+
+    def _axis_problems(self) -> Iterator[FieldProblem]:
+        targets: dict[int, Target] = {}
+        for i, axis in enumerate(self.axes):
+            try:
+                targets[i] = find_target(self.base, axis.path)
+            except BadPointer as error:
+                yield FieldProblem(("axes", i, "path"), str(error))
+                continue
+            if targets[i].path[0] not in _ROOTS:
+                yield FieldProblem(("axes", i, "path"), "only fields of machine, objective and counterweights can vary")
+            yield from _value_problems(i, axis, targets[i])
+        for (_, first), (i, second) in combinations(targets.items(), 2):
+            common = min(len(first.path), len(second.path))
+            if first.path == second.path:
+                yield FieldProblem(("axes", i, "path"), "another axis varies this field already")
+            elif first.path[:common] == second.path[:common]:
+                yield FieldProblem(("axes", i, "path"), "another axis varies a field that holds this one or lies in it")
+        self._targets = tuple(targets.values())
+
+    def _design_problems(self) -> Iterator[FieldProblem]:
+        if self.design == "latin_hypercube":
+            if self.samples is None:
+                yield FieldProblem(("samples",), "a Latin hypercube needs the number of samples")
+            return
+        if self.samples is not None:
+            yield FieldProblem(("samples",), "serves only a Latin hypercube")
+        levels = [axis.levels for axis in self.axes]
+        for i, count in enumerate(levels):
+            if count is None:
+                yield FieldProblem(("axes", i, "count"), "a range needs the number of its values")
+            elif self.design == "paired" and levels[0] is not None and count != levels[0]:
+                name = "count" if self.axes[i].values is None else "values"
+                yield FieldProblem(("axes", i, name), f"paired axes need equally many values: {levels[0]}")
+        if self.design == "grid" and None not in levels and self.total > MAX_DESIGNS:
+            yield FieldProblem(("axes",), f"a sweep holds at most {MAX_DESIGNS} designs; these axes make {self.total}")
+
+    def _column_problems(self) -> Iterator[FieldProblem]:
+        kinds = {column.name: column.kind for column in self.all_columns}
+        for j, name in enumerate(self.columns or ()):
+            if name not in kinds:
+                yield FieldProblem(("columns", j), "the result has no column of this name")
+        compared: list[tuple[Path, str]] = [(("pareto", j), name) for j, name in enumerate(self.pareto or ())]
+        if self.top is not None:
+            compared.append((("top", "by"), self.top.by))
+        for path, name in compared:
+            if kinds.get(name) != "number":
+                yield FieldProblem(path, "the result has no numeric column of this name")
+        if self.pareto is not None and len(set(self.pareto)) < len(self.pareto):
+            yield FieldProblem(("pareto",), "a column may be named only once")
+        if self.top is not None and self.pareto is not None:
+            yield FieldProblem(("pareto",), "give either top or pareto")
+
+
+def _value_problems(i: int, axis: Axis, target: Target) -> Iterator[FieldProblem]:
+    """Values that the field cannot take whatever its range: wrong unit, text, null."""
+    given: list[tuple[Path, Any]]
+    if axis.values is not None:
+        given = [(("axes", i, "values", j), value) for j, value in enumerate(axis.values)]
+    else:
+        given = [(("axes", i, "start"), axis.start), (("axes", i, "stop"), axis.stop)]
+    numbers = []
+    for path, value in given:
+        try:
+            numbers.append(target.number(value))
+        except ValueError as error:
+            yield FieldProblem(path, str(error))
+    if axis.values is None and axis.spacing == "log" and len(numbers) == len(given):
+        for (path, _), number in zip(given, numbers, strict=True):
+            if number is not None and not number > 0:
+                yield FieldProblem(path, "a logarithmic range needs ends above 0")

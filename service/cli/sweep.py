@@ -1,0 +1,210 @@
+"""The command that runs a sweep on this machine, with the store and the engines of the service."""
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from service.cli.terminal import AsJson, File, fail, fail_fields, put, question, show
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+    from schemas.sweep import SweepRequest
+    from service.jobs.desk import Desk
+    from service.jobs.job import Job
+
+_INTERRUPTED = 130
+_POLL_S = 0.1
+_SHOWN = 5
+#: an interrupted sweep has one key in its folder: another request there is refused
+_KEY = "sweep"
+
+
+def sweep(
+    file: File,
+    output: Annotated[
+        Path | None, typer.Option("--output", "-o", help="Result: .parquet, .arrow, .csv or .ndjson.")
+    ] = None,
+    dry_run: Annotated[bool, typer.Option("--dry-run", help="Count the designs, run nothing.")] = False,
+    workers: Annotated[int | None, typer.Option(min=1, help="Processes.", show_default="one a core")] = None,
+    engine: Annotated[
+        str | None, typer.Option(help="Where to run: processes, or dask:tcp://host:port.", show_default="processes")
+    ] = None,
+    folder: Annotated[
+        Path | None,
+        typer.Option(help="Where the work is kept; stays there at the end.", show_default="OUTPUT.sweep, removed"),
+    ] = None,
+    as_json: AsJson = False,
+) -> None:
+    """Compute thousands to millions of designs of one machine; go on where an interrupted sweep ended."""
+    from schemas.sweep import SweepRequest
+
+    asked = question(SweepRequest, file)
+    if dry_run or asked.dry_run:
+        _estimate(asked, as_json)
+        return
+    if output is None:
+        fail("say where the rows shall go: --output results.parquet")
+    _require_writable(output)
+    place = folder or output.with_name(output.name + ".sweep")
+    desk = _desk(place, workers, engine)
+    try:
+        job = _run(desk, asked, place, quiet=as_json)
+        if job.state == "done":
+            counts = _finish(desk, job, asked, output, as_json)
+    finally:
+        desk.close()
+    if job.state != "done":
+        typer.echo(f"the sweep {job.state} after {job.done} of {job.total} designs: {job.error}", err=True)
+        typer.echo("what is finished is kept; the same command goes on from there", err=True)
+        raise typer.Exit(1)
+    if folder is None:
+        from shutil import rmtree
+
+        rmtree(place)
+    raise typer.Exit(0 if set(counts) <= {"optimal", "analyzed"} else 1)
+
+
+def _estimate(asked: "SweepRequest", as_json: bool) -> None:
+    from optimizer.errors import MissingInput
+    from optimizer.sweep.plan import plan
+
+    try:
+        found = plan(asked).estimate
+    except MissingInput as error:
+        fail_fields(error.problems)
+    if as_json:
+        put(found.model_dump_json())
+    else:
+        from service.sweep_tables import estimate_report
+
+        show(estimate_report(found))
+
+
+def _require_writable(output: Path) -> None:
+    from service.jobs.export import WRITERS
+
+    if output.suffix not in WRITERS:
+        fail(f"{output}: the name must end in {', '.join(WRITERS)}")
+    if not output.parent.is_dir():
+        fail(f"{output}: there is no folder {output.parent}")
+
+
+def _desk(place: Path, workers: int | None, engine: str | None) -> "Desk":
+    from service.jobs.desk import Desk
+    from service.settings import Settings
+
+    given: dict[str, Any] = {} if workers is None else {"sweep_workers": workers}
+    settings = Settings(
+        data_dir=place, database_url=None, engine=engine or "processes", results_keep_days=0, lease_s=5, **given
+    )
+    try:
+        return Desk(settings)
+    except ValueError as error:
+        fail(str(error))
+
+
+def _run(desk: "Desk", asked: "SweepRequest", place: Path, quiet: bool) -> "Job":
+    from optimizer.errors import MissingInput
+    from service.jobs.database import DatabaseUnavailable
+    from service.jobs.store import KeyReused
+
+    try:
+        job, new = desk.sweep(asked, _KEY)
+        if not new and job.state in ("failed", "cancelled"):
+            job = desk.resume(job.id)
+    except MissingInput as error:
+        fail_fields(error.problems)
+    except KeyReused:
+        fail(f"{place} holds another sweep that is not finished: run that one, remove the folder, or give a --folder")
+    except DatabaseUnavailable as error:
+        fail(f"cannot work in {place}: {error}")
+    if not new:
+        typer.echo(f"going on with the sweep in {place}: {job.done} of {job.total} designs are there", err=True)
+    try:
+        return _watch(desk, job, quiet)
+    except KeyboardInterrupt:
+        done = desk.get(job.id).done
+        typer.echo(
+            f"interrupted after {done} of {job.total} designs; the same command goes on from there ({place})", err=True
+        )
+        raise typer.Exit(_INTERRUPTED) from None
+
+
+def _watch(desk: "Desk", job: "Job", quiet: bool) -> "Job":
+    from rich.console import Console
+    from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
+
+    from service.jobs.database import DatabaseUnavailable
+
+    columns = (
+        TextColumn("designs"),
+        BarColumn(),
+        MofNCompleteColumn(),
+        TimeRemainingColumn(),
+        TextColumn("{task.fields[failed]} not certified"),
+    )
+    with Progress(*columns, console=Console(stderr=True), disable=quiet) as progress:
+        bar = progress.add_task("designs", total=job.total, completed=job.done, failed=job.failed)
+        while job.active:
+            time.sleep(_POLL_S)
+            try:
+                job = desk.get(job.id)
+            except DatabaseUnavailable:
+                # the jobs fail by themselves if it stays away
+                continue
+            progress.update(bar, completed=job.done, failed=job.failed)
+    return job
+
+
+def _finish(desk: "Desk", job: "Job", asked: "SweepRequest", output: Path, as_json: bool) -> dict[str, int]:
+    from service.jobs.export import export
+
+    schema = desk.schema(job)
+    rows = desk.kept(job).to_batches() if desk.keeps(job) else desk.rows(job, schema, 0, None)
+    try:
+        export(output, schema, rows)
+    except OSError as error:
+        typer.echo(f"cannot write {output}: {error.strerror}; the same command tries again", err=True)
+        raise typer.Exit(1) from None
+    counts = _counts(desk, job, schema)
+    if as_json:
+        put(desk.state(job).model_dump_json())
+    else:
+        from service.sweep_tables import sweep_report
+
+        best, title = _best(desk, job, asked)
+        show(sweep_report(counts, best, tuple(axis.path for axis in asked.axes), title))
+        put(f"{output}: {desk.state(job).rows} rows")
+    return counts
+
+
+def _counts(desk: "Desk", job: "Job", schema: "pa.Schema") -> dict[str, int]:
+    from collections import Counter
+
+    import pyarrow as pa
+
+    counts: Counter[str] = Counter()
+    for batch in desk.rows(job, pa.schema([schema.field("status")]), 0, None):
+        for one in batch.column("status").value_counts().to_pylist():
+            counts[one["values"]] += one["counts"]
+    return dict(counts)
+
+
+def _best(desk: "Desk", job: "Job", asked: "SweepRequest") -> "tuple[pa.Table, str]":
+    import pyarrow as pa
+
+    from optimizer.sweep.reduce import Top
+    from schemas.sweep import TopFilter
+
+    schema = desk.schema(job)
+    if desk.keeps(job):
+        return desk.kept(job).slice(0, _SHOWN), "first rows"
+    if "force_peak_N" not in schema.names:
+        return schema.empty_table(), ""
+    top = Top(TopFilter(by="force_peak_N", count=_SHOWN), schema)
+    for batch in desk.rows(job, schema, 0, None):
+        top.add(pa.Table.from_batches([batch]))
+    return top.table(), "smallest peak force"

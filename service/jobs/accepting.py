@@ -1,0 +1,58 @@
+"""How a request is taken in to be answered later: what its headers say, and what it is told."""
+
+import re
+
+from starlette.requests import Request
+from starlette.responses import Response
+
+from service.jobs.desk import Desk
+from service.jobs.job import Job
+from service.keys import caller_of
+
+_KEY = re.compile(r"[\x21-\x7e]{1,255}")
+_PREFERS = re.compile(r"(?:^|[,;])\s*respond-async\s*(?:$|[,;])", re.IGNORECASE)
+
+
+class BadHeader(ValueError):
+    """A header holds what it must not."""
+
+
+def desk_of(request: Request) -> Desk:
+    """The jobs that belong to whoever asks."""
+    found: Desk = request.app.state.desk
+    caller = caller_of(request)
+    return found.of(caller.owner, sees_all=caller.may("admin"))
+
+
+def prefix(request: Request) -> str:
+    """The path that a proxy in front strips."""
+    return str(request.scope.get("root_path", ""))
+
+
+def idempotency_key(request: Request) -> str | None:
+    """The key that makes a repeated POST the same one.
+
+    Raises
+    ------
+    BadHeader
+    """
+    key = request.headers.get("idempotency-key")
+    if key is not None and _KEY.fullmatch(key) is None:
+        raise BadHeader("Idempotency-Key must be 1 to 255 visible ASCII characters.")
+    return key
+
+
+def prefers_later(request: Request) -> bool:
+    """Whether the client wants to be answered later (RFC 7240)."""
+    return any(_PREFERS.search(value) for value in request.headers.getlist("prefer"))
+
+
+def accepted(request: Request, job: Job, new: bool) -> Response:
+    """The state of a job that was taken in, and where it is; a job that is known already is said to be known."""
+    state = desk_of(request).state(job, prefix(request))
+    headers = {"Location": state.links.self, "Cache-Control": "no-store"}
+    if prefers_later(request):
+        headers["Preference-Applied"] = "respond-async"
+    if not new:
+        headers["Idempotency-Replayed"] = "true"
+    return Response(state.model_dump_json(), 202, headers, "application/json")

@@ -1,0 +1,289 @@
+"""The one thread of a service that gives out chunks and takes in their files.
+
+Services that share a database and a folder share the work: a chunk is leased, and a lease that is not renewed is free
+again. Everything that is done twice is done with the same outcome, so a crash at any moment costs work and no rows.
+"""
+
+import logging
+import threading
+import time
+import uuid
+from collections.abc import Callable
+from concurrent.futures import BrokenExecutor, CancelledError, Future
+from contextlib import suppress
+from dataclasses import dataclass, field
+
+from service.jobs import worker
+from service.jobs.database import DatabaseUnavailable
+from service.jobs.engines import Engine, EngineUnavailable
+from service.jobs.files import JobFiles
+from service.jobs.job import Chunk
+from service.jobs.kinds import KINDS
+from service.jobs.store import Store, UnknownJob
+from service.jobs.worker import Piece, Run, Stopped, Unanswerable
+
+_LOG = logging.getLogger(__name__)
+
+
+@dataclass(frozen=True)
+class Pace:
+    """How often and how long; seconds."""
+
+    #: looks for work and for cancelled jobs this often
+    poll_s: float = 0.5
+    #: a lease that is not renewed for this long is free
+    lease_s: float = 15.0
+    #: a database that is away for longer fails the jobs
+    patience_s: float = 30.0
+    #: looks for expired jobs this often
+    expiry_s: float = 600.0
+    #: a chunk is tried this often before it is halved, a single row before it is recorded as failed
+    tries: int = 3
+    #: a job with more faults than this is failed
+    max_faults: int = 300
+
+
+@dataclass
+class _Flight:
+    chunk: Chunk
+    future: "Future[Piece]"
+    dropped: bool = field(default=False)
+
+
+class Coordinator:
+    """Runs the chunks of the jobs in a store on an engine, in a thread of its own.
+
+    Parameters
+    ----------
+    run : computes a chunk; importable by workers.
+    begun : whether there can be jobs at all; until then the store is not touched.
+    clock : monotonic seconds.
+    """
+
+    def __init__(
+        self,
+        store: Store,
+        files: JobFiles,
+        engine: Engine,
+        pace: Pace | None = None,
+        run: Run = worker.run,
+        begun: Callable[[], bool] = lambda: True,
+        clock: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._store, self._files, self._engine, self._run, self._clock = store, files, engine, run, clock
+        self._pace, self._begun = pace or Pace(), begun
+        self._name = uuid.uuid4().hex
+        self._flights: list[_Flight] = []
+        self._active: set[str] = set()
+        # chunks that were in a pool when it broke are tried alone, so that the one at fault is found
+        self._suspects = True
+        # jobs that ended badly while the database could not be told
+        self._verdicts: dict[str, str] = {}
+        self._away_since: float | None = None
+        self._renewed = self._expired = float("-inf")
+        self._stopping = False
+        self._wake = threading.Event()
+        self._thread: threading.Thread | None = None
+        self._starting = threading.Lock()
+
+    def start(self) -> None:
+        """Start the thread, once, and have it look for work."""
+        with self._starting:
+            if self._thread is None and not self._stopping:
+                self._thread = threading.Thread(target=self._work, name="jobs", daemon=True)
+                self._thread.start()
+        self._wake.set()
+
+    def stop(self) -> None:
+        """End soon: the workers are ended, their chunks are given back."""
+        self._stopping = True
+        self._wake.set()
+        if self._thread is not None:
+            self._thread.join(6)
+
+    def verdict(self, job: str) -> str | None:
+        """Why a job failed, if the database could not be told yet."""
+        return self._verdicts.get(job)
+
+    def _work(self) -> None:
+        pause = self._pace.poll_s
+        while not self._stopping:
+            self._wake.clear()
+            try:
+                self._step()
+            except DatabaseUnavailable as error:
+                self._database_is_away(error)
+                pause = min(2.0, 2 * pause)
+            except EngineUnavailable as error:
+                _LOG.warning("%s", error)
+                pause = min(2.0, 2 * pause)
+            except Exception:
+                # nothing that happens to one chunk may end the thread that all jobs need
+                _LOG.exception("the coordinator of the jobs stumbled")
+                pause = min(2.0, 2 * pause)
+            else:
+                self._away_since, pause = None, self._pace.poll_s
+            self._wake.wait(pause)
+        self._engine.end()
+        if self._begun():
+            # without this the leases run out by themselves
+            with suppress(DatabaseUnavailable):
+                self._store.release(self._name)
+
+    def _database_is_away(self, error: DatabaseUnavailable) -> None:
+        now = self._clock()
+        if self._away_since is None:
+            self._away_since = now
+            _LOG.warning("%s", error)
+        elif now - self._away_since > self._pace.patience_s:
+            for job in self._active | {flight.chunk.job for flight in self._flights}:
+                self._verdicts.setdefault(job, str(error))
+
+    def _step(self) -> None:
+        if not self._begun():
+            return
+        self._tell_verdicts()
+        self._active = self._store.active()
+        self._drop_ended()
+        self._collect()
+        self._fill()
+        self._keep_leases()
+        self._remove_expired()
+
+    def _tell_verdicts(self) -> None:
+        for job, error in list(self._verdicts.items()):
+            with suppress(UnknownJob):
+                self._store.fail(job, error)
+            del self._verdicts[job]
+
+    def _fail(self, job: str, error: str) -> None:
+        _LOG.warning("job %s failed: %s", job, error)
+        self._verdicts[job] = error
+        self._tell_verdicts()
+
+    def _drop_ended(self) -> None:
+        for flight in self._flights:
+            if flight.chunk.job not in self._active and not flight.dropped:
+                flight.dropped = True
+                flight.future.cancel()
+                self._files.stop(flight.chunk.job)
+
+    # ---- outcomes
+
+    def _collect(self) -> None:
+        for flight in [flight for flight in self._flights if flight.future.done()]:
+            # a broken pool takes every flight with it
+            if flight in self._flights:
+                self._take(flight)
+
+    def _take(self, flight: _Flight) -> None:
+        chunk = flight.chunk
+        try:
+            piece = flight.future.result()
+        except (BrokenExecutor, CancelledError) as error:
+            if not flight.dropped or isinstance(error, BrokenExecutor):
+                self._restart(broken=isinstance(error, BrokenExecutor))
+                return
+        except Stopped:
+            if not flight.dropped:
+                # the flag is left over from before the job went on
+                self._files.go(chunk.job)
+            self._store.give_back(chunk, chunk.attempts)
+        except Unanswerable as error:
+            self._fail(chunk.job, str(error))
+        except Exception as error:
+            if not flight.dropped:
+                self._went_wrong(chunk, f"{type(error).__name__}: {error}", alone=True)
+        else:
+            if not flight.dropped:
+                self._keep(chunk, piece)
+        self._flights.remove(flight)
+
+    def _keep(self, chunk: Chunk, piece: Piece) -> None:
+        try:
+            self._files.write(self._files.piece(chunk.job, chunk.start, chunk.stop), piece.content)
+        except OSError as error:
+            self._fail(chunk.job, f"rows {chunk.start} to {chunk.stop - 1} cannot be written: {error.strerror}")
+        else:
+            self._store.finish(chunk, piece.failed)
+
+    def _restart(self, broken: bool) -> None:
+        _LOG.warning("the workers of the sweeps %s; they are started again", "died" if broken else "are gone")
+        self._engine.end()
+        flights = [flight for flight in self._flights if not flight.dropped]
+        while flights:
+            flight = flights.pop()
+            if broken:
+                self._went_wrong(flight.chunk, "the worker died", alone=len(self._flights) == 1)
+            else:
+                self._store.give_back(flight.chunk, flight.chunk.attempts)
+        self._flights.clear()
+
+    def _went_wrong(self, chunk: Chunk, reason: str, alone: bool) -> None:
+        self._suspects = True
+        attempts = chunk.attempts + 1
+        _LOG.warning("rows %d to %d of job %s: %s", chunk.start, chunk.stop - 1, chunk.job, reason)
+        if attempts < self._pace.tries or not alone:
+            self._store.give_back(chunk, attempts)
+        elif chunk.rows > 1:
+            if self._store.halve(chunk) > self._pace.max_faults:
+                self._fail(chunk.job, f"too many rows cannot be computed, the last because {reason}")
+        else:
+            self._record_failed_row(chunk, reason)
+
+    def _record_failed_row(self, chunk: Chunk, reason: str) -> None:
+        failed = KINDS[chunk.kind].failed
+        if failed is None:
+            self._fail(chunk.job, f"it cannot be computed: {reason}")
+        else:
+            self._keep(chunk, failed(chunk.request, chunk.start, chunk.stop, reason))
+
+    # ---- work
+
+    def _fill(self) -> None:
+        if not self._active:
+            return
+        if self._suspects and not self._flights:
+            chunk = self._store.claim(self._name, self._pace.lease_s, attempted=True)
+            if chunk is not None:
+                self._submit(chunk)
+                return
+            self._suspects = False
+        while not self._suspects and len(self._flights) < self._engine.window():
+            chunk = self._store.claim(self._name, self._pace.lease_s)
+            if chunk is None:
+                # what is left, if anything, went wrong before or is leased
+                self._suspects = True
+                return
+            self._submit(chunk)
+
+    def _submit(self, chunk: Chunk) -> None:
+        flag = str(self._files.flag(chunk.job))
+        try:
+            future = self._engine.submit(self._run, chunk.kind, chunk.request, chunk.start, chunk.stop, flag)
+        except BrokenExecutor:
+            # it broke while it was idle or with the flights that are about to say so
+            self._store.give_back(chunk, chunk.attempts)
+            self._restart(broken=True)
+            return
+        except BaseException:
+            self._store.give_back(chunk, chunk.attempts)
+            raise
+        self._flights.append(_Flight(chunk, future))
+        future.add_done_callback(lambda _: self._wake.set())
+
+    def _keep_leases(self) -> None:
+        now = self._clock()
+        if self._flights and now - self._renewed > self._pace.lease_s / 3:
+            self._store.renew(self._name, [flight.chunk for flight in self._flights], self._pace.lease_s)
+            self._renewed = now
+
+    def _remove_expired(self) -> None:
+        now = self._clock()
+        if now - self._expired > self._pace.expiry_s:
+            self._store.mark_expired()
+            for job in self._store.removed():
+                with suppress(OSError):
+                    self._files.remove(job)
+                    self._store.forget(job)
+            self._expired = now

@@ -1,0 +1,124 @@
+"""The database of the jobs: SQLite in a file, or whatever else a connection string names (PostgreSQL)."""
+
+import sqlite3
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
+from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, NoSuchModuleError
+from sqlalchemy.exc import TimeoutError as PoolTimeout
+
+from service.jobs.tables import metadata
+
+
+class DatabaseUnavailable(Exception):
+    """The database is locked, full or cannot be reached; a retry may help."""
+
+
+class Database:
+    """Transactions on the job tables, which are made if they are missing.
+
+    Parameters
+    ----------
+    url : connection string, or the path of an SQLite file.
+    busy_s : how long a transaction waits for a locked database [s].
+
+    Raises
+    ------
+    ValueError
+        if ``url`` is no connection string of a known database.
+    """
+
+    def __init__(self, url: str | Path, busy_s: float = 5.0) -> None:
+        try:
+            where = URL.create("sqlite", database=str(url)) if isinstance(url, Path) else make_url(url)
+            self._engine = _engine(where, busy_s)
+        except (ArgumentError, NoSuchModuleError, ModuleNotFoundError) as error:
+            raise ValueError(f"not a database: {error}") from None
+        # a reader never waits for a writer; a writer takes the lock at once, as an upgrade ignores the busy timeout
+        self._writer = self._engine.execution_options(immediate=True)
+        self._folder = url.parent if isinstance(url, Path) else None
+        self._made = False
+
+    @contextmanager
+    def read(self) -> Iterator[Connection]:
+        """A transaction that only reads.
+
+        Raises
+        ------
+        DatabaseUnavailable
+        """
+        with _unavailable():
+            self._make_tables()
+            with self._engine.begin() as connection:
+                yield connection
+
+    @contextmanager
+    def write(self) -> Iterator[Connection]:
+        """A transaction that is on disk when the block has ended.
+
+        Raises
+        ------
+        DatabaseUnavailable
+        """
+        with _unavailable():
+            self._make_tables()
+            with self._writer.begin() as connection:
+                yield connection
+
+    def _make_tables(self) -> None:
+        if not self._made:
+            if self._folder is not None:
+                self._folder.mkdir(parents=True, exist_ok=True)
+            with self._writer.begin() as connection:
+                if connection.dialect.name == "postgresql":
+                    # two services that start together: CREATE TABLE IF NOT EXISTS alone is not safe against itself
+                    connection.exec_driver_sql("SELECT pg_advisory_xact_lock(7021962)")
+                metadata.create_all(connection)
+            self._made = True
+
+    def close(self) -> None:
+        """Close every connection."""
+        self._engine.dispose()
+
+
+@contextmanager
+def _unavailable() -> Iterator[None]:
+    try:
+        yield
+    except DBAPIError as error:
+        # integrity errors are for the store to read, the rest is the database's own trouble
+        if isinstance(error, IntegrityError):
+            raise
+        raise DatabaseUnavailable(f"the job database does not answer: {error.orig}") from error
+    except (sqlite3.Error, PoolTimeout, OSError) as error:
+        raise DatabaseUnavailable(f"the job database does not answer: {error}") from error
+
+
+def _engine(url: URL, busy_s: float) -> Engine:
+    if url.get_backend_name() == "sqlite":
+        return _sqlite(url, busy_s)
+    if url.drivername == "postgresql":
+        url = url.set(drivername="postgresql+psycopg")
+    # a connection that the server has closed is replaced before it is used
+    return create_engine(url, pool_pre_ping=True, pool_timeout=busy_s, connect_args={"connect_timeout": 5})
+
+
+def _sqlite(url: URL, busy_s: float) -> Engine:
+    engine = create_engine(url, connect_args={"timeout": busy_s}, pool_timeout=busy_s)
+
+    @event.listens_for(engine, "connect")
+    def connected(connection: Any, _: object) -> None:
+        # sqlite3 must not begin transactions of its own
+        connection.isolation_level = None
+        for pragma in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON"):
+            connection.execute(f"PRAGMA {pragma}")
+
+    @event.listens_for(engine, "begin")
+    def begun(connection: Connection) -> None:
+        immediate = connection.get_execution_options().get("immediate", False)
+        connection.exec_driver_sql("BEGIN IMMEDIATE" if immediate else "BEGIN")
+
+    return engine

@@ -1,0 +1,162 @@
+"""Rows as bytes: Parquet, Arrow, CSV and NDJSON, a batch at a time, in full double precision."""
+
+import io
+import json
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.csv as pa_csv
+import pyarrow.parquet as pq
+
+Name = Literal["ndjson", "csv", "parquet", "arrow"]
+Batches = Iterable[pa.RecordBatch]
+
+#: a spreadsheet takes a cell that begins like this for a formula
+_FORMULA = r"^[=+\-@\t\r]"
+
+
+@dataclass(frozen=True)
+class Format:
+    """How rows are written; ``encode`` takes a schema and batches of it."""
+
+    media_type: str
+    encode: Callable[[pa.Schema, Batches], Iterator[bytes]]
+    #: whether the metadata of the schema is in the file
+    describes_itself: bool
+
+
+class _Outbox(io.RawIOBase):
+    """A file that is taken away while it is written."""
+
+    def __init__(self) -> None:
+        self._pieces: list[bytes] = []
+        self._position = 0
+
+    def writable(self) -> bool:
+        return True
+
+    def tell(self) -> int:
+        return self._position
+
+    def write(self, data: object) -> int:
+        piece = bytes(data)  # type: ignore[call-overload]
+        self._pieces.append(piece)
+        self._position += len(piece)
+        return len(piece)
+
+    def take(self) -> bytes:
+        taken = b"".join(self._pieces)
+        self._pieces.clear()
+        return taken
+
+
+def _parquet(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+    out = _Outbox()
+    with pq.ParquetWriter(out, schema, compression="zstd") as writer:
+        for batch in batches:
+            writer.write_batch(batch)
+            yield out.take()
+    yield out.take()
+
+
+def _arrow_stream(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+    return _arrow(pa.ipc.new_stream, schema, batches)
+
+
+def _arrow_file(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+    return _arrow(pa.ipc.new_file, schema, batches)
+
+
+def _arrow(new: Callable[..., Any], schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+    out = _Outbox()
+    with new(out, schema) as writer:
+        for batch in batches:
+            writer.write_batch(batch)
+            yield out.take()
+    yield out.take()
+
+
+def _csv(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+    out = _Outbox()
+    names = [_harmless(pa.array([name]))[0].as_py() for name in schema.names]
+    plain = pa.schema([pa.field(name, _plain(field.type)) for name, field in zip(names, schema, strict=True)])
+    with pa_csv.CSVWriter(out, plain) as writer:
+        for batch in batches:
+            columns = [_cells(column) for column in batch.columns]
+            writer.write_batch(pa.RecordBatch.from_arrays(columns, schema=plain))
+            yield out.take()
+    yield out.take()
+
+
+def _plain(kind: pa.DataType) -> pa.DataType:
+    return kind.value_type if pa.types.is_dictionary(kind) else kind
+
+
+def _cells(column: pa.Array) -> pa.Array:
+    plain = column.cast(_plain(column.type))
+    # numbers stay numbers: a minus sign is harmless there
+    return _harmless(plain) if pa.types.is_string(plain.type) else plain
+
+
+def _harmless(texts: pa.Array) -> pa.Array:
+    return pc.if_else(pc.match_substring_regex(texts, _FORMULA), pc.binary_join_element_wise("'", texts, ""), texts)
+
+
+def _ndjson(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
+    names = [json.dumps(name, ensure_ascii=False) for name in schema.names]
+    for batch in batches:
+        # a row is joined from its cells by arrow, as objects of Python would take minutes for a million rows
+        parts: list[pa.Array | str] = []
+        for index, (name, column) in enumerate(zip(names, batch.columns, strict=True)):
+            parts += [("{" if index == 0 else ",") + name + ":", _literals(column)]
+        lines = pc.binary_join_element_wise(*parts, "}\n", "") if parts else pa.array(["{}\n"] * batch.num_rows)
+        yield "".join(lines.to_pylist()).encode()
+
+
+def _literals(column: pa.Array) -> pa.Array:
+    """JSON of each value."""
+    if pa.types.is_floating(column.type):
+        # JSON knows no NaN and no infinity
+        column = pc.if_else(pc.is_finite(column), column, None)
+    elif not (pa.types.is_integer(column.type) or pa.types.is_boolean(column.type)):
+        encoded = column.cast(_plain(column.type)).dictionary_encode()
+        quoted = [json.dumps(value, ensure_ascii=False) for value in encoded.dictionary.to_pylist()]
+        column = pa.array(quoted, pa.string()).take(encoded.indices)
+    return column.cast(pa.string()).fill_null("null")
+
+
+FORMATS: Mapping[Name, Format] = {
+    "ndjson": Format("application/x-ndjson", _ndjson, describes_itself=False),
+    "csv": Format("text/csv; charset=utf-8; header=present", _csv, describes_itself=False),
+    "parquet": Format("application/vnd.apache.parquet", _parquet, describes_itself=True),
+    "arrow": Format("application/vnd.apache.arrow.stream", _arrow_stream, describes_itself=True),
+}
+
+#: Arrow with its index at the end, as programs expect of a file
+ARROW_FILE = Format("application/vnd.apache.arrow.file", _arrow_file, describes_itself=True)
+
+
+def negotiated(accept: str) -> Name:
+    """The format that an Accept header likes best; NDJSON if it likes none of them."""
+    liked: list[tuple[float, Name]] = []
+    for part in accept.split(","):
+        media, *parameters = (piece.strip().lower() for piece in part.split(";"))
+        for name, known in FORMATS.items():
+            if media == known.media_type.split(";")[0]:
+                liked.append((_quality(parameters), name))
+    best = max(liked, key=lambda one: one[0], default=(0.0, "ndjson"))
+    return best[1] if best[0] > 0 else "ndjson"
+
+
+def _quality(parameters: Iterable[str]) -> float:
+    for parameter in parameters:
+        key, _, value = parameter.partition("=")
+        if key.strip() == "q":
+            try:
+                return float(value)
+            except ValueError:
+                return 0.0
+    return 1.0

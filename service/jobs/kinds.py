@@ -1,0 +1,115 @@
+"""What a job can be: how a chunk of it is computed, and what stands for a row that cannot be."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING
+
+from service.jobs.worker import Piece, Unanswerable
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+Proceed = Callable[[], None]
+
+#: rows with these statuses do not count as failed
+_ANSWERED = ("optimal", "analyzed")
+#: model and function of the requests that may be answered later
+_LATER = {
+    "optimize": ("schemas.requests:OptimizeRequest", "optimizer.optimize:optimize"),
+    "pareto": ("schemas.pareto:ParetoRequest", "optimizer.pareto.pareto:pareto"),
+    "accuracy": ("schemas.accuracy:AccuracyRequest", "optimizer.accuracy.measure:accuracy"),
+}
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of job.
+
+    compute : request, start and stop of the rows, and what to call between blocks of rows -> piece.
+    failed : request, start and stop, and the reason -> piece; None if such a job fails as a whole.
+    """
+
+    compute: Callable[[bytes, int, int, Proceed], Piece]
+    failed: Callable[[bytes, int, int, str], Piece] | None = None
+
+
+def later(model: type) -> str | None:
+    """The kind of job that answers a request of this model later; None if there is none."""
+    name = f"{model.__module__}:{model.__qualname__}"
+    return next((kind for kind, (known, _) in _LATER.items() if known == name), None)
+
+
+def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
+    import pyarrow as pa
+
+    from optimizer.sweep.chunk import blocks, run_chunk
+
+    tables = []
+    for first, last in blocks(request, start, stop):
+        proceed()
+        tables.append(run_chunk(request, first, last))
+    return _piece(pa.concat_tables(tables))
+
+
+def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> Piece:
+    import pyarrow as pa
+
+    from optimizer.sweep.designs import axis_values
+    from optimizer.sweep.table import result_schema
+    from schemas.sweep import SweepRequest, pointer
+
+    asked = SweepRequest.model_validate_json(request)
+    known = {
+        "index": range(start, stop),
+        "status": ["failed"] * (stop - start),
+        "message": [reason] * (stop - start),
+        **{
+            pointer(target.path): values
+            for target, values in zip(asked.targets, axis_values(asked, start, stop), strict=True)
+        },
+    }
+    nothing = [None] * (stop - start)
+    schema = result_schema(asked, request)
+    columns = [pa.array(known.get(field.name, nothing), field.type) for field in schema]
+    return _piece(pa.Table.from_arrays(columns, schema=schema))
+
+
+def table_bytes(table: "pa.Table") -> bytes:
+    """A table as a Parquet file."""
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    out, schema = pa.BufferOutputStream(), table.schema
+    # numbers are hardly ever equal but of similar size, so byte by byte they compress; texts are few
+    numbers, texts = ([field.name for field in schema if field.type == kind] for kind in (pa.float64(), pa.string()))
+    pq.write_table(table, out, compression="zstd", use_dictionary=texts, use_byte_stream_split=numbers)
+    return bytes(out.getvalue().to_pybytes())
+
+
+def _piece(table: "pa.Table") -> Piece:
+    import pyarrow as pa
+    import pyarrow.compute as pc
+
+    answered = pc.is_in(table["status"], value_set=pa.array(_ANSWERED))
+    return Piece(table_bytes(table), table.num_rows - int(pc.sum(answered).as_py() or 0))
+
+
+def _answer(model: str, compute: str) -> Callable[[bytes, int, int, Proceed], Piece]:
+    def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
+        from optimizer.errors import MissingInput
+        from service.validation import check, pointer, read_json
+
+        try:
+            found = resolve_name(compute)(check(resolve_name(model), read_json(request)))
+        except MissingInput as error:
+            raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
+        return Piece(found.model_dump_json().encode(), 0)
+
+    return answer
+
+
+KINDS: Mapping[str, Kind] = {
+    "sweep": Kind(_sweep, _failed_rows),
+    **{kind: Kind(_answer(model, compute)) for kind, (model, compute) in _LATER.items()},
+}

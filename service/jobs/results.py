@@ -1,0 +1,88 @@
+"""The rows of a job, read back from its files in the order of their index, a batch at a time."""
+
+import json
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from optimizer.sweep.table import REQUEST, SEED, VERSIONS
+
+_BATCH_ROWS = 10_000
+
+Piece = tuple[int, int]
+
+
+class UnknownColumn(ValueError):
+    """The result has no column of this name."""
+
+
+def chosen(schema: pa.Schema, asked: Sequence[str]) -> pa.Schema:
+    """The schema of some columns, in the order of the result; all of them if none is asked for.
+
+    Each of ``asked`` is a name, or several with commas between them.
+
+    Raises
+    ------
+    UnknownColumn
+    """
+    names = [name for part in asked for name in ([part] if part in schema.names else part.split(","))]
+    for name in names:
+        if name not in schema.names:
+            raise UnknownColumn("the result has no such column" if len(name) > 100 else f"no column is named {name!r}")
+    if not names:
+        return schema
+    return pa.schema([field for field in schema if field.name in names], metadata=schema.metadata)
+
+
+def batches(
+    pieces: Sequence[Piece],
+    path: Callable[[int, int], Path],
+    schema: pa.Schema,
+    first: int = 0,
+    last: int | None = None,
+) -> Iterator[pa.RecordBatch]:
+    """Rows with first <= index < last of the pieces that are there, as ``schema`` says.
+
+    Parameters
+    ----------
+    pieces : start and stop of the chunks that are done, in order.
+    path : file of a piece.
+    """
+    for start, stop in pieces:
+        if stop <= first or (last is not None and start >= last):
+            continue
+        position = start
+        with pq.ParquetFile(path(start, stop)) as file:
+            for batch in file.iter_batches(_BATCH_ROWS, columns=schema.names):
+                begin = max(first - position, 0)
+                end = batch.num_rows if last is None else min(last - position, batch.num_rows)
+                position += batch.num_rows
+                if begin < end:
+                    yield fitted(batch.slice(begin, end - begin), schema)
+
+
+def fitted(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:
+    """A batch with the columns and the metadata of a schema."""
+    return pa.RecordBatch.from_arrays([batch.column(name) for name in schema.names], schema=schema)
+
+
+def description(schema: pa.Schema) -> dict[str, Any]:
+    """What a file of Parquet or Arrow says about itself, for the formats that cannot."""
+    columns = [
+        {
+            "name": field.name,
+            "type": str(field.type),
+            **{key.decode(): value.decode() for key, value in field.metadata.items()},
+        }
+        for field in (field if field.metadata else field.with_metadata({}) for field in schema)
+    ]
+    about = schema.metadata
+    return {
+        "request": json.loads(about[REQUEST]),
+        "seed": int(about[SEED]),
+        "versions": json.loads(about[VERSIONS]),
+        "columns": columns,
+    }

@@ -1,0 +1,94 @@
+"""What workers are given and give back, through files instead of pipes.
+
+The pipes of a process pool hold some 64 kB. A worker that is killed in the middle of a longer message leaves half of it
+there, and the pool waits for the other half for ever (CPython issue 94777). So pipes carry short messages only, which
+they take whole.
+"""
+
+import os
+import pickle
+import tempfile
+from collections.abc import Callable
+from concurrent.futures import Executor, Future, InvalidStateError
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+from service.jobs.worker import Piece
+
+#: bytes; a pipe takes less than this in one step
+_SHORT = 8000
+
+
+class Spool:
+    """A folder of messages, and an executor that hands them on.
+
+    Parameters
+    ----------
+    executor : its workers are on this machine.
+    """
+
+    def __init__(self, executor: Executor) -> None:
+        self._executor = executor
+        self._folder = tempfile.TemporaryDirectory(prefix="counterweight-", ignore_cleanup_errors=True)
+
+    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+        """As :meth:`concurrent.futures.Executor.submit`."""
+        message = _put(self._folder.name, pickle.dumps((task, arguments)))
+        return _Unpacked(self._executor.submit(_work, self._folder.name, message))
+
+    def remove(self) -> None:
+        """Remove the folder; the workers are gone."""
+        self._folder.cleanup()
+
+
+class _Unpacked(Future[Piece]):
+    """The result of a message."""
+
+    def __init__(self, packed: "Future[bytes | Path]") -> None:
+        super().__init__()
+        self._packed = packed
+        packed.add_done_callback(self._take)
+
+    def cancel(self) -> bool:
+        self._packed.cancel()
+        return super().cancel()
+
+    def _take(self, packed: "Future[bytes | Path]") -> None:
+        # the future may have been cancelled while the message was on its way
+        with suppress(InvalidStateError):
+            if packed.cancelled():
+                super().cancel()
+                return
+            try:
+                self.set_result(pickle.loads(_get(packed.result())))
+            except InvalidStateError:
+                raise
+            except BaseException as error:
+                self.set_exception(error)
+
+
+def _work(folder: str, message: bytes | Path) -> bytes | Path:
+    task, arguments = pickle.loads(_get(message))
+    return _put(folder, pickle.dumps(task(*arguments)))
+
+
+def _put(folder: str, content: bytes) -> bytes | Path:
+    if len(content) < _SHORT:
+        return content
+    try:
+        handle, name = tempfile.mkstemp(dir=folder)
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+    except OSError:
+        # no room: the pipe is the better way after all
+        return content
+    return Path(name)
+
+
+def _get(message: bytes | Path) -> bytes:
+    if isinstance(message, bytes):
+        return message
+    content = message.read_bytes()
+    message.unlink()
+    return content

@@ -1,0 +1,72 @@
+"""What runs in a worker: one chunk of one job. Imported by workers before numpy, so it imports nothing heavy."""
+
+import os
+import signal
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from multiprocessing import parent_process
+from pathlib import Path
+
+#: one thread each: as many workers as cores share the work already
+_THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
+
+
+class Stopped(Exception):
+    """The flag of the job told the worker to stop."""
+
+
+class Unanswerable(Exception):
+    """The request has no answer; computing it again does not help."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """What a chunk comes to: the content of its file, and how many of its rows failed."""
+
+    content: bytes
+    failed: int
+
+
+#: kind, request, start, stop, path of the flag -> piece
+Run = Callable[[str, bytes, int, int, str], Piece]
+
+
+def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
+    """Compute rows [start, stop) of a job.
+
+    Raises
+    ------
+    Stopped
+        if there is a file at ``flag``; looked for between blocks of rows.
+    Unanswerable
+    """
+    from service.jobs.kinds import KINDS
+
+    # on a cluster without the service's folder there is no flag, and the chunk runs to its end
+    where = Path(flag)
+
+    def proceed() -> None:
+        if where.exists():
+            raise Stopped
+
+    proceed()
+    return KINDS[kind].compute(request, start, stop, proceed)
+
+
+def prepare(niceness: int) -> None:
+    """Make a fresh process a worker: one thread, low priority, and no life without the service."""
+    for name in _THREADS:
+        os.environ[name] = "1"
+    # Ctrl-C is for the service, which ends its workers
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(niceness)
+    threading.Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    # a worker waits for work on a pipe that it holds open itself, so it would not notice the end of the service
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -1,0 +1,224 @@
+"""Sweeps, and the other jobs that are answered later."""
+
+from collections.abc import Iterator, Mapping
+from itertools import chain
+from typing import Annotated, Any, Literal
+
+import pyarrow as pa
+from anyio import to_thread
+from fastapi import APIRouter, Depends, Query
+from starlette.requests import Request
+from starlette.responses import JSONResponse, Response, StreamingResponse
+
+from optimizer.sweep.plan import plan
+from schemas.sweep import SweepEstimate, SweepRequest, SweepState
+from service.computing import Computes
+from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
+from service.jobs.desk import Desk
+from service.jobs.events import events
+from service.jobs.formats import FORMATS, Name, negotiated
+from service.jobs.job import Job
+from service.jobs.page import SweepPage
+from service.jobs.results import chosen, description, fitted
+from service.openapi import COMPUTE_PROBLEMS, problems, request_body
+
+router = APIRouter(tags=["sweeps"])
+
+Jobs = Annotated[Desk, Depends(desk_of)]
+_NO_STORE = {"Cache-Control": "no-store"}
+_LOCATION = {"Location": {"description": "where the sweep is", "schema": {"type": "string"}}}
+_ROWS = {known.media_type.split(";")[0]: {"schema": {"type": "string"}} for known in FORMATS.values()}
+
+
+@router.post(
+    "/v1/sweeps",
+    operation_id="start_sweep",
+    summary="Thousands to millions of designs of one machine",
+    status_code=202,
+    response_model=SweepState,
+    responses={
+        200: {"description": "with `dry_run`: what the sweep would be", "model": SweepEstimate},
+        202: {"description": "the sweep is on disk and goes on by itself", "headers": _LOCATION},
+        **problems(*COMPUTE_PROBLEMS, 409, 429),
+    },
+    openapi_extra=request_body(SweepRequest, "sweeps"),
+)
+async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Response:
+    """With the header `Idempotency-Key`, the same body sent again is the same sweep; another body is refused."""
+    key = idempotency_key(request)
+    body = await computing.body(request)
+
+    def work() -> Response:
+        asked = computing.checked(SweepRequest, body)
+        if asked.dry_run:
+            return Response(plan(asked).estimate.model_dump_json(), 200, _NO_STORE, "application/json")
+        return accepted(request, *desk.sweep(asked, key))
+
+    return await to_thread.run_sync(work)
+
+
+@router.get(
+    "/v1/sweeps", operation_id="list_sweeps", summary="All sweeps, newest first", responses=problems(404, 422, 503)
+)
+def list_sweeps(
+    request: Request,
+    desk: Jobs,
+    limit: Annotated[int, Query(ge=1, le=200, description="how many at most")] = 50,
+    before: Annotated[str | None, Query(description="id of the sweep after which to go on", max_length=64)] = None,
+) -> SweepPage:
+    jobs = desk.page(limit + 1, before)
+    more = f"{prefix(request)}/v1/sweeps?limit={limit}&before={jobs[limit - 1].id}" if len(jobs) > limit else None
+    return SweepPage(sweeps=tuple(desk.state(job, prefix(request)) for job in jobs[:limit]), next=more)
+
+
+@router.get(
+    "/v1/sweeps/{id}",
+    operation_id="read_sweep",
+    summary="How far a sweep is",
+    response_model=SweepState,
+    responses=problems(404, 503),
+)
+def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
+    return _state(request, desk, desk.get(id))
+
+
+@router.delete(
+    "/v1/sweeps/{id}",
+    operation_id="end_sweep",
+    summary="Cancel a sweep that runs, remove one that has ended",
+    response_model=SweepState,
+    responses={204: {"description": "removed, with its results"}, **problems(404, 503)},
+)
+def delete_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
+    """A cancelled sweep keeps the rows that are finished; delete it once more to remove them."""
+    cancelled = desk.end(id)
+    return Response(status_code=204) if cancelled is None else _state(request, desk, cancelled)
+
+
+@router.post(
+    "/v1/sweeps/{id}/resume",
+    operation_id="resume_sweep",
+    summary="Go on with a sweep that was cancelled or has failed",
+    status_code=202,
+    response_model=SweepState,
+    responses=problems(404, 503),
+)
+def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
+    """Finished rows are kept; a sweep that runs or is done stays as it is."""
+    return accepted(request, desk.resume(id), new=True)
+
+
+@router.get(
+    "/v1/sweeps/{id}/metadata",
+    operation_id="describe_sweep",
+    summary="Request, versions, seed and columns of a sweep",
+    response_class=JSONResponse,
+    responses=problems(404, 503),
+)
+def describe_sweep(desk: Jobs, id: str) -> Response:  # noqa: A002
+    """What a file of Parquet or Arrow holds itself, for CSV and NDJSON."""
+    job = desk.get(id)
+    return JSONResponse(description(desk.schema(job)) if job.columns else {"kind": job.kind})
+
+
+@router.get(
+    "/v1/sweeps/{id}/results",
+    operation_id="read_sweep_results",
+    summary="The rows of a sweep, in the order of their index",
+    response_class=Response,
+    responses={
+        200: {"description": "rows, or the answer of another job", "content": _ROWS},
+        **problems(404, 409, 422, 503),
+    },
+)
+def read_results(
+    request: Request,
+    desk: Jobs,
+    id: str,  # noqa: A002
+    format: Annotated[Name | None, Query(description="format; by default as `Accept` asks, or NDJSON")] = None,  # noqa: A002
+    offset: Annotated[int, Query(ge=0, le=2**62, description="index of the first row")] = 0,
+    limit: Annotated[int | None, Query(ge=1, le=2**62, description="how many indices at most")] = None,
+    columns: Annotated[list[str] | None, Query(description="columns, with commas between them or repeated")] = None,
+    select: Annotated[
+        Literal["kept", "all"], Query(description="the rows that `top` or `pareto` of the request keep, or all")
+    ] = "kept",
+) -> Response:
+    """Of a sweep that runs, the rows that are finished so far: `Sweep-Complete` says whether these are all."""
+    job = desk.get(id)
+    if job.columns is None:
+        return Response(desk.answer(job), media_type="application/json", headers=_NO_STORE)
+    name = format or negotiated(request.headers.get("accept", ""))
+    schema = chosen(desk.schema(job), columns or ())
+    last = None if limit is None else offset + limit
+    if select == "kept" and desk.keeps(job):
+        table = desk.kept(job)
+        count = table.num_rows
+        rows: Iterator[pa.RecordBatch] = (
+            fitted(batch, schema) for batch in table.slice(offset, limit).to_batches(max_chunksize=10_000)
+        )
+    else:
+        count = job.total
+        rows = desk.rows(job, schema, offset, last)
+    more = last if last is not None and last < count else None
+    return _stream(request, job, name, FORMATS[name].encode(schema, rows), more)
+
+
+def _stream(request: Request, job: Job, name: Name, content: Iterator[bytes], more: int | None) -> Response:
+    here = f"{prefix(request)}/v1/sweeps/{job.id}"
+    links = [f'<{here}/metadata>; rel="describedby"; type="application/json"']
+    if more is not None:
+        following = request.url.include_query_params(offset=more).query
+        links.append(f'<{here}/results?{following}>; rel="next"')
+    headers: Mapping[str, str] = {
+        **_NO_STORE,
+        "Content-Disposition": f'attachment; filename="sweep-{job.id[:8]}.{name}"',
+        "Link": ", ".join(links),
+        "Sweep-Complete": "true" if job.state == "done" else "false",
+        "Sweep-State": job.state,
+        "Vary": "Accept",
+    }
+    media_type = FORMATS[name].media_type
+    if request.scope.get("head"):
+        return _head(headers, media_type)
+    # what goes wrong at once is answered with a status
+    first = next(content, b"")
+    return StreamingResponse(chain((first,), content), headers=headers, media_type=media_type)
+
+
+@router.get(
+    "/v1/sweeps/{id}/events",
+    operation_id="watch_sweep",
+    summary="Progress as server-sent events, from the last state to the end",
+    response_class=Response,
+    responses={
+        200: {"description": "events `progress` and `end`", "content": {"text/event-stream": {}}},
+        **problems(404, 503),
+    },
+)
+async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
+    """The data of an event is the state of the sweep; after `Last-Event-ID` only what is new is told."""
+    job = await to_thread.run_sync(desk.get, id)
+    seen = request.headers.get("last-event-id", "")
+    last = int(seen) if seen.isascii() and seen.isdecimal() and len(seen) < 19 else None
+    if not job.active and last == job.version:
+        # to an event source this says: do not come back
+        return Response(status_code=204)
+    # proxies must not hold events back
+    headers = {**_NO_STORE, "X-Accel-Buffering": "no"}
+    if request.scope.get("head"):
+        return _head(headers, "text/event-stream")
+    where = prefix(request)
+    told = events(lambda: desk.get(id), lambda job: desk.state(job, where), last, desk.closing.is_set)
+    return StreamingResponse(told, headers=headers, media_type="text/event-stream")
+
+
+def _state(request: Request, desk: Desk, job: Job) -> Response:
+    content: Any = desk.state(job, prefix(request)).model_dump_json()
+    return Response(content, media_type="application/json", headers=_NO_STORE)
+
+
+def _head(headers: Mapping[str, str], media_type: str) -> Response:
+    """What HEAD says of a stream: everything but its length."""
+    response = Response(headers=headers, media_type=media_type)
+    del response.headers["content-length"]
+    return response

@@ -1,0 +1,89 @@
+"""A service as a process, and a client."""
+
+import http.client
+import io
+import json
+import os
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+
+from tests.jobs.serving import DELAY
+
+ROOT = Path(__file__).parents[2]
+
+
+class Service:
+    """A service that was started; it may be killed at any moment."""
+
+    def __init__(self, folder: Path, delay_s: float = 0.05, **settings: str) -> None:
+        environment = {f"COUNTERWEIGHT_{name.upper()}": value for name, value in settings.items()}
+        base = {"COUNTERWEIGHT_DATA_DIR": str(folder), "COUNTERWEIGHT_LEASE_S": "1", "COUNTERWEIGHT_SWEEP_WORKERS": "2"}
+        self.process = subprocess.Popen(
+            [sys.executable, "-m", "tests.jobs.serving"],
+            cwd=ROOT,
+            env={**os.environ, **base, **environment, DELAY: str(delay_s)},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+        )
+
+    def wait(self) -> "Service":
+        """Until it listens."""
+        assert self.process.stdout is not None
+        parts = urlsplit(self.process.stdout.readline().strip())
+        assert parts.hostname is not None
+        assert parts.port is not None
+        self.where = (parts.hostname, parts.port)
+        # it has started all that it starts when it answers
+        assert self.send("GET", "/healthz")[0] == 200
+        return self
+
+    def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
+        with closing(http.client.HTTPConnection(*self.where, timeout=30)) as connection:
+            content = None if body is None else json.dumps(body)
+            connection.request(method, path, content, {"Content-Type": "application/json", **headers})
+            answer = connection.getresponse()
+            return answer.status, {key.lower(): value for key, value in answer.headers.items()}, answer.read()
+
+    def read(self, path: str) -> Any:
+        return json.loads(self.send("GET", path)[2])
+
+    def ended(self, path: str, timeout: float = 120) -> Any:
+        """The state of a sweep that has ended."""
+        deadline = time.monotonic() + timeout
+        while (state := self.read(path))["state"] in ("queued", "running"):
+            assert time.monotonic() < deadline, state
+            time.sleep(0.05)
+        return state
+
+    def rows(self, path: str) -> pa.Table:
+        return pq.read_table(io.BytesIO(self.send("GET", f"{path}/results?format=parquet")[2]))
+
+    def kill(self) -> None:
+        self.process.kill()
+        self.close()
+
+    def close(self) -> None:
+        self.process.wait(30)
+        if self.process.stdout is not None:
+            self.process.stdout.close()
+
+
+@contextmanager
+def service(folder: Path, **settings: Any) -> Iterator[Service]:
+    found = Service(folder, **settings)
+    try:
+        yield found.wait()
+    finally:
+        if found.process.poll() is None:
+            found.process.terminate()
+        found.close()

@@ -1,0 +1,41 @@
+"""The real service as a process, on chunks that are small and slow enough to be killed in.
+
+Run as ``python -m tests.jobs.serving``; the settings come from the environment.
+"""
+
+import os
+import time
+from typing import Any
+
+from service.jobs import worker
+from service.jobs.worker import Piece
+
+#: seconds that a chunk takes on top of its work
+DELAY = "TESTS_DELAY_S"
+
+
+def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
+    time.sleep(float(os.environ.get(DELAY, "0")))
+    return worker.run(kind, request, start, stop, flag)
+
+
+def serve(**given: Any) -> None:
+    # workers import this module as well, and need none of these
+    from optimizer.sweep import plan
+    from service.app import create_app
+    from service.jobs.coordinator import Pace
+    from service.jobs.desk import Desk
+    from service.server import listen, run, url
+    from service.settings import Settings
+
+    # a sweep of some thousand designs in hundreds of chunks instead of 16
+    plan._FEWEST_CHUNKS = 400
+    settings = Settings(port=0, **given)
+    jobs = Desk(settings, Pace(poll_s=0.05, lease_s=settings.lease_s), slow)
+    socket = listen(settings)
+    print(url(socket), flush=True)
+    run(create_app(settings, warm_up=lambda: None, jobs=jobs), settings, socket)
+
+
+if __name__ == "__main__":
+    serve()

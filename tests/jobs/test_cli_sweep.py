@@ -1,0 +1,130 @@
+"""The command `counterweight sweep`, as a process."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pyarrow.csv as pa_csv
+import pyarrow.parquet as pq
+import pytest
+from typer.testing import CliRunner, Result
+
+from optimizer.sweep import run_chunk
+from schemas.sweep import SweepRequest
+from service.cli import app
+from tests.jobs.process import ROOT
+from tests.jobs.sweeps import analyses, optimisations
+
+COMMAND = [sys.executable, "-m", "service", "sweep"]
+
+
+def expected(body: dict[str, Any]) -> pa.Table:
+    request = SweepRequest.model_validate(body)
+    return run_chunk(request.model_dump_json().encode(), 0, request.total)
+
+
+def written(folder: Path, body: dict[str, Any]) -> str:
+    (folder / "sweep.json").write_text(json.dumps(body))
+    return str(folder / "sweep.json")
+
+
+def run(*arguments: str) -> "subprocess.CompletedProcess[str]":
+    env = {**os.environ, "COUNTERWEIGHT_DATABASE_URL": "postgresql://nobody@127.0.0.1:1/of-the-service"}
+    done = subprocess.run([*COMMAND, *arguments], cwd=ROOT, env=env, capture_output=True, text=True, timeout=120)
+    assert "Traceback" not in done.stderr
+    return done
+
+
+def here(*arguments: str) -> Result:
+    """The command in this process, for what ends before anything is computed."""
+    return CliRunner().invoke(app, ["sweep", *arguments])
+
+
+def test_a_table_and_a_file(tmp_path: Path) -> None:
+    out = tmp_path / "rows.parquet"
+    done = run(written(tmp_path, optimisations()), "-o", str(out), "--workers", "1")
+    assert done.returncode == 0, done.stderr
+    assert pq.read_table(out).equals(expected(optimisations()))
+    assert "optimal" in done.stdout
+    assert "smallest peak force" in done.stdout
+    assert f"{out.name}: 6 rows" in done.stdout.replace("\n", "")
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["rows.parquet", "sweep.json"]
+
+
+def test_designs_without_a_certified_answer_give_1(tmp_path: Path) -> None:
+    out = tmp_path / "rows.csv"
+    done = run(written(tmp_path, analyses(4, 10)), "-o", str(out), "--json", "--folder", str(tmp_path / "work"))
+    state = json.loads(done.stdout)
+    assert (done.returncode, state["state"], state["done"], state["failed"]) == (1, "done", 40, 4)
+    assert pa_csv.read_csv(out).num_rows == 40
+    assert json.loads((tmp_path / "rows.csv-metadata.json").read_text())["request"]["task"] == "analyze"
+    # kept where it was asked for: the same command computes nothing again
+    again = run(
+        written(tmp_path, analyses(4, 10)), "-o", str(tmp_path / "rows.arrow"), "--folder", str(tmp_path / "work")
+    )
+    assert "40 of 40 designs are there" in again.stderr
+    assert pa.ipc.open_file(tmp_path / "rows.arrow").read_all().equals(expected(analyses(4, 10)))
+
+
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGKILL])
+def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) -> None:
+    body, out = analyses(400, 1000), tmp_path / "rows.parquet"
+    arguments = [written(tmp_path, body), "-o", str(out), "--workers", "1"]
+    with subprocess.Popen([*COMMAND, *arguments], cwd=ROOT, stderr=subprocess.PIPE, text=True) as first:
+        results = tmp_path / "rows.parquet.sweep" / "results"
+        deadline = time.monotonic() + 180
+        while not any(path.is_file() for path in results.glob("*/0*")):
+            assert time.monotonic() < deadline
+            time.sleep(0.01)
+        first.send_signal(ending)
+        _, said = first.communicate(timeout=30)
+    assert not out.exists()
+    if ending == signal.SIGINT:
+        assert first.returncode == 130
+        assert "the same command goes on from there" in said
+    other = here(written(tmp_path, optimisations()), "-o", str(out))
+    assert (other.exit_code, "another sweep" in other.stderr) == (2, True)
+    done = run(written(tmp_path, body), "-o", str(out), "--workers", "2")
+    assert done.returncode == 1
+    assert "going on with the sweep" in done.stderr
+    assert pq.read_table(out, columns=["index"])["index"].to_pylist() == list(range(400_000))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((), "--output"),
+        (("-o", "rows.xlsx"), "the name must end in"),
+        (("-o", "nowhere/rows.csv"), "there is no folder"),
+        (("-o", "rows.csv", "--engine", "abacus"), "there is no engine"),
+        (("-o", "rows.csv", "--folder", "/dev/null/x"), "cannot work in"),
+    ],
+)
+def test_what_cannot_be_done(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, arguments: tuple[str, ...], said: str
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    done = here(written(tmp_path, optimisations()), *arguments)
+    assert (done.exit_code, done.stdout) == (2, "")
+    assert said in done.stderr
+
+
+def test_a_bad_sweep_names_the_field(tmp_path: Path) -> None:
+    done = here(written(tmp_path, optimisations(axes=[{"path": "/machine/nothing", "values": [1]}])), "-o", "x.csv")
+    assert done.exit_code == 2
+    assert "/axes/0/path" in done.stderr
+
+
+def test_a_dry_run(tmp_path: Path) -> None:
+    file = written(tmp_path, optimisations())
+    assert json.loads(here(file, "--dry-run", "--json").stdout)["total"] == 6
+    done = here(file, "--dry-run")
+    assert done.exit_code == 0
+    assert "force_peak_N" in done.stdout
+    assert [path.name for path in tmp_path.iterdir()] == ["sweep.json"]

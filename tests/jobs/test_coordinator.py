@@ -1,0 +1,339 @@
+"""Coordinators on engines: the same rows whatever happens. The value of row i is i / 7 (analytic)."""
+
+import errno
+import os
+import sqlite3
+import subprocess
+import threading
+import time
+from collections.abc import Callable, Iterator
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager, suppress
+from pathlib import Path
+from typing import Any
+
+import psutil
+import pytest
+
+from service.jobs.coordinator import Pace
+from service.jobs.engines import Engine, Processes, engine
+from service.jobs.files import JobFiles
+from service.jobs.worker import Piece
+from tests.jobs import synthetic
+from tests.jobs.house import QUICK, House
+
+
+class Threads:
+    """The simplest executor."""
+
+    def __init__(self, workers: int) -> None:
+        self.executor = ThreadPoolExecutor(workers)
+        self._workers = workers
+
+    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+        return self.executor.submit(task, *arguments)
+
+    def window(self) -> int:
+        return 2 * self._workers
+
+    def end(self) -> None:
+        self.executor.shutdown(wait=True, cancel_futures=True)
+
+
+def threads(workers: int = 2) -> Engine:
+    return Engine(lambda: Threads(workers))
+
+
+@contextmanager
+def tiny_disk(folder: Path, size: str) -> Iterator[None]:
+    folder.mkdir(exist_ok=True)
+    mounted = subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={size}", "tmpfs", folder], capture_output=True)
+    if mounted.returncode:
+        pytest.skip("a tiny disk cannot be mounted here")
+    try:
+        yield
+    finally:
+        subprocess.run(["umount", "--lazy", folder], check=True)
+
+
+@pytest.mark.parametrize("workers", [1, 2, 3])
+@pytest.mark.parametrize("chunk_rows", [1, 7, 100])
+def test_the_same_rows_whatever_the_chunks_and_workers(house: House, workers: int, chunk_rows: int) -> None:
+    job = house.submit(total=60, chunk_rows=chunk_rows)
+    with house.coordinator(threads(workers)):
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 60))
+
+
+def test_processes(house: House) -> None:
+    job = house.submit(total=60, chunk_rows=7)
+    with house.coordinator(engine("processes", 2)):
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 60))
+
+
+def test_a_killed_worker_costs_a_retry(house: House, tmp_path: Path) -> None:
+    job = house.submit(total=60, chunk_rows=5, kill_at=31, kill_once=str(tmp_path / "killed"))
+    with house.coordinator(engine("processes", 2)):
+        found = house.wait(job)
+    assert (tmp_path / "killed").exists()
+    assert (found.state, found.done, found.failed) == ("done", 60, 0)
+    assert house.rows(job).equals(synthetic.rows(0, 60))
+
+
+def test_a_row_that_kills_every_worker_is_the_only_one_that_fails(house: House) -> None:
+    job = house.submit(total=12, chunk_rows=4, kill_at=6)
+    with house.coordinator(engine("processes", 1), Pace(poll_s=0.05, tries=2)):
+        found = house.wait(job)
+    assert (found.state, found.done, found.failed) == ("done", 12, 1)
+    assert house.rows(job).equals(synthetic.rows(0, 12, failed=(6,)))
+
+
+def test_a_row_that_raises_is_the_only_one_that_fails(house: House, tmp_path: Path) -> None:
+    job = house.submit(total=100, chunk_rows=50, raise_at=73)
+    other = house.submit(total=10, raise_at=3, raise_once=str(tmp_path / "raised"))
+    with house.coordinator(threads()):
+        found = house.wait(job)
+        assert house.wait(other).failed == 0
+    assert (found.state, found.done, found.failed) == ("done", 100, 1)
+    assert house.rows(job).equals(synthetic.rows(0, 100, failed=(73,)))
+
+
+def test_a_job_with_too_many_faults_fails(house: House) -> None:
+    job = house.submit(total=100, chunk_rows=50, raise_at=73)
+    with house.coordinator(threads(), Pace(poll_s=0.05, max_faults=2)):
+        found = house.wait(job)
+    assert found.state == "failed"
+    assert found.error == "too many rows cannot be computed, the last because ArithmeticError: asked for"
+    assert found.done == house.rows(job).num_rows
+
+
+def test_a_cancelled_job_ends_soon_and_keeps_its_rows(house: House) -> None:
+    job = house.submit(total=40, chunk_rows=10, sleep_s=0.3)
+    endless = house.submit(total=4, chunk_rows=1, sleep_s=3600)
+    with house.coordinator(threads(2)):
+        house.wait_for_rows(job)
+        house.store.cancel(job)
+        house.store.cancel(endless)
+        house.files.stop(endless)
+        done = house.store.get(job).done
+        # the workers are free again
+        assert house.wait(house.submit(total=10), timeout=20).state == "done"
+    assert house.rows(job).num_rows == done == house.store.get(job).done
+    house.store.resume(job)
+    with house.coordinator(threads(2)):
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 40))
+
+
+def test_a_stop_parks_and_a_start_goes_on(house: House) -> None:
+    job = house.submit(total=40, chunk_rows=2, sleep_s=0.1)
+    with house.coordinator(engine("processes", 2)):
+        house.wait_for_rows(job)
+        began = time.monotonic()
+    assert time.monotonic() - began < 5
+    assert house.store.get(job).state == "running"
+    # the leases were given back: nothing waits for them
+    with house.coordinator(threads(), Pace(poll_s=0.05, lease_s=3600)):
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 40))
+
+
+def test_two_coordinators_share_a_job(any_house: House) -> None:
+    job = any_house.submit(total=200, chunk_rows=2, sleep_s=0.01)
+    with any_house.coordinator(threads()), any_house.coordinator(threads()):
+        found = any_house.wait(job)
+    assert (found.state, found.done) == ("done", 200)
+    assert any_house.rows(job).equals(synthetic.rows(0, 200))
+
+
+def test_what_was_written_but_not_told_is_written_again(house: House) -> None:
+    job = house.submit(total=20, chunk_rows=10)
+    # a crash between the file and the database, and one before the file had its name
+    house.files.write(house.files.piece(job, 0, 10), b"whatever")
+    (house.files.folder(job) / ".000000010-000000020.99").write_bytes(b"half")
+    with house.coordinator(threads()):
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 20))
+
+
+@pytest.mark.parametrize("code", [errno.ENOSPC, errno.EIO])
+def test_a_file_that_cannot_be_written_fails_the_job(house: House, monkeypatch: pytest.MonkeyPatch, code: int) -> None:
+    job = house.submit(total=40, chunk_rows=10)
+    write = JobFiles.write
+
+    def breaks(self: JobFiles, path: Path, content: bytes) -> None:
+        if path.name.startswith("000000020"):
+            raise OSError(code, os.strerror(code))
+        write(self, path, content)
+
+    monkeypatch.setattr(JobFiles, "write", breaks)
+    with house.coordinator(threads(1)):
+        found = house.wait(job)
+    assert (found.state, found.error) == ("failed", f"rows 20 to 29 cannot be written: {os.strerror(code)}")
+    assert house.rows(job).equals(synthetic.rows(0, 20))
+    monkeypatch.undo()
+
+
+def test_a_disk_that_is_really_full(tmp_path: Path, synthetic_kind: None) -> None:
+    with tiny_disk(tmp_path / "disk", "400k"):
+        house = House(tmp_path / "disk")
+        job = house.submit(total=100_000, chunk_rows=500)
+        with house.coordinator(threads(1)) as coordinator:
+            deadline = time.monotonic() + 60
+            while house.store.get(job).active and coordinator.verdict(job) is None:
+                assert time.monotonic() < deadline
+                time.sleep(0.02)
+            found = house.store.get(job)
+            reason = found.error or coordinator.verdict(job) or ""
+        assert "No space left" in reason or "full" in reason
+        assert 0 < found.done < 100_000
+        assert house.rows(job).equals(synthetic.rows(0, found.done))
+        house.database.close()
+
+
+def test_a_locked_database_fails_the_job_and_loses_no_rows(tmp_path: Path) -> None:
+    house = House(tmp_path, busy_s=0.1)
+    job = house.submit(total=200, chunk_rows=2, sleep_s=0.02)
+    with house.coordinator(threads()) as coordinator:
+        house.wait_for_rows(job)
+        other = sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None)
+        other.execute("BEGIN IMMEDIATE")
+        deadline = time.monotonic() + 30
+        while coordinator.verdict(job) is None:
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        assert "locked" in str(coordinator.verdict(job))
+        done = house.store.get(job).done
+        other.execute("ROLLBACK")
+        other.close()
+        found = house.wait(job)
+        assert found.state == "failed"
+        assert "locked" in str(found.error)
+    assert found.done == done == house.rows(job).num_rows > 0
+    house.store.resume(job)
+    with house.coordinator(threads(8)):
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 200))
+    house.database.close()
+
+
+def test_a_database_that_is_locked_for_a_moment_costs_nothing(tmp_path: Path) -> None:
+    house = House(tmp_path, busy_s=0.05)
+    job = house.submit(total=50, chunk_rows=2, sleep_s=0.02)
+    with house.coordinator(threads(), Pace(poll_s=0.05, patience_s=3600)):
+        for _ in range(3):
+            house.wait_for_rows(job)
+            with sqlite3.connect(tmp_path / "jobs.sqlite", isolation_level=None) as other:
+                other.execute("BEGIN IMMEDIATE")
+                time.sleep(0.3)
+                other.execute("ROLLBACK")
+            other.close()
+        assert house.wait(job).state == "done"
+    assert house.rows(job).equals(synthetic.rows(0, 50))
+    house.database.close()
+
+
+def test_an_expired_job_leaves_nothing_behind(house: House) -> None:
+    job = house.submit(total=10)
+    house.store._keep_s = 0.0
+    with house.coordinator(threads(), QUICK):
+        deadline = time.monotonic() + 20
+        while house.store.removed() or house.store.page(["synthetic"], 1) or house.files.folder(job).exists():
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+
+
+def test_the_window_is_bounded(house: House) -> None:
+    at_once, most = 0, 0
+    lock = threading.Lock()
+
+    class Counting(Threads):
+        def __init__(self) -> None:
+            super().__init__(2)
+            submit = self.executor.submit
+
+            def counted(*args: Any) -> Any:
+                nonlocal at_once, most
+                with lock:
+                    at_once += 1
+                    most = max(most, at_once)
+                future = submit(*args)
+                future.add_done_callback(lambda _: gone())
+                return future
+
+            def gone() -> None:
+                nonlocal at_once
+                with lock:
+                    at_once -= 1
+
+            self.executor.submit = counted  # type: ignore[method-assign]
+
+    job = house.submit(total=60, chunk_rows=2, sleep_s=0.02)
+    with house.coordinator(Engine(Counting)):
+        assert house.wait(job).state == "done"
+    assert 2 <= most <= 4
+
+
+@pytest.mark.parametrize("name", ["threads", "dask", "dask:", "processes:2", ""])
+def test_engines_that_there_are_not(name: str) -> None:
+    with pytest.raises(ValueError, match="there is no engine"):
+        engine(name, 1)
+
+
+def content_of(size: int) -> Piece:
+    return Piece(b"x" * size, 0)
+
+
+def hand_back(content: bytes) -> Piece:
+    return Piece(content, len(content))
+
+
+@pytest.mark.parametrize("size", [0, 10, 10_000_000])
+def test_long_messages_to_and_from_workers(size: int) -> None:
+    running = Processes(1)
+    try:
+        assert running.submit(hand_back, b"y" * size).result(60) == Piece(b"y" * size, size)
+        assert list(Path(running._spool._folder.name).iterdir()) == []
+    finally:
+        running.end()
+    assert not Path(running._spool._folder.name).exists()
+
+
+def test_workers_that_are_killed_while_they_hand_over() -> None:
+    # pieces far longer than a pipe holds: most of the time goes into handing them over
+    for number in range(6):
+        running = Processes(2)
+        futures = [running.submit(content_of, 20_000_000) for _ in range(8)]
+        futures[0].result(60)
+        time.sleep(0.005 * number)
+        for child in psutil.Process().children():
+            if "spawn_main" in " ".join(child.cmdline()):
+                child.kill()
+        ended = threading.Thread(target=running.end, daemon=True)
+        ended.start()
+        ended.join(20)
+        assert not ended.is_alive()
+        assert all(future.done() for future in futures)
+
+
+def test_workers_compute_with_one_thread() -> None:
+    running = Processes(1)
+    try:
+        # set before numpy loads, which reads it then and never again
+        assert running.executor.submit(os.getenv, "OPENBLAS_NUM_THREADS").result(60) == "1"
+        assert running.executor.submit(eval, "'numpy' in __import__('sys').modules").result(60) is False
+    finally:
+        running.end()
+
+
+def test_workers_end_with_a_service_that_is_killed(tmp_path: Path) -> None:
+    running = Processes(1)
+    worker = running.executor.submit(os.getpid).result(60)
+    running.end()
+    with suppress(ProcessLookupError):
+        deadline = time.monotonic() + 10
+        while True:
+            os.kill(worker, 0)
+            assert time.monotonic() < deadline
+            time.sleep(0.02)

@@ -1,0 +1,128 @@
+"""Rows as bytes and back: bitwise, harmless to spreadsheets, in flat memory."""
+
+import csv
+import io
+import json
+import math
+import tracemalloc
+from collections.abc import Iterator
+
+import pyarrow as pa
+import pyarrow.parquet as pq
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from service.jobs.formats import ARROW_FILE, FORMATS, negotiated
+
+SCHEMA = pa.schema(
+    [
+        pa.field("index", pa.int64(), False),
+        pa.field("force_peak_N", pa.float64(), metadata={"unit": "N"}),
+        pa.field("status", pa.string()),
+        pa.field("=cmd|' /C calc'!A0", pa.string()),
+    ],
+    {b"counterweight.seed": b"7"},
+)
+ROWS = [
+    {"index": 0, "force_peak_N": 0.1, "status": "optimal", "=cmd|' /C calc'!A0": "=1+1"},
+    {"index": 1, "force_peak_N": -5e-324, "status": None, "=cmd|' /C calc'!A0": '+"quoted"\n'},
+    {"index": 2, "force_peak_N": 1.7976931348623157e308, "status": "@x", "=cmd|' /C calc'!A0": "\t1"},
+    {"index": 3, "force_peak_N": 1 / 3, "status": "-x", "=cmd|' /C calc'!A0": "\r=1"},
+    {"index": 4, "force_peak_N": None, "status": "a,b", "=cmd|' /C calc'!A0": "é = 1"},
+]
+
+
+def encoded(name: str, table: pa.Table) -> bytes:
+    return b"".join(FORMATS[name].encode(table.schema, table.to_batches()))  # type: ignore[index]
+
+
+def table(rows: list[dict[str, object]]) -> pa.Table:
+    return pa.Table.from_pylist(rows, schema=SCHEMA)
+
+
+def test_parquet_and_arrow_come_back_as_they_were_with_units_and_metadata() -> None:
+    given_table = table(ROWS)
+    for found in (
+        pq.read_table(io.BytesIO(encoded("parquet", given_table))),
+        pa.ipc.open_stream(encoded("arrow", given_table)).read_all(),
+        pa.ipc.open_file(b"".join(ARROW_FILE.encode(SCHEMA, given_table.to_batches()))).read_all(),
+    ):
+        assert found.equals(given_table)
+        assert found.schema.metadata[b"counterweight.seed"] == b"7"
+        assert found.schema.field("force_peak_N").metadata[b"unit"] == b"N"
+
+
+def test_ndjson_comes_back_as_it_was() -> None:
+    assert [json.loads(line) for line in encoded("ndjson", table(ROWS)).decode().split("\n")[:-1]] == ROWS
+
+
+def test_nothing_in_csv_is_a_formula_and_numbers_stay_numbers() -> None:
+    header, *rows = csv.reader(io.StringIO(encoded("csv", table(ROWS)).decode(), newline=""))
+    assert header == ["index", "force_peak_N", "status", "'=cmd|' /C calc'!A0"]
+    assert [row[2:] for row in rows] == [
+        ["optimal", "'=1+1"],
+        ["", '\'+"quoted"\n'],
+        ["'@x", "'\t1"],
+        ["'-x", "'\r=1"],
+        ["a,b", "é = 1"],
+    ]
+    numbers = [float(row[1]) if row[1] else None for row in rows]
+    assert numbers == [row["force_peak_N"] for row in ROWS]
+
+
+@given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1))
+def test_every_double_survives_as_text(values: list[float]) -> None:
+    rows = table([{"index": i, "force_peak_N": value} for i, value in enumerate(values)])
+    as_json = [json.loads(line)["force_peak_N"] for line in encoded("ndjson", rows).splitlines()]
+    as_csv = [row["force_peak_N"] for row in csv.DictReader(io.StringIO(encoded("csv", rows).decode()))]
+    for value, one, other in zip(values, as_json, as_csv, strict=True):
+        assert (float(one), float(other)) == (value, value)
+        assert math.copysign(1, float(other)) == math.copysign(1, value)
+
+
+@pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow"])
+def test_no_rows(name: str) -> None:
+    content = encoded(name, table([]))
+    assert (content == b"") == (name == "ndjson")
+
+
+@pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow"])
+def test_memory_stays_flat(name: str) -> None:
+    def batches(count: int) -> Iterator[pa.RecordBatch]:
+        for k in range(count):
+            index = pa.array(range(1000 * k, 1000 * k + 1000), pa.int64())
+            value = index.cast(pa.float64())
+            texts = pa.array(["x"] * 1000)
+            yield pa.RecordBatch.from_arrays([index, value, texts, texts], schema=SCHEMA)
+
+    def peak(count: int) -> int:
+        arrow_before = pa.total_allocated_bytes()
+        most = size = 0
+        tracemalloc.start()
+        for piece in FORMATS[name].encode(SCHEMA, batches(count)):  # type: ignore[index]
+            size += len(piece)
+            most = max(most, pa.total_allocated_bytes() - arrow_before)
+        traced = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert size > 2000 * count
+        return traced + most
+
+    # ten times the rows, and nowhere near ten times the memory
+    assert peak(200) < 2 * peak(20) + 1_000_000
+
+
+@pytest.mark.parametrize(
+    ("accept", "name"),
+    [
+        ("", "ndjson"),
+        ("*/*", "ndjson"),
+        ("text/csv", "csv"),
+        ("text/html, application/vnd.apache.parquet;q=0.5, text/csv;q=0.4", "parquet"),
+        ("application/vnd.apache.arrow.stream;q=0", "ndjson"),
+        ("text/csv;q=nonsense, application/vnd.apache.arrow.stream", "arrow"),
+        (",;;=,", "ndjson"),
+    ],
+)
+def test_content_negotiation(accept: str, name: str) -> None:
+    assert negotiated(accept) == name

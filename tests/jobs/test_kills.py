@@ -1,0 +1,85 @@
+"""SIGKILL of the service and of workers, two services on one database, and an orderly end."""
+
+import os
+import signal
+import socket
+import time
+from pathlib import Path
+
+import psutil
+import pytest
+
+from optimizer.sweep import run_chunk
+from schemas.sweep import SweepRequest
+from tests.jobs.kills import kill
+from tests.jobs.process import service
+from tests.jobs.sweeps import analyses
+
+SWEEP = analyses(20, 50)
+
+
+def expected() -> "object":
+    request = SweepRequest.model_validate(SWEEP)
+    return run_chunk(request.model_dump_json().encode(), 0, request.total)
+
+
+def test_kills_at_random_moments(tmp_path: Path) -> None:
+    # a hundred: python -m tests.jobs.kills
+    sweeps, midway = kill(tmp_path, kills=6, seed=7, longest_s=0.5, kills_of_one=3)
+    assert sweeps == 2
+    assert midway >= 2
+
+
+def test_a_killed_worker(tmp_path: Path) -> None:
+    with service(tmp_path, delay_s=0.1) as running:
+        _, headers, _ = running.send("POST", "/v1/sweeps", SWEEP)
+        path = headers["location"]
+        killed = 0
+        while killed < 2 and running.read(path)["state"] in ("queued", "running"):
+            for child in psutil.Process(running.process.pid).children():
+                if "spawn_main" in " ".join(child.cmdline()) and running.read(path)["done"] > 100 * killed:
+                    os.kill(child.pid, signal.SIGKILL)
+                    killed += 1
+                    time.sleep(0.5)
+                    break
+        assert killed == 2
+        assert running.ended(path)["state"] == "done"
+        assert running.rows(path).equals(expected())
+
+
+@pytest.mark.parametrize("database", ["sqlite", "postgresql"])
+def test_two_services_share_one_sweep(tmp_path: Path, database: str, request: pytest.FixtureRequest) -> None:
+    more = {}
+    if database == "postgresql":
+        more["database_url"] = request.getfixturevalue("postgres_url")
+    settings = {**more, "sweep_workers": "1"}
+    with service(tmp_path, delay_s=0.1, **settings) as one, service(tmp_path, delay_s=0.1, **settings) as two:
+        _, headers, _ = one.send("POST", "/v1/sweeps", SWEEP)
+        path = headers["location"]
+        # either knows of it, and one of them is killed on the way
+        assert two.read(path)["total"] == 1000
+        while two.read(path)["done"] < 200:
+            time.sleep(0.05)
+        one.process.kill()
+        assert two.ended(path)["done"] == 1000
+        assert two.rows(path).equals(expected())
+
+
+def test_it_stops_at_once_and_goes_on(tmp_path: Path) -> None:
+    with service(tmp_path, delay_s=0.2) as running:
+        _, headers, _ = running.send("POST", "/v1/sweeps", SWEEP)
+        path = headers["location"]
+        with socket.create_connection(running.where, timeout=30) as stream:
+            stream.sendall(f"GET {path}/events HTTP/1.1\r\nHost: x\r\n\r\n".encode())
+            assert b"200 OK" in stream.recv(4096)
+            while running.read(path)["done"] == 0:
+                time.sleep(0.05)
+            began = time.monotonic()
+            running.process.terminate()
+            running.process.wait(30)
+            # the grace for open requests is 10 s; a stream of events does not use it up
+            assert time.monotonic() - began < 5
+    with service(tmp_path, delay_s=0) as again:
+        state = again.ended(path)
+        assert (state["state"], state["done"]) == ("done", 1000)
+        assert again.rows(path).equals(expected())

@@ -1,0 +1,180 @@
+"""Rows of a sweep against the answers to single requests: every design asked for by itself."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyarrow as pa
+
+from optimizer.analyze import analyze
+from optimizer.errors import MissingInput
+from optimizer.optimize import optimize
+from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
+from optimizer.sweep import run_chunk
+from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep import SweepRequest
+from service.validation import InvalidRequest, check, pointer
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+#: agreement of a row with the single call, relative to the larger of the value and its natural size
+CLOSE = 1e-9
+
+
+def example(name: str) -> dict[str, Any]:
+    body: dict[str, Any] = json.loads((EXAMPLES / f"{name}.json").read_text())
+    return body
+
+
+def sweep(base: dict[str, Any], *axes: dict[str, Any], **rest: Any) -> SweepRequest:
+    return check(SweepRequest, {"base": base, "axes": list(axes), **rest})
+
+
+def table(request: SweepRequest, start: int = 0, stop: int | None = None) -> pa.Table:
+    return run_chunk(request.model_dump_json().encode(), start, request.total if stop is None else stop)
+
+
+def put(body: Any, path: tuple[str | int, ...], value: Any) -> None:
+    """Write a value into a JSON body."""
+    for part in path[:-1]:
+        body = body[part]
+    body[path[-1]] = value
+
+
+def single(request: SweepRequest, row: dict[str, Any]) -> OptimizeAnswer | AnalyzeAnswer | list[str]:
+    """The answer to one design by itself, or the pointers to what is wrong with it."""
+    body = request.base.model_dump(mode="json")
+    for target in request.targets:
+        value = row[pointer(target.path)]
+        whole = target.integer and value is not None and value == round(value)
+        put(body, target.path, int(value) if whole else value)
+    try:
+        if request.task == "analyze":
+            return analyze(check(AnalyzeRequest, body))
+        return optimize(check(OptimizeRequest, body))
+    except (InvalidRequest, MissingInput) as error:
+        return [pointer(problem.path) for problem in error.problems]
+
+
+def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any]) -> str:
+    """Compare a row with the answer to its design alone; its status."""
+    answer = single(request, row)
+    if isinstance(answer, list):
+        assert row["status"] == "invalid", (row, answer)
+        assert row["message"].split(": ")[0] in answer, (row["message"], answer)
+        figures = [name for name in row if name not in _labels(request)]
+        assert all(row[name] is None for name in figures)
+        return "invalid"
+    expected = dict(_figures(request, answer))
+    for name, value in expected.items():
+        if name in ("status", "method"):
+            assert row[name] == value, (name, row, value)
+        elif name.startswith("angle_deg."):
+            # an angle matters as much as the mass that it turns
+            turned = (row[name] - value + 180.0) % 360.0 - 180.0
+            share = row[name.replace("angle_deg.", "mass_kg.")] / (answer.total_mass_kg or 1.0)
+            assert abs(turned) * share <= CLOSE * 360.0, (name, row[name], value)
+        else:
+            assert_close(name, row[name], value, _size(answer, name))
+    unseen = set(row) - set(expected) - _labels(request)
+    assert not {name for name in unseen if row[name] is not None}, unseen
+    return str(row["status"])
+
+
+def assert_close(name: str, found: float | None, expected: float | None, size: float) -> None:
+    if expected is None or found is None:
+        assert found is expected, (name, found, expected)
+    else:
+        assert abs(found - expected) <= CLOSE * max(abs(expected), size), (name, found, expected, size)
+
+
+def _labels(request: SweepRequest) -> set[str]:
+    return {"index", "status", "message", *(pointer(target.path) for target in request.targets)}
+
+
+def _size(answer: OptimizeAnswer | AnalyzeAnswer, name: str) -> float:
+    """What rounding errors of a figure are measured by: it may be the small rest of what cancels."""
+    if name.startswith("mass_kg.") or name == "mass_lower_bound_kg":
+        return answer.total_mass_kg or 0.0
+    if name in ("relative_gap", "mass_relative_gap"):
+        return 1.0
+    if isinstance(answer, OptimizeAnswer) and answer.certificate is not None and name in ("objective", "lower_bound"):
+        return answer.certificate.objective_without_counterweights
+    if answer.residual is None:
+        return 0.0
+    before = answer.residual.before
+    return {"force_peak_N": before.force.peak_N, "moment_peak_Nm": before.moment.peak_Nm}.get(name, 0.0)
+
+
+def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
+    """Columns of a row from the answer to one request."""
+    if isinstance(answer, OptimizeAnswer):
+        yield "status", answer.status
+        if answer.certificate is None:
+            yield "method", CONE_PROGRAM if request.base.machine.webs else CLOSED_FORM
+        else:
+            yield from _certificate_figures(answer.certificate)
+        for one in answer.counterweights:
+            yield f"mass_kg.{one.web}", one.mass_kg
+            yield f"angle_deg.{one.web}", one.angle_deg
+    else:
+        yield "status", "analyzed"
+    yield "total_mass_kg", answer.total_mass_kg
+    if answer.residual is not None and "force_peak_N" in {column.name for column in request.all_columns}:
+        after = answer.residual.after
+        yield "force_peak_N", None if after is None else after.force.peak_N
+        yield "moment_peak_Nm", None if after is None else after.moment.peak_Nm
+    yield from _drive_figures(answer)
+
+
+def _certificate_figures(certificate: Certificate) -> Any:
+    for name in ("objective", "lower_bound", "relative_gap", "mass_lower_bound_kg", "mass_relative_gap", "method"):
+        yield name, getattr(certificate, name)
+
+
+def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
+    if answer.gas is not None:
+        yield "indicated_power_W", answer.gas.indicated_power_W
+    if answer.piston_force is not None:
+        yield "peak_piston_force_N", max(np.max(np.abs(row.total_N)) for row in answer.piston_force.rows)
+    if answer.rod_loads is not None:
+        yield "peak_rod_load_N", answer.rod_loads.governing_load_N
+    if answer.torque is not None:
+        yield "mean_torque_Nm", answer.torque.mean_torque_Nm
+        yield "peak_torque_Nm", float(np.max(np.abs(answer.torque.torque_Nm)))
+        yield "fluctuation_energy_J", answer.torque.fluctuation_energy_J
+        yield "shaft_power_W", answer.torque.shaft_power_W
+        yield "indicated_power_W", answer.torque.indicated_power_W
+        yield "friction_power_W", answer.torque.friction_power_W
+    if answer.flywheel is not None:
+        yield "irregularity", answer.flywheel.irregularity
+        yield "inertia_J_kg_m2", answer.flywheel.inertia_J_kg_m2
+    if answer.overturning is not None:
+        yield "peak_overturning_Nm", answer.overturning.peak_Nm
+    if answer.main_bearings is not None:
+        loads = [bearing.after for bearing in answer.main_bearings.bearings]
+        yield "peak_bearing_load_N", max(load.peak_N for load in loads) if all(loads) else None
+    if answer.pin_loads is not None:
+        yield "peak_pin_load_N", answer.pin_loads.peak_N
+
+
+def numeric_paths(request: SweepRequest) -> list[str]:
+    """Pointers to every numeric field that holds a number, of the parts that an axis may vary."""
+    found: list[str] = []
+
+    def walk(node: Any, path: tuple[str | int, ...]) -> None:
+        if isinstance(node, dict):
+            for name, item in node.items():
+                walk(item, (*path, name))
+        elif isinstance(node, list):
+            for number, item in enumerate(node):
+                walk(item, (*path, number))
+        elif isinstance(node, int | float) and not isinstance(node, bool):
+            found.append(pointer(path))
+
+    body = request.base.model_dump(mode="json")
+    for part in ("machine", "objective", "counterweights"):
+        if part in body:
+            walk(body[part], (part,))
+    return found
