@@ -7,34 +7,71 @@ export PORT
 bin := .venv/bin
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test lint bench lock clean
+.PHONY: install run test chromium lint bench hard lock settings image smoke sbom licences audit clean
 
 install: .venv/runtime
 
 run: .venv/runtime
 	$(bin)/counterweight serve
 
-test: lint
+test: lint chromium
 	$(bin)/pytest
+
+# the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested
+chromium: .venv/development
+	$(bin)/python -m tests.browser.chromium
 
 lint: .venv/development
 	$(bin)/ruff check .
 	$(bin)/ruff format --check .
 	$(bin)/mypy
 	$(bin)/lint-imports
+	deploy/lint.sh
 
 bench: .venv/development
 	$(bin)/python -m tests.benchmarks
 
-# new versions into the hashed lists; needs uv, commits names, versions and hashes only
-lock:
-	uv pip compile pyproject.toml --upgrade --generate-hashes --no-header --no-annotate --no-emit-index-url \
-	    --group runtime-build --output-file requirements.txt
-	uv pip compile pyproject.toml --generate-hashes --no-header --no-annotate --no-emit-index-url \
-	    --constraint requirements.txt --group runtime-build --group dev --output-file requirements-dev.txt
+# hard cases of the program and of the effects against high-precision references: a summary of each
+hard: .venv/development
+	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; exit $$failed
+
+# new versions into the hashed lists: names, versions and hashes only
+compile := $(bin)/uv --quiet pip compile pyproject.toml --upgrade --generate-hashes --no-header --no-annotate \
+    --no-emit-index-url --group runtime-build
+lock: .venv/development
+	$(compile) --output-file requirements.txt
+	$(compile) --constraint requirements.txt --group dev --output-file requirements-dev.txt
+	$(compile) --constraint requirements-dev.txt --all-extras --output-file deploy/requirements.txt
+
+# the table of docs/operation.md and deploy/.env.example, from service/settings.py
+settings: .venv/runtime
+	PYTHONPATH=. $(bin)/python docs/settings.py
+
+image:
+	docker build --file deploy/Dockerfile --tag counterweight:latest .
+
+smoke:
+	deploy/smoke.sh $(or $(URL),http://127.0.0.1:$(PORT))
+
+# ---- what the image holds: parts, licences, known faults
+
+sbom: build/runtime/made
+	mkdir -p artefacts
+	$(bin)/cyclonedx-py environment build/runtime/bin/python --pyproject pyproject.toml --mc-type application \
+	    --output-reproducible --output-format JSON --output-file artefacts/sbom.cdx.json
+
+# fails on a licence that is not in the list
+licences: build/runtime/made
+	$(bin)/pip-licenses --python build/runtime/bin/python --with-system --with-urls --ignore-packages counterweight \
+	    --allow-only "$$(grep -v '^#' deploy/licences.txt | paste -sd ';')"
+
+# the hash of every package was compared when build/runtime was made; needs no network but for the known faults
+audit: licences
+	$(pip) --python build/runtime/bin/python check
+	deploy/audit.sh requirements.txt requirements-dev.txt deploy/requirements.txt
 
 clean:
-	rm -rf .venv
+	rm -rf .venv build artefacts
 
 .venv/runtime: requirements.txt pyproject.toml
 	test -x $(bin)/python || $(PYTHON) -m venv .venv
@@ -44,4 +81,13 @@ clean:
 
 .venv/development: requirements-dev.txt .venv/runtime
 	$(pip) install --require-hashes --requirement requirements-dev.txt
+	touch $@
+
+# as in the image: locked versions with their hashes, wheels only, without pip
+build/runtime/made: deploy/requirements.txt pyproject.toml .venv/development
+	rm -rf build/runtime
+	$(PYTHON) -m venv --without-pip build/runtime
+	$(pip) --python build/runtime/bin/python install --require-hashes --only-binary :all: \
+	    --requirement deploy/requirements.txt
+	$(pip) --python build/runtime/bin/python install --no-deps --no-build-isolation .
 	touch $@

@@ -1,21 +1,87 @@
 """The application."""
 
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from importlib.metadata import version
+from typing import Any
 
-from anyio import create_task_group
+from anyio import create_task_group, to_thread
 from fastapi import FastAPI
-from starlette.responses import RedirectResponse
+from starlette.middleware import Middleware
+from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from optimizer import warm_up as solver
 from service import docs, errors
+from service.access import Access
 from service.computing import Computing
+from service.jobs.desk import Desk
+from service.keys import keys
+from service.metrics import Metrics
 from service.openapi import Documented
+from service.rate_limits import RateLimits
 from service.readiness import Readiness
-from service.routes import analyze, effects, examples, health, optimize, pin_loads, rating
+from service.request_log import RequestLog
+from service.routes import (
+    accuracy,
+    analyze,
+    effects,
+    examples,
+    health,
+    optimize,
+    pareto,
+    pin_loads,
+    portal,
+    rating,
+    report,
+    sweeps,
+)
+from service.routes import metrics as metrics_route
+from service.security_headers import SecurityHeaders
 from service.settings import Settings
+from service.tracing import tracing
+from service.workers.pool import Pool
+
+_RESOURCES = (
+    optimize,
+    accuracy,
+    analyze,
+    pareto,
+    sweeps,
+    pin_loads,
+    rating,
+    report,
+    effects,
+    examples,
+    health,
+    metrics_route,
+    portal,
+)
+
+#: what pages of the origins that are allowed may send and read
+CORS: Mapping[str, Any] = {
+    "allow_methods": ("GET", "HEAD", "POST", "DELETE"),
+    "allow_headers": (
+        "Authorization",
+        "Content-Type",
+        "Idempotency-Key",
+        "Last-Event-ID",
+        "Prefer",
+        "Traceparent",
+        "X-API-Key",
+        "X-Request-ID",
+    ),
+    "expose_headers": (
+        "Content-Disposition",
+        "Idempotency-Replayed",
+        "Link",
+        "Location",
+        "Preference-Applied",
+        "Retry-After",
+        "Sweep-Complete",
+        "Sweep-State",
+        "X-Request-ID",
+    ),
+}
 
 _DESCRIPTION = """\
 Certified optimum counterweights for reciprocating and scroll machines.
@@ -25,25 +91,51 @@ unit as a suffix; a number is in that unit, a string such as `"140 mm"` is read 
 """
 
 
-def create_app(settings: Settings | None = None, warm_up: Callable[[], None] = solver.warm_up) -> FastAPI:
+def create_app(
+    settings: Settings | None = None, warm_up: Callable[[], None] | None = None, jobs: Desk | None = None
+) -> FastAPI:
     """The service as an ASGI application.
 
     Parameters
     ----------
     settings : from the environment if not given.
-    warm_up : what has to be done, once and in the background, before the service is ready.
+    warm_up : what has to be done, once and in the background, before the service is ready; by default its workers are
+        started, which else start when they are needed.
+    jobs : as the settings say if not given.
+
+    Raises
+    ------
+    ValueError
+        if the settings name an engine or a database that there is not, keys that cannot be read, or no keys on an
+        address that other machines reach.
     """
     chosen = settings or Settings()
     readiness = Readiness()
+    desk = jobs or Desk(chosen)
+    pool = Pool(chosen.concurrent_solves, chosen.queue_length, chosen.request_timeout_s, chosen.solve_memory_mb)
+    metrics = Metrics(pool, desk.counts)
+    traces = tracing(chosen)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
-            tasks.start_soon(readiness.warm, warm_up)
+            tasks.start_soon(readiness.warm, warm_up or pool.open)
+            desk.open()
             yield
+            # not on the loop: events that are still open may need it to end
+            await to_thread.run_sync(desk.close)
+            await to_thread.run_sync(pool.close)
+            await to_thread.run_sync(traces.close)
             tasks.cancel_scope.cancel()
 
-    app = Documented(
+    app = Application(
+        (
+            Middleware(HeadAsGet),
+            Middleware(RequestLog, metrics, traces, chosen.log_machines),
+            Middleware(SecurityHeaders, chosen.hsts_s),
+            Middleware(CORSMiddleware, chosen.cors_origins, **CORS),
+            Middleware(Access, keys(chosen), RateLimits(chosen)),
+        ),
         title="counterweight",
         version=version("counterweight"),
         description=_DESCRIPTION,
@@ -53,27 +145,38 @@ def create_app(settings: Settings | None = None, warm_up: Callable[[], None] = s
         redirect_slashes=False,
     )
     app.state.readiness = readiness
-    app.state.computing = Computing(chosen, readiness)
-    app.add_middleware(HeadAsGet)
+    app.state.desk = desk
+    app.state.pool = pool
+    app.state.metrics = metrics
+    app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
     errors.install(app)
-    for resource in (optimize, analyze, pin_loads, rating, effects, examples, health):
+    for resource in _RESOURCES:
         app.include_router(resource.router)
     docs.install(app)
-
-    @app.get("/", include_in_schema=False)
-    async def home() -> RedirectResponse:
-        return RedirectResponse("docs")
-
     return app
 
 
+class Application(Documented):
+    """With something around everything, also around what answers the exceptions that nobody else does."""
+
+    def __init__(self, outer: Sequence[Middleware], **given: Any) -> None:
+        super().__init__(**given)
+        self._outer = outer
+
+    def build_middleware_stack(self) -> ASGIApp:
+        stack = super().build_middleware_stack()
+        for around in reversed(self._outer):
+            stack = around.cls(stack, *around.args, **around.kwargs)
+        return stack
+
+
 class HeadAsGet:
-    """HEAD is answered wherever GET is; the server leaves out the body."""
+    """HEAD is answered wherever GET is; the server leaves out the body, and streams look for ``head`` in the scope."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] == "http" and scope["method"] == "HEAD":
-            scope = {**scope, "method": "GET"}
+            scope = {**scope, "method": "GET", "head": True}
         await self.app(scope, receive, send)

@@ -9,26 +9,41 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic.json_schema import models_json_schema
 
+from schemas.accuracy import AccuracyRequest
 from schemas.base import Model
+from schemas.pareto import ParetoRequest
 from schemas.problem import Problem
 from schemas.rating import RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.scroll import PinLoadsRequest
+from schemas.sweep import SweepRequest
 from service.errors import PROBLEM_JSON
 from service.examples import bodies
+from service.keys import PUBLIC
 
 #: statuses that every computing route may answer with
-COMPUTE_PROBLEMS = (400, 413, 415, 422, 503)
+COMPUTE_PROBLEMS = (400, 408, 413, 415, 422, 503)
 
 _REF = "#/components/schemas/{model}"
 _DESCRIPTIONS: dict[int | str, str] = {
     400: "unreadable JSON",
+    401: "no key, or a wrong one",
+    403: "the key does not allow this",
     404: "no such resource",
+    406: "the header `Accept` names no form that there is",
+    408: "the body did not arrive in time",
+    409: "in conflict with what is there",
     413: "body too large",
     415: "the body is not announced as JSON",
     422: "invalid machine or request; `errors` names the fields",
+    429: "busy; `Retry-After` says when to try again",
     503: "not ready; `Retry-After` says when to try again",
     "default": "any other failure",
+}
+
+_SECURITY = {
+    "bearer": {"type": "http", "scheme": "bearer", "description": "an API key, where the service asks for one"},
+    "key": {"type": "apiKey", "in": "header", "name": "X-API-Key", "description": "the same in a header of its own"},
 }
 
 
@@ -37,6 +52,13 @@ def problems(*statuses: int) -> dict[int | str, dict[str, Any]]:
     content = {PROBLEM_JSON: {"schema": _ref(Problem)}}
     listed: tuple[int | str, ...] = (*statuses, "default")
     return {status: {"description": _DESCRIPTIONS[status], "content": content} for status in listed}
+
+
+def _needs_key(path: str, operation: dict[str, Any]) -> None:
+    """Say that a key may be needed, and what is answered without."""
+    if path not in PUBLIC:
+        operation["security"] = [{"bearer": []}, {"key": []}]
+        operation["responses"] |= {str(status): found for status, found in problems(401, 403, 429).items()}
 
 
 def request_body(model: type[Model], folder: str = "") -> dict[str, Any]:
@@ -59,10 +81,23 @@ class Documented(FastAPI):
         known = document["components"]["schemas"]
         # the framework keeps the document and makes a new one when routes are added
         if Problem.__name__ not in known:
-            models: list[type[Model]] = [OptimizeRequest, AnalyzeRequest, RatingRequest, PinLoadsRequest, Problem]
+            models: list[type[Model]] = [
+                OptimizeRequest,
+                AccuracyRequest,
+                AnalyzeRequest,
+                RatingRequest,
+                ParetoRequest,
+                PinLoadsRequest,
+                SweepRequest,
+                Problem,
+            ]
             _, schemas = models_json_schema([(model, "validation") for model in models], ref_template=_REF)
             # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
             known |= schemas["$defs"]
+            document["components"]["securitySchemes"] = _SECURITY
+            for path, operations in document["paths"].items():
+                for operation in operations.values():
+                    _needs_key(path, operation)
         return document
 
 

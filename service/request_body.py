@@ -1,7 +1,8 @@
-"""The body of a request, up to a size."""
+"""The body of a request, up to a size and for a time."""
 
 from email.message import Message
 
+from anyio import fail_after
 from starlette.requests import Request
 
 
@@ -13,7 +14,11 @@ class BodyTooLarge(ValueError):
     """The body is larger than the service takes."""
 
 
-async def read_body(request: Request, max_bytes: int) -> bytes:
+class BodyTooSlow(Exception):
+    """The body did not arrive in time."""
+
+
+async def read_body(request: Request, max_bytes: int, timeout_s: float) -> bytes:
     """The body, whether its length was announced or not.
 
     Raises
@@ -22,6 +27,8 @@ async def read_body(request: Request, max_bytes: int) -> bytes:
         if the content is not announced as uncompressed JSON in UTF-8.
     BodyTooLarge
         if it is, or says it is, larger than ``max_bytes``.
+    BodyTooSlow
+        if it takes longer than ``timeout_s`` [s].
     ClientDisconnect
         if it ends early.
     """
@@ -32,10 +39,14 @@ async def read_body(request: Request, max_bytes: int) -> bytes:
     if announced.isdecimal() and (len(announced) > 18 or int(announced) > max_bytes):
         raise too_large
     body = bytearray()
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > max_bytes:
-            raise too_large
+    try:
+        with fail_after(timeout_s):
+            async for chunk in request.stream():
+                body += chunk
+                if len(body) > max_bytes:
+                    raise too_large
+    except TimeoutError:
+        raise BodyTooSlow(f"The body did not arrive within {timeout_s:g} s.") from None
     return bytes(body)
 
 

@@ -1,17 +1,33 @@
 """Settings of the service, from ``COUNTERWEIGHT_*`` environment variables."""
 
 import os
+from pathlib import Path
+from typing import Annotated, Any, Literal
 
-from pydantic import AliasChoices, Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import AliasChoices, BeforeValidator, Field
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
+
+from schemas.machine import MAX_ROWS_TOGETHER, MAX_THROWS, MAX_WEBS
+from schemas.sweep import MAX_DESIGNS
 
 
-class Settings(BaseSettings):
-    """What an operator can set; the defaults suit one user on one machine."""
+def _data_dir() -> Path:
+    """Where data of a user's programs belongs (XDG base directories), or here if the user has no home."""
+    try:
+        return Path(os.environ.get("XDG_DATA_HOME") or Path.home() / ".local" / "share") / "counterweight"
+    except RuntimeError:
+        return Path("counterweight-data")
 
-    model_config = SettingsConfigDict(
-        env_prefix="COUNTERWEIGHT_", env_ignore_empty=True, populate_by_name=True, frozen=True, extra="ignore"
-    )
+
+def _split(value: Any) -> Any:
+    return tuple(filter(None, map(str.strip, value.split(",")))) if isinstance(value, str) else value
+
+
+Names = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_split)]
+
+
+class _Network(BaseSettings):
+    """Where the service listens, and what it takes from a connection."""
 
     host: str = Field("127.0.0.1", description="address to listen on")
     port: int = Field(
@@ -22,9 +38,111 @@ class Settings(BaseSettings):
         validation_alias=AliasChoices("COUNTERWEIGHT_PORT", "PORT"),
         description="port to listen on; 0 takes a free one",
     )
-    root_path: str = Field("", description="path prefix that a proxy in front strips")
-    max_body_bytes: int = Field(1_000_000, ge=1, description="largest request body")
-    concurrent_solves: int = Field(
-        default_factory=lambda: os.cpu_count() or 1, ge=1, description="computations at the same time"
+    root_path: str = Field(
+        "", pattern=r"^(/[A-Za-z0-9._~-]+)*$", description="path prefix that a proxy in front strips, such as /balance"
     )
-    graceful_shutdown_s: int = Field(10, ge=0, description="time for open requests to end at shutdown")
+    trusted_proxies: Names = Field(
+        ("127.0.0.1", "::1"),
+        description="addresses of proxies whose X-Forwarded-For and X-Forwarded-Proto are believed, comma-separated",
+    )
+    max_connections: int = Field(1000, ge=1, description="open connections; further ones are answered 503")
+    headers_timeout_s: float = Field(
+        10, gt=0, description="a connection that sends no whole header for longer is closed [s]"
+    )
+    body_timeout_s: float = Field(30, gt=0, description="a body that takes longer to arrive is answered 408 [s]")
+    write_timeout_s: float = Field(
+        60, gt=0, description="a connection whose client reads nothing for longer is closed [s]"
+    )
+    keep_alive_s: int = Field(5, ge=1, description="an idle connection is closed after so long [s]")
+    graceful_shutdown_s: int = Field(10, ge=0, description="time for open requests to end at shutdown [s]")
+
+
+class _Sizes(BaseSettings):
+    """The largest requests; none of these can be raised above what the schemas allow."""
+
+    max_body_bytes: int = Field(1_000_000, ge=1, description="largest request body; larger ones are answered 413")
+    max_throws: int = Field(MAX_THROWS, ge=1, le=MAX_THROWS, description="throws of a machine")
+    max_rows: int = Field(
+        MAX_ROWS_TOGETHER, ge=1, le=MAX_ROWS_TOGETHER, description="rows of a machine, all throws together"
+    )
+    max_webs: int = Field(MAX_WEBS, ge=1, le=MAX_WEBS, description="webs of a machine")
+    # a request that says nothing takes 360
+    max_angles: int = Field(36_000, ge=360, le=36_000, description="samples of the shaft angle in one turn")
+    max_sweep_designs: int = Field(MAX_DESIGNS, ge=1, le=MAX_DESIGNS, description="designs of a sweep")
+
+
+class _Work(BaseSettings):
+    """How much is computed at a time, and for how long."""
+
+    concurrent_solves: int = Field(
+        default_factory=lambda: os.cpu_count() or 1, ge=1, description="computations at the same time, a process each"
+    )
+    queue_length: int = Field(
+        128, ge=0, description="requests that wait for a computation; further ones are answered 429"
+    )
+    request_timeout_s: float = Field(
+        60, gt=0, description="a request that waits and computes for longer is answered 503 [s]"
+    )
+    solve_memory_mb: int = Field(
+        2000, ge=500, description="memory of one computation; one that needs more is answered 422 [MB]"
+    )
+    rate_limit: str = Field(
+        "6000/minute", description="requests of one key to one service, such as 100/second; no limit if empty"
+    )
+    refusal_limit: str = Field(
+        "60/minute", description="wrong keys from one address; further wrong ones are answered 429"
+    )
+
+
+class _Access(BaseSettings):
+    """Who may ask."""
+
+    keys_file: Path | None = Field(
+        None, description="file of the API keys, made with `counterweight key`; without it nobody needs a key"
+    )
+    allow_without_keys: bool = Field(
+        False, description="whether to serve without keys on an address that other machines reach"
+    )
+    cors_origins: Names = Field((), description="origins whose pages may ask, comma-separated; * is any")
+    hsts_s: int = Field(0, ge=0, description="Strict-Transport-Security of answers over https [s]; 0 sends none")
+
+
+class _Watching(BaseSettings):
+    """What is written down."""
+
+    log_level: Literal["debug", "info", "warning", "error"] = Field("info", description="least level that is logged")
+    log_format: Literal["json", "text"] = Field("json", description="a JSON object a line, or text to read")
+    log_machines: bool = Field(
+        False, description="whether bodies, and messages of faults that may quote them, go into the log"
+    )
+    otlp_endpoint: str | None = Field(
+        None, description="where traces go, such as http://collector:4318; needs counterweight[telemetry]"
+    )
+
+
+class _Jobs(BaseSettings):
+    """Sweeps and other jobs."""
+
+    data_dir: Path = Field(default_factory=_data_dir, description="folder of the sweeps and their results")
+    database_url: str | None = Field(
+        None, description="database of the sweeps, such as postgresql://host/name; by default SQLite in data_dir"
+    )
+    database_busy_s: float = Field(5, gt=0, le=600, description="how long to wait for a locked database [s]")
+    database_patience_s: float = Field(
+        30, ge=0, description="running sweeps fail when the database is away for longer [s]"
+    )
+    engine: str = Field("processes", description="where sweeps are computed: processes, or dask:tcp://host:port")
+    sweep_workers: int = Field(default_factory=lambda: os.cpu_count() or 1, ge=1, description="processes for sweeps")
+    lease_s: float = Field(
+        15, ge=0.5, description="work of a service that says nothing for longer is done by another [s]"
+    )
+    results_keep_days: float = Field(30, ge=0, description="how long results are kept [days]; 0 is for ever")
+    max_jobs: int = Field(1000, ge=1, description="sweeps that wait or run at the same time")
+
+
+class Settings(_Network, _Sizes, _Work, _Access, _Watching, _Jobs):
+    """What an operator can set; the defaults suit one user on one machine."""
+
+    model_config = SettingsConfigDict(
+        env_prefix="COUNTERWEIGHT_", env_ignore_empty=True, populate_by_name=True, frozen=True, extra="ignore"
+    )

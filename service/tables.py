@@ -16,6 +16,7 @@ from schemas.answers import (
     Infeasibility,
     OptimizeAnswer,
     Outputs,
+    ShadowPrice,
 )
 from schemas.effects import EffectCatalogue
 from schemas.outputs import Hodograph, Hodographs, OrdersComparison, Stages
@@ -65,6 +66,8 @@ def _optimize_parts(title: str, objective: Objective, answer: OptimizeAnswer) ->
         yield Text(f"total mass {number(answer.total_mass_kg)} kg")
     if answer.active_limits:
         yield Text("the machine is at its " + ", ".join(name.replace("_", " ") for name in answer.active_limits))
+    if answer.shadow_prices:
+        yield _shadow_prices(answer.shadow_prices)
     if answer.certificate is not None:
         yield from _certificate(answer.status == "optimal", answer.certificate)
     yield from _others(answer)
@@ -98,6 +101,14 @@ def _counterweights(title: str, counterweights: Sequence[Counterweight]) -> Tabl
     for one in counterweights:
         limits = ", ".join(limit.replace("_", " ") for limit in one.active_limits)
         add(rows, one.web, one.mass_kg, one.angle_deg, one.mass_radius_kg_m, limits)
+    return rows
+
+
+def _shadow_prices(prices: Sequence[ShadowPrice]) -> Table:
+    rows = table("what the limits cost", "limit", "web", "the objective falls by", "per")
+    for one in prices:
+        quantity, _, per = one.unit.partition("/")
+        add(rows, one.limit.replace("_", " "), one.web or "", f"{number(one.value)} {quantity}", per)
     return rows
 
 

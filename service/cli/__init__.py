@@ -6,9 +6,14 @@ the commands that need them, so that ``--help`` answers at once.
 
 import typer
 
+from service.cli.accuracy import accuracy
 from service.cli.catalogue import effects, examples, schema
 from service.cli.compute import analyze, optimize, pin_loads, rating
+from service.cli.key import key
+from service.cli.pareto import pareto
+from service.cli.report import report
 from service.cli.serve import serve
+from service.cli.sweep import sweep
 
 app = typer.Typer(
     help="Certified optimum counterweights for reciprocating and scroll machines.",
@@ -20,10 +25,15 @@ app.command()(optimize)
 app.command()(analyze)
 app.command(name="pin-loads")(pin_loads)
 app.command()(rating)
+app.command()(pareto)
+app.command()(accuracy)
+app.command()(sweep)
+app.command()(report)
 app.command()(effects)
 app.command()(examples)
 app.command()(schema)
 app.command()(serve)
+app.add_typer(key, name="key")
 
 
 def main() -> None:

@@ -10,20 +10,31 @@ from service.cli.terminal import fail, put
 def serve(
     host: Annotated[str | None, typer.Option(help="Address to listen on.", show_default="127.0.0.1")] = None,
     port: Annotated[int | None, typer.Option(help="Port; 0 takes a free one.", show_default="8000")] = None,
+    engine: Annotated[
+        str | None,
+        typer.Option(help="Where sweeps run: processes, or dask:tcp://host:port.", show_default="processes"),
+    ] = None,
 ) -> None:
     """Run the REST service until it is interrupted."""
     from pydantic import ValidationError
 
+    from service import logs
+    from service.app import create_app
     from service.server import listen, run, url
     from service.settings import Settings
 
-    given: dict[str, Any] = {key: value for key, value in (("host", host), ("port", port)) if value is not None}
+    options = {"host": host, "port": port, "engine": engine}
+    given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
     try:
         settings = Settings(**given)
+        logs.configure(settings)
+        app = create_app(settings)
         socket = listen(settings)
     except ValidationError as error:
         fail(*(f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}" for detail in error.errors()))
+    except ValueError as error:
+        fail(str(error))
     except OSError as error:
         fail(f"cannot listen on {settings.host}, port {settings.port}: {error.strerror or error}")
     put(f"counterweight listens on {url(socket)} (documentation at {url(socket)}/docs)")
-    run(settings, socket)
+    run(app, settings, socket)

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from schemas.base import FieldProblem, Model
 
     Question = TypeVar("Question", bound=Model)
-    Answer = TypeVar("Answer", bound=Model)
+    Answer = TypeVar("Answer")
 
 BAD_INPUT = 2
 

@@ -28,6 +28,9 @@ def main() -> None:
     phases(console, repeats)
     by_output(console, max(repeats // 3, 5))
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
+    # each in a process of its own, which stays on one core or starts its own workers
+    for module in ("sweep", "sweep_scaling"):
+        subprocess.run([sys.executable, "-m", f"tests.benchmarks.{module}"], check=True)
 
 
 def phases(console: Console, repeats: int) -> None:

@@ -13,14 +13,28 @@ from service.settings import Settings
 OPERATIONS = {
     ("post", "/v1/optimize"): "optimize",
     ("post", "/v1/analyze"): "analyze",
+    ("post", "/v1/accuracy"): "accuracy",
+    ("post", "/v1/pareto"): "pareto",
     ("post", "/v1/rating"): "rating",
+    ("post", "/v1/report"): "report",
     ("post", "/v1/scroll/pin-loads"): "pin_loads",
+    ("post", "/v1/sweeps"): "start_sweep",
+    ("get", "/v1/sweeps"): "list_sweeps",
+    ("get", "/v1/sweeps/{id}"): "read_sweep",
+    ("delete", "/v1/sweeps/{id}"): "end_sweep",
+    ("post", "/v1/sweeps/{id}/resume"): "resume_sweep",
+    ("get", "/v1/sweeps/{id}/metadata"): "describe_sweep",
+    ("get", "/v1/sweeps/{id}/results"): "read_sweep_results",
+    ("get", "/v1/sweeps/{id}/events"): "watch_sweep",
     ("get", "/v1/effects"): "list_effects",
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
     ("get", "/healthz"): "healthz",
     ("get", "/readyz"): "readyz",
+    ("get", "/metrics"): "metrics",
 }
+KEYED = {"200", "401", "403", "429", "default"}
+COMPUTED = KEYED | {"400", "408", "413", "415", "422", "503"}
 PHYSICAL = re.compile(r"_(m|m2|m3|m3_per_min|m_s|m_s2|kg|kg_m|kg_m2|deg|rpm|N|Nm|Pa|K|W|J|ms)$")
 
 
@@ -53,13 +67,17 @@ def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
 @pytest.mark.parametrize(
     ("path", "statuses"),
     [
-        ("/v1/optimize", {"200", "400", "413", "415", "422", "503", "default"}),
-        ("/v1/analyze", {"200", "400", "413", "415", "422", "503", "default"}),
-        ("/v1/rating", {"200", "400", "413", "415", "422", "503", "default"}),
-        ("/v1/scroll/pin-loads", {"200", "400", "413", "415", "422", "503", "default"}),
-        ("/v1/effects", {"200", "default"}),
-        ("/v1/examples", {"200", "default"}),
-        ("/v1/examples/{name}", {"200", "404", "default"}),
+        ("/v1/optimize", COMPUTED),
+        ("/v1/analyze", COMPUTED),
+        ("/v1/accuracy", COMPUTED),
+        ("/v1/pareto", COMPUTED),
+        ("/v1/rating", COMPUTED),
+        ("/v1/scroll/pin-loads", COMPUTED),
+        ("/v1/sweeps/{id}/metadata", KEYED | {"404", "503"}),
+        ("/v1/effects", KEYED),
+        ("/v1/examples", KEYED),
+        ("/v1/examples/{name}", KEYED | {"404"}),
+        ("/metrics", KEYED),
         ("/healthz", {"200", "default"}),
         ("/readyz", {"200", "503", "default"}),
     ],
@@ -78,6 +96,7 @@ def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
     for path, name in (
         ("/v1/optimize", "Optimize"),
         ("/v1/analyze", "Analyze"),
+        ("/v1/pareto", "Pareto"),
         ("/v1/rating", "Rating"),
         ("/v1/scroll/pin-loads", "PinLoads"),
     ):
@@ -113,8 +132,27 @@ def test_every_field_is_described_with_examples_and_its_unit(document: dict[str,
             assert PHYSICAL.search(name) is None or "x-unit" in str(field), (model, name)
 
 
+def test_errors_of_sweeps_are_problems(document: dict[str, Any]) -> None:
+    expected = {"start_sweep": COMPUTED | {"202", "409"}}
+    for path, methods in document["paths"].items():
+        for operation in methods.values() if path.startswith("/v1/sweeps") else ():
+            statuses = set(operation["responses"])
+            assert statuses >= {"503", "default"}
+            assert statuses == expected.get(operation["operationId"], statuses)
+            for status in statuses - {"200", "202", "204"}:
+                schema = operation["responses"][status]["content"]["application/problem+json"]["schema"]
+                assert schema == {"$ref": "#/components/schemas/Problem"}
+
+
 @pytest.mark.parametrize(
-    ("path", "least"), [("/v1/optimize", 11), ("/v1/analyze", 11), ("/v1/rating", 2), ("/v1/scroll/pin-loads", 2)]
+    ("path", "least"),
+    [
+        ("/v1/optimize", 11),
+        ("/v1/analyze", 11),
+        ("/v1/rating", 2),
+        ("/v1/scroll/pin-loads", 2),
+        ("/v1/sweeps", 2),
+    ],
 )
 def test_the_examples_of_bodies_are_valid(document: dict[str, Any], path: str, least: int) -> None:
     body = document["paths"][path]["post"]["requestBody"]["content"]["application/json"]

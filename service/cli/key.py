@@ -1,0 +1,108 @@
+"""The commands that make, list and revoke API keys."""
+
+import os
+import time
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from service.cli.terminal import fail, put, show
+
+if TYPE_CHECKING:
+    from service.keys import KeyRecord
+
+_DAY_S = 86_400
+
+key = typer.Typer(help="Make, list and revoke API keys; a running service follows within a second.")
+
+File = Annotated[Path | None, typer.Option("--file", help="File of the keys.", show_default="COUNTERWEIGHT_KEYS_FILE")]
+
+
+@key.command()
+def create(
+    owner: Annotated[str, typer.Argument(help="Whose key it is; jobs belong to the owner, not to the key.")],
+    scope: Annotated[
+        list[str] | None,
+        typer.Option(help="compute, sweeps, read, metrics or admin; repeatable.", show_default="compute, sweeps, read"),
+    ] = None,
+    days: Annotated[float | None, typer.Option(help="Days until it expires.", show_default="never")] = None,
+    rate: Annotated[str | None, typer.Option(help="Requests, such as 100/second.", show_default="the setting")] = None,
+    file: File = None,
+) -> None:
+    """Make a key and print it; only its hash is kept, so it cannot be printed again."""
+    from pydantic import ValidationError
+
+    from service import keys
+    from service.rate_limits import parsed
+
+    where = _file(file)
+    known = _read(where) if where.exists() else []
+    expires = None if days is None else time.time() + days * _DAY_S
+    try:
+        parsed(rate or "")
+        made, record = keys.make(owner, tuple(scope or ("compute", "sweeps", "read")), expires, rate)  # type: ignore[arg-type]
+    except ValidationError as error:
+        fail(*(f"{detail['loc'][0]}: {detail['msg']}" for detail in error.errors(include_input=False)))
+    except ValueError as error:
+        fail(str(error))
+    _write(where, [*known, record])
+    put(made)
+
+
+@key.command(name="list")
+def list_keys(file: File = None) -> None:
+    """Show the keys: owners, scopes and times, never the keys themselves."""
+    from rich.table import Table
+
+    table = Table("id", "owner", "scopes", "made", "expires", "rate")
+    for record in _read(_file(file)):
+        expires = "never" if record.expires is None else _moment(record.expires)
+        table.add_row(
+            record.id, record.owner, ", ".join(record.scopes), record.created, expires, record.rate_limit or ""
+        )
+    show(table)
+
+
+@key.command()
+def revoke(
+    identity: Annotated[str, typer.Argument(metavar="ID", help="Public part of the key, as `list` shows it.")],
+    file: File = None,
+) -> None:
+    """Remove a key."""
+    where = _file(file)
+    known = _read(where)
+    left = [record for record in known if record.id != identity]
+    if len(left) == len(known):
+        fail(f"there is no key of the id {identity}")
+    _write(where, left)
+
+
+def _file(given: Path | None) -> Path:
+    named = given or os.environ.get("COUNTERWEIGHT_KEYS_FILE")
+    if not named:
+        fail("name the file of the keys with --file or COUNTERWEIGHT_KEYS_FILE")
+    return Path(named)
+
+
+def _read(file: Path) -> "list[KeyRecord]":
+    from service.keys import BadKeyFile, read
+
+    try:
+        return read(file)
+    except BadKeyFile as error:
+        fail(str(error))
+
+
+def _write(file: Path, records: "list[KeyRecord]") -> None:
+    from service.keys import write
+
+    try:
+        write(file, records)
+    except OSError as error:
+        fail(f"cannot write {file}: {error.strerror}")
+
+
+def _moment(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="seconds")

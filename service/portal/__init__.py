@@ -1,0 +1,1 @@
+"""The portal page: what the browser gets."""

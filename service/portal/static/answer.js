@@ -1,0 +1,83 @@
+// The answer in one view: what was reached, the proof in plain words, the drawing.
+
+import { h, table } from "./dom.js";
+import { front } from "./drawing/front.js";
+import { side } from "./drawing/side.js";
+import { reports } from "./files.js";
+import { beside, figure, share } from "./format.js";
+import { scales } from "./scales.js";
+
+export function showAnswer(place, request, answer, outputs) {
+  const fitted = answer.counterweights.length ? answer.counterweights : answer.infeasibility?.closest.counterweights ?? [];
+  place.replaceChildren(
+    h("h2", { class: `status ${answer.status}` }, headline(answer)),
+    h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
+    comparison(request, answer),
+    h("div", { class: "drawings" },
+      h("figure", {}, front(request.machine, fitted), h("figcaption", {}, "From the front, shaft angle 0")),
+      h("figure", {}, side(request.machine, fitted, answer.reference_plane_m),
+        h("figcaption", {}, "Along the shaft; what stands towards you is drawn down and to the left"))),
+    reports(request, outputs));
+}
+
+function headline({ status, total_mass_kg: mass, residual }) {
+  if (status === "infeasible") return "No counterweights meet these ceilings";
+  const [before, after] = [residual.before, residual.after];
+  const less = (part, unit) => {
+    const was = before[part][unit];
+    return was > 0 ? `${part} −${share(Math.max(0, 1 - after[part][unit] / was))}` : null;
+  };
+  const changes = [less("force", "peak_N"), less("moment", "peak_Nm")].filter(Boolean).join(", ");
+  return `${figure(mass)} kg of counterweights: ${changes || "there was nothing to balance"}`;
+}
+
+// An engineer's sentences, from the certificate.
+function proof(request, { status, certificate, infeasibility, floor, timing, residual }) {
+  if (infeasibility) return refusal(request, infeasibility);
+  const { objective, lower_bound: bound, gap, objective_without_counterweights: bare } = certificate;
+  const how = request.objective?.combine === "max" ? "the larger of the weighted peaks" : "the weighted sum of peak force and peak moment";
+  const small = 1e-6 * bare;
+  const sentences = [];
+  if (bare === 0) sentences.push("Nothing of first order is out of balance: no counterweights are needed.");
+  else if (objective <= small) sentences.push(`These counterweights cancel ${how} completely. It was ${figure(bare)} without them.`);
+  else {
+    const near = share(Math.max(0, gap) / Math.max(bound, small));
+    sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
+      + `this is within ${near} of it, at ${figure(objective, 8)}. Without counterweights it is ${figure(bare, 8)}.`);
+  }
+  if (status === "inaccurate") sentences.push("That is a wider margin than was asked for: take the figure as it stands, not as the optimum.");
+  if (certificate.mass_lower_bound_kg > 0) {
+    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg `
+      + `(proved to within ${share(Math.max(0, certificate.mass_relative_gap))}).`);
+  }
+  const { force, moment } = residual.before;
+  const rest = [floor.force_N > 1e-9 * force.peak_N ? `${figure(floor.force_N)} N of force` : null,
+    floor.moment_Nm > 1e-9 * moment.peak_Nm ? `${figure(floor.moment_Nm)} N m of moment` : null].filter(Boolean);
+  if (rest.length) sentences.push(`${rest.join(" and ")} turn${rest.length > 1 ? "" : "s"} against the shaft, which no counterweight on it can lower.`);
+  sentences.push(`Found and proved in ${figure(timing.total_ms, 3)} ms (${certificate.method}).`);
+  return sentences;
+}
+
+function refusal({ objective }, { conflict, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
+  const { force: nearForce, moment: nearMoment } = closest.first_order;
+  return [
+    conflict.length > 1 ? "The ceilings of force and moment cannot be met, alone or together."
+      : `The ceiling of the ${conflict[0].split("_")[0]} cannot be met.`,
+    `Within these limits the peak force can come down to ${figure(force)} N (the moment left free) and the peak moment to ${figure(moment)} N m `
+    + `(the force left free); the ceilings ask for ${figure(objective?.force_ceiling_N)} N and ${figure(objective?.moment_ceiling_Nm)} N m.`,
+    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m.`,
+  ];
+}
+
+function comparison(request, answer) {
+  const { residual, floor, infeasibility } = answer;
+  const { before } = residual;
+  const after = residual.after ?? infeasibility?.closest.first_order;
+  const scale = scales(request.machine, answer);
+  const cells = (name, part, unit, least) => [name,
+    ...[before[part][unit], after[part][unit], least].map((value) => ({ number: true, text: beside(value, scale[part]) }))];
+  return table("First order, over a turn of the shaft", ["", "before", "after", "floor"], [
+    cells("peak force, N", "force", "peak_N", floor.force_N),
+    cells("peak moment, N m", "moment", "peak_Nm", floor.moment_Nm),
+  ]);
+}

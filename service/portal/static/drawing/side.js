@@ -1,0 +1,109 @@
+// The machine from the side: planes along the shaft, z to the right, drawn obliquely so that no throw hides.
+
+import { s } from "../dom.js";
+import { figure, nameOf } from "../format.js";
+import { circle, line, metres, points, radians, radiiOf, text } from "./view.js";
+
+const WIDTH = 560;
+const HEIGHT = 310;
+const MIDDLE = 142;
+// what stands towards the viewer is drawn down and to the left, shortened
+const DEPTH = [-0.32, 0.26];
+const MOST_NAMES = 24;
+
+export function side(machine, counterweights, reference) {
+  const planes = planesOf(machine);
+  const all = [...planes.map((plane) => plane.z), reference].filter(Number.isFinite);
+  const [low, high] = [Math.min(...all), Math.max(...all)];
+  const room = high > low ? 0 : 0.5;
+  const z = (place) => 62 + ((place - low + room) / (high - low + 2 * room)) * (WIDTH - 118);
+  const across = 100 / Math.max(...radiiOf(machine), 1e-12);
+  const up = radians(machine.throws?.[0]?.crank_angle_deg ?? 0);
+  const at = (place, radius, angle) => {
+    const [height, depth] = [Math.cos(angle - up), -Math.sin(angle - up)].map((part) => part * radius * across);
+    return [z(place) + DEPTH[0] * depth, MIDDLE - height + DEPTH[1] * depth];
+  };
+  const late = z(reference) > WIDTH - 150;
+  return s("svg", {
+    viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: `drawing side${planes.length > MOST_NAMES ? " many" : ""}`, role: "img",
+    "aria-label": `From the side: ${planes.map((plane) => `${plane.name} at ${figure(plane.z)} m`).join(", ")}.`,
+  },
+  line([z(reference), 14], [z(reference), HEIGHT - 52], { class: "reference" }),
+  text(z(reference) + (late ? -4 : 4), 20, "reference plane", { class: `name faint${late ? " end" : ""}` }),
+  weights(machine, counterweights, at, z),
+  line([24, MIDDLE], [WIDTH - 24, MIDDLE], { class: "shaft" }),
+  machine.kind === "scroll" ? scroll(machine, at) : throws(machine, at),
+  bearings(machine, z),
+  names(planes, z));
+}
+
+function planesOf(machine) {
+  const throwsAt = (machine.throws ?? []).map((each, index) => ({ name: `throw ${nameOf(each, index)}`, z: metres(each.position_m) }));
+  const websAt = (machine.webs ?? []).map((web) => ({ name: web.name, z: metres(web.position_m), web: true }));
+  const bearingsAt = (machine.bearings ?? []).map((one) => ({ name: `bearing ${one.name}`, z: metres(one.position_m) }));
+  const scrollAt = machine.kind !== "scroll" ? [] : [
+    { name: "scroll", z: metres(machine.orbiting_position_m) },
+    { name: machine.anti_rotation.type === "oldham" ? "ring" : "pins", z: metres(machine.anti_rotation.position_m) },
+  ];
+  return [...throwsAt, ...scrollAt, ...websAt, ...bearingsAt].filter((plane) => Number.isFinite(plane.z));
+}
+
+function throws(machine, at) {
+  return machine.throws.map((each, index) => {
+    const radius = metres(each.crank_radius_m);
+    const [place, angle] = [metres(each.position_m), radians(each.crank_angle_deg)];
+    const pin = at(place, radius, angle);
+    return s("g", { class: "throw" }, line(at(place, 0, 0), pin), circle(pin, 6),
+      (each.rows ?? []).map((row) => circle(at(place + metres(row.offset_m ?? 0), radius, angle), 2.5, { class: "row" })),
+      s("title", {}, `throw ${nameOf(each, index)}, plane ${figure(place)} m`));
+  });
+}
+
+// a plate at the radius of its centre of mass, as wide as its mass asks for; a faint cross where there is none
+function weights(machine, counterweights, at, z) {
+  const masses = new Map(counterweights.map((one) => [one.web, one]));
+  const heaviest = Math.max(...counterweights.map((one) => one.mass_kg), 1e-300);
+  return (machine.webs ?? []).map((web) => {
+    const fitted = masses.get(web.name);
+    const place = metres(web.position_m);
+    if (!fitted || !(fitted.mass_kg > 0)) {
+      return s("g", { class: "free" }, line([z(place), MIDDLE - 7], [z(place), MIDDLE + 7]), s("title", {}, `${web.name}: nothing`));
+    }
+    const angle = radians(fitted.angle_deg);
+    const radius = metres(web.counterweight_radius_m);
+    const half = 3 + 9 * (fitted.mass_kg / heaviest);
+    const [inner, outer] = [at(place, 0.82 * radius, angle), at(place, 1.18 * radius, angle)];
+    const plate = [[inner[0] - half, inner[1]], [inner[0] + half, inner[1]], [outer[0] + half, outer[1]], [outer[0] - half, outer[1]]];
+    return s("g", {}, line(at(place, 0, 0), inner, { class: "arm" }),
+      s("polygon", { class: "counterweight", points: points(plate) }),
+      s("title", {}, `${web.name}: ${figure(fitted.mass_kg)} kg at ${figure(fitted.angle_deg)}°, plane ${figure(place)} m`));
+  });
+}
+
+function scroll(machine, at) {
+  const place = metres(machine.orbiting_position_m);
+  const pin = at(place, metres(machine.orbit_radius_m), 0);
+  return s("g", { class: "throw" }, line([pin[0], pin[1] - 55], [pin[0], pin[1] + 55]), circle(pin, 4), s("title", {}, "orbiting scroll"));
+}
+
+function bearings(machine, z) {
+  return (machine.bearings ?? []).map((one) => {
+    const x = z(metres(one.position_m));
+    return s("g", { class: "bearing" }, s("polygon", { points: points([[x, MIDDLE + 3], [x - 8, MIDDLE + 17], [x + 8, MIDDLE + 17]]) }),
+      s("title", {}, `bearing ${one.name}`));
+  });
+}
+
+// names stand below their planes, each on the first line where there is room
+function names(planes, z) {
+  const lines = [-Infinity, -Infinity, -Infinity];
+  if (planes.length > MOST_NAMES) return null;
+  return [...planes].sort((one, other) => one.z - other.z).map((plane) => {
+    const half = 4.3 * plane.name.length + 3;
+    const x = Math.min(Math.max(z(plane.z), half), WIDTH - half);
+    const row = Math.max(0, lines.findIndex((end) => end < x - half));
+    lines[row] = x + half;
+    return [line([z(plane.z), HEIGHT - 50], [z(plane.z), HEIGHT - 44], { class: "tick" }),
+      text(x, HEIGHT - 29 + 15 * row, plane.name, { class: `name centred${plane.web ? " web" : ""}` })];
+  });
+}

@@ -1,0 +1,54 @@
+// From the machine to the picture: metres and degrees to the drawing's own units.
+
+import { s } from "../dom.js";
+
+export const WIDTH = 400;
+
+const LENGTH = { m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 };
+const ANGLE = { deg: 1, rad: 180 / Math.PI };
+
+// A number, or a text such as "140 mm" that the service has accepted.
+export function quantity(value, units) {
+  if (typeof value === "number") return value;
+  const [, number, symbol] = /^\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([a-zA-Z/]+)\s*$/.exec(value ?? "") ?? [];
+  return Number(number) * (units[symbol] ?? NaN);
+}
+export const metres = (value) => quantity(value, LENGTH);
+export const degrees = (value) => quantity(value, ANGLE);
+export const radians = (angle) => (degrees(angle) * Math.PI) / 180;
+
+export const polar = (centre, radius, angle) => [
+  centre[0] + radius * Math.cos(radians(angle)), centre[1] - radius * Math.sin(radians(angle)),
+];
+export const points = (list) => list.map(([x, y]) => `${x.toFixed(2)},${y.toFixed(2)}`).join(" ");
+
+export function arc(centre, radius, from, to) {
+  const steps = Math.max(2, Math.ceil(Math.abs(to - from) / 4));
+  return Array.from({ length: steps + 1 }, (_, index) => polar(centre, radius, from + ((to - from) * index) / steps));
+}
+
+export const text = (x, y, content, attributes) => s("text", { x: x.toFixed(1), y: y.toFixed(1), ...attributes }, content);
+export const line = (from, to, attributes) => s("line", {
+  x1: from[0].toFixed(2), y1: from[1].toFixed(2), x2: to[0].toFixed(2), y2: to[1].toFixed(2), ...attributes,
+});
+export const circle = (centre, radius, attributes) => s("circle", {
+  cx: centre[0].toFixed(2), cy: centre[1].toFixed(2), r: radius.toFixed(2), ...attributes,
+});
+
+// An arrow along an arc, in the sense of rotation.
+export function sense(centre, radius, rotation) {
+  const [from, to] = rotation === "cw" ? [75, 45] : [45, 75];
+  const tip = polar(centre, radius, to);
+  const back = to + (rotation === "cw" ? 4 : -4);
+  return s("g", { class: "sense" },
+    s("polyline", { points: points(arc(centre, radius, from, to)) }),
+    s("polyline", { points: points([polar(centre, radius + 6, back), tip, polar(centre, radius - 6, back)]) }),
+    s("title", {}, `turns ${rotation === "cw" ? "clockwise" : "counter-clockwise"}`));
+}
+
+export const radiiOf = (machine) => [
+  ...(machine.throws ?? []).map((each) => 1.25 * metres(each.crank_radius_m)),
+  ...(machine.webs ?? []).map((web) => 1.22 * metres(web.counterweight_radius_m)),
+  ...(machine.kind === "scroll" ? [1.5 * metres(machine.orbit_radius_m)] : []),
+  ...(machine.anti_rotation?.type === "crank_pins" ? [1.1 * metres(machine.anti_rotation.pin_circle_radius_m)] : []),
+].filter(Number.isFinite);

@@ -1,0 +1,72 @@
+// Inputs for single values: numbers with their unit, choices, texts, lists of numbers.
+
+import { h } from "./dom.js";
+import { label } from "./format.js";
+
+const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
+const COMMA = /[\s,;]+/;
+
+let last = 0;
+const freshId = () => `field-${(last += 1)}`;
+
+// A number, or the text as it stands: the service reads "140 mm", and says what it cannot read.
+export function read(text) {
+  const trimmed = text.trim();
+  return NUMBER.test(trimmed) ? Number(trimmed) : trimmed;
+}
+
+const shown = (value) => (value === null || value === undefined ? "" : String(value));
+
+// Label, input, unit, hint and a place for the error. `change` gets the new value, undefined where there is none.
+export function field(name, pointer, description, value, required, change) {
+  const id = freshId();
+  const input = make(description, value, required, change);
+  const text = description.text ? ` A number${description.unit ? ` in ${description.unit}` : ""}, or with its unit.` : "";
+  input.id = id;
+  input.setAttribute("aria-describedby", `${id}-hint ${id}-error`);
+  if (required) input.setAttribute("aria-required", "true");
+  return h("div", { class: `field is-${description.kind}`, dataset: { pointer } },
+    h("label", { for: id }, label(name), description.unit && h("span", { class: "unit" }, ` ${description.unit}`)),
+    input,
+    h("p", { class: "hint", id: `${id}-hint` }, `${description.about}.${text}`),
+    h("p", { class: "error", id: `${id}-error` }));
+}
+
+function make(description, value, required, change) {
+  const { kind } = description;
+  if (kind === "choice") return choice(description, value, required, change);
+  if (kind === "boolean") return boolean(description, value, change);
+  if (kind === "numbers") return numbers(value, change);
+  const long = kind === "text" && description.longest > 200;
+  const placeholder = required ? undefined : shown(description.fallback) || "none";
+  const given = () => (kind === "text" ? input.value : read(input.value));
+  const input = h(long ? "textarea" : "input", {
+    value: shown(value), placeholder, autocomplete: "off", spellcheck: "false",
+    ...(long ? { rows: 3 } : { type: "text" }),
+    // a letter may follow a number here: its unit
+    ...(kind === "number" && !description.text ? { inputmode: "decimal" } : {}),
+    input: () => change(input.value.trim() === "" ? undefined : given()),
+  });
+  return input;
+}
+
+function choice({ options, fallback }, value, required, change) {
+  const select = h("select", { change: () => change(select.value) },
+    options.map((option) => h("option", { value: option }, label(String(option)))));
+  select.value = value ?? fallback ?? options[0];
+  return select;
+}
+
+function boolean({ fallback }, value, change) {
+  const box = h("input", { type: "checkbox", change: () => change(box.checked) });
+  box.checked = value ?? fallback ?? false;
+  return box;
+}
+
+function numbers(value, change) {
+  const input = h("input", {
+    type: "text", value: Array.isArray(value) ? value.join(", ") : shown(value), placeholder: "none", autocomplete: "off",
+    input: () => change(input.value.trim() ? input.value.trim().split(COMMA).map(read) : undefined),
+  });
+  return input;
+}

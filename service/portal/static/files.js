@@ -1,0 +1,36 @@
+// Files for the reader to keep.
+
+import { ask } from "./api.js";
+import { h } from "./dom.js";
+
+const KEPT_MS = 10_000;
+
+export function save(blob, name) {
+  const link = h("a", { href: URL.createObjectURL(blob), download: name });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), KEPT_MS);
+}
+
+const REPORTS = { html: "text/html", pdf: "application/pdf" };
+
+// Buttons for the report on a request, with everything that the machine has data for.
+export function reports(request, outputs) {
+  const said = h("span", { role: "status" });
+  const write = async (event, format) => {
+    const button = event.currentTarget;
+    button.disabled = true;
+    said.textContent = "Writing …";
+    try {
+      const body = { ...request, outputs };
+      const answer = await ask("POST", "v1/report", { body, headers: { Accept: REPORTS[format] } });
+      save(await answer.blob(), `counterweights.${format}`);
+      said.textContent = "";
+    } catch (error) {
+      said.textContent = error.message;
+    } finally {
+      button.disabled = false;
+    }
+  };
+  return h("div", { class: "buttons" }, h("span", {}, "Report for the design file:"),
+    Object.keys(REPORTS).map((format) => h("button", { type: "button", class: "small", click: (event) => write(event, format) }, format.toUpperCase())), said);
+}

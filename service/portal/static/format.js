@@ -1,0 +1,24 @@
+// Numbers and names as people read them.
+
+const SUFFIX = /_(m|kg|deg|rpm|N|Nm|Pa|kg_m2|kg_m|m2|W|J|N_per_m|ms|s)$/;
+
+export function figure(value, digits = 5) {
+  if (value === null || value === undefined) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size < 1e-5 || size >= 1e9) return value.toExponential(2).replace("e+", "e");
+  return value.toLocaleString("en", { maximumSignificantDigits: digits });
+}
+
+// a residue of rounding beside what was there before is shown as nothing
+export const beside = (value, scale) => figure(Math.abs(value) < 1e-9 * Math.abs(scale) ? 0 : value);
+
+export const number = (value, digits) => ({ number: true, text: figure(value, digits) });
+
+export const share = (value) => (value > 0 && value < 1e-7 ? "less than 0.00001 %" : `${figure(100 * value, 2)} %`);
+
+export const label = (name) => name.replace(SUFFIX, "").replaceAll("_", " ");
+
+export const singular = (name) => label(name).replace(/s$/, "");
+
+export const nameOf = (thing, index) => thing?.name ?? String(index + 1);

@@ -1,0 +1,47 @@
+// What accuracy costs in time on this machine.
+
+import { h, table } from "../dom.js";
+import { figure, label, number } from "../format.js";
+import { plot, series } from "../plots.js";
+
+const SYMBOLS = ["star", "circle", "square", "diamond", "triangle-up", "cross", "x", "hexagon2", "bowtie"];
+const WORDS = {
+  infeasible: "No counterweights satisfy the ceilings: there is nothing to measure.",
+  nothing_to_choose: "There is nothing to choose on this machine: no web can carry anything, or nothing is out of balance.",
+};
+
+export const accuracy = {
+  id: "accuracy", title: "Accuracy against time",
+  about: "Every method and setting, timed on this machine just now; down and to the left is better.",
+  async draw(body, { request, ask }) {
+    const { angles, fidelity, ...rest } = request;
+    const answer = await ask("v1/accuracy", { ...rest, repeats: 3 });
+    if (answer.status !== "measured") {
+      body.replaceChildren(h("p", {}, WORDS[answer.status] ?? answer.status));
+      return;
+    }
+    const node = h("div");
+    const rows = answer.ladder.filter((row) => row.time_ms !== null);
+    // an error that cannot be told from nothing is drawn at the resolution
+    const least = Math.max(answer.reference.resolution, 1e-16);
+    const methods = [...new Set(rows.map((row) => row.method))];
+    body.replaceChildren(node, h("details", {}, h("summary", {}, "As a table"), table("Methods and settings",
+      ["method", "setting", "time, ms", "relative error", "proved gap"],
+      rows.map((row) => [label(row.method), row.setting, number(row.time_ms, 3), number(row.relative_error, 2), number(row.certified_gap, 2)]))));
+    await plot(node, () => ({
+      traces: methods.map((method, index) => {
+        const own = rows.filter((row) => row.method === method && row.relative_error !== null);
+        return { name: label(method), mode: "lines+markers", x: own.map((row) => row.time_ms),
+          y: own.map((row) => Math.max(row.relative_error, least)), text: own.map((row) => row.setting),
+          line: { ...series(index), width: 1 }, marker: { size: method === "service" ? 14 : 8, symbol: SYMBOLS[index % SYMBOLS.length], color: series(index).color },
+          hovertemplate: "%{text}: %{x:.3~s} ms, error %{y:.2e}<extra></extra>" };
+      }),
+      // the names of the methods take their room from narrow plots
+      layout: { height: node.clientWidth < 500 ? 520 : 380, xaxis: { title: "time, ms", type: "log", dtick: 1 }, yaxis: { title: "relative error", type: "log", exponentformat: "power", dtick: 2 } },
+      label: `Error against time: ${methods.map((method) => {
+        const best = rows.filter((row) => row.method === method).sort((one, other) => one.relative_error - other.relative_error)[0];
+        return `${label(method)} ${figure(best.relative_error, 2)} in ${figure(best.time_ms, 3)} ms`;
+      }).join("; ")}.`,
+    }));
+  },
+};

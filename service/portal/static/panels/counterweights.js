@@ -1,0 +1,41 @@
+// The counterweights, the limits that hold them back, and what a little more of each limit would be worth.
+
+import { h, table } from "../dom.js";
+import { figure, number } from "../format.js";
+
+const LIMITS = {
+  max_mass: "mass", sector: "sector", max_total_mass: "limit of the total mass",
+  force_ceiling: "ceiling of the force", moment_ceiling: "ceiling of the moment",
+};
+const worth = ({ value, unit }) => `${figure(value, 4)} ${unit}`;
+
+export function counterweightTable(counterweights, prices = []) {
+  const of = (web) => prices.filter((price) => price.web === web);
+  const priced = prices.some((price) => price.web);
+  return table("Counterweights, angles as drawn at shaft angle 0",
+    ["web", "mass, kg", "angle, °", "mass × radius, kg m", "at the limit of", ...(priced ? ["shadow price"] : [])],
+    counterweights.map((one) => [
+      one.web, number(one.mass_kg), number(one.mass_kg > 0 ? one.angle_deg : null), number(one.mass_radius_kg_m),
+      one.active_limits.map((limit) => LIMITS[limit] ?? limit).join(", ") || "–",
+      ...(priced ? [{ number: true, text: of(one.web).map(worth).join(", ") || "–" }] : []),
+    ]));
+}
+
+export const counterweights = {
+  id: "counterweights", title: "Counterweights", open: true,
+  draw(body, { answer }) {
+    const prices = answer.shadow_prices ?? [];
+    const whole = prices.filter((price) => !price.web);
+    const active = answer.active_limits ?? [];
+    const fitted = answer.counterweights.length ? answer.counterweights : answer.infeasibility?.closest.counterweights ?? [];
+    body.replaceChildren(...[
+      fitted.length ? counterweightTable(fitted, prices) : h("p", {}, "This machine has no webs: add one to carry a counterweight."),
+      active.length || whole.length ? h("ul", {}, active.map((limit) => {
+        const price = whole.find((one) => one.limit === limit);
+        return h("li", {}, `The ${LIMITS[limit] ?? limit} is reached${price ? `; shadow price ${worth(price)}` : ""}.`);
+      })) : null,
+      prices.length ? h("p", { class: "about" },
+        "A shadow price is by how much the objective would fall for each unit more of a limit, as long as the change is small.") : null,
+    ].filter(Boolean));
+  },
+};

@@ -1,0 +1,124 @@
+// Gas, friction and inertia over the turn: torque, rod loads, flywheel, main bearings.
+
+import { h, table } from "../dom.js";
+import { figure, nameOf, number } from "../format.js";
+import { closed, colours, line, overTurn, plot, series } from "../plots.js";
+
+const CASES = { running: "running", no_load: "no load", sudden_stop: "sudden stop" };
+const RATED = { needs: ["rods", "cylinders"], kind: "reciprocating" };
+
+// the machine as it stands, with the counterweights that were found
+export function scene({ request, answer }, outputs, step = 2) {
+  const { machine, fidelity } = request;
+  const counterweights = answer.counterweights.map(({ web, mass_kg, angle_deg }) => ({ web, mass_kg, angle_deg }));
+  return { machine, counterweights, outputs, angles: { step_deg: step }, ...(fidelity ? { fidelity } : {}) };
+}
+
+const rowName = (row) => `throw ${row.throw + 1}, row ${nameOf(row, row.row)}`;
+
+export const torque = {
+  ...RATED, id: "torque", output: "torque", title: "Torque",
+  async draw(body, context) {
+    const found = (await context.ask("v1/analyze", scene(context, ["torque"]))).torque;
+    const node = h("div");
+    body.replaceChildren(node, table("Over one turn", ["mean torque, N m", "indicated power, W", "friction power, W", "shaft power, W", "fluctuation energy, J"],
+      [[figure(found.mean_torque_Nm), number(found.indicated_power_W), number(found.friction_power_W), number(found.shaft_power_W), number(found.fluctuation_energy_J)]]));
+    await plot(node, () => ({
+      traces: [
+        ...found.rows.map((row, index) => line(found.angle_deg, row.torque_Nm, rowName(row), { ...series(index + 1), width: 1.5 })),
+        line(found.angle_deg, found.torque_Nm, "machine", { color: colours().after, width: 3 }),
+        line(found.angle_deg, found.angle_deg.map(() => found.mean_torque_Nm), "mean", { color: colours().floor, dash: "dot", width: 1.5 }),
+      ],
+      layout: { height: 340, ...overTurn("torque against rotation, N m") },
+      label: `Torque over the turn, mean ${figure(found.mean_torque_Nm)} N m.`,
+    }));
+  },
+};
+
+export const rodLoads = {
+  ...RATED, id: "rod-loads", output: "rod_loads", title: "Rod loads",
+  async draw(body, context) {
+    const found = (await context.ask("v1/analyze", scene(context, ["rod_loads"]))).rod_loads;
+    const nodes = [["rod_N", "rod force, N (tension positive)"], ["side_N", "force on the guide, N"]].map(([name, title]) => ({ name, title, node: h("div") }));
+    body.replaceChildren(h("div", { class: "pair" }, nodes.map((each) => each.node)),
+      table("Load cases; forces in the rod, N", ["row", "case", "tension", "at, °", "compression", "at, °", "governs"],
+        found.rows.flatMap((row) => row.cases.map((one) => [rowName(row), CASES[one.case], number(one.tension_N), number(one.tension_deg),
+          number(one.compression_N), number(one.compression_deg), one.case === row.governing_case ? "yes" : ""]))));
+    for (const { name, title, node } of nodes) {
+      await plot(node, () => ({
+        traces: found.rows.map((row, index) => line(found.angle_deg, row[name], rowName(row), series(index))),
+        layout: overTurn(title), label: `${title} over the turn; largest rod force ${figure(found.governing_load_N)} N.`,
+      }));
+    }
+  },
+};
+
+export const flywheel = {
+  ...RATED, id: "flywheel", output: "flywheel", title: "Flywheel", needs: ["rods", "cylinders", "flywheel"],
+  async draw(body, context) {
+    const answer = await context.ask("v1/analyze", scene(context, ["torque", "flywheel"]));
+    const { torque: turned, flywheel: found } = answer;
+    const node = h("div");
+    body.replaceChildren(node, table("Flywheel", ["irregularity", "inertia J, kg m²", "MD² = 4 J, kg m²", "energy to hold, J"],
+      [[figure(found.irregularity), number(found.inertia_J_kg_m2), number(found.inertia_MD2_kg_m2), number(found.fluctuation_energy_J)]]));
+    await plot(node, () => {
+      const excess = turned.torque_Nm.map((value) => turned.mean_torque_Nm - value);
+      const { after, before } = colours();
+      const part = (sign, name, color, pattern) => ({
+        ...line(turned.angle_deg, excess.map((value) => (sign * value > 0 ? value : 0)), name, { color }), fill: "tozeroy",
+        fillpattern: { shape: pattern, fgcolor: color } });
+      return {
+        traces: [part(1, "the shaft gains speed", after, ""), part(-1, "it loses speed", before, "/")],
+        layout: overTurn("mean torque less torque, N m"),
+        label: `What the flywheel takes up and gives back: ${figure(found.fluctuation_energy_J)} J, with J = ${figure(found.inertia_J_kg_m2)} kg m².`,
+      };
+    });
+  },
+};
+
+export const mainBearings = {
+  ...RATED, id: "main-bearings", output: "main_bearings", title: "Main bearings", needs: ["rods", "cylinders", "bearings"],
+  async draw(body, context) {
+    const found = (await context.ask("v1/analyze", scene(context, ["main_bearings"]))).main_bearings;
+    const [locus, size, bending] = [h("div"), h("div"), h("div")];
+    const pick = h("select", { id: "bearing", change: () => draw(Number(pick.value)) },
+      found.bearings.map((one, index) => h("option", { value: index }, one.name)));
+    body.replaceChildren(h("div", { class: "choose" }, h("label", { for: "bearing" }, "Bearing"), pick),
+      h("div", { class: "pair" }, locus, size), bending,
+      table("Peak loads, N", ["bearing", "plane, m", "before", "at, °", "after", "at, °"], found.bearings.map((one) => [one.name, number(one.position_m),
+        number(one.before.peak_N), number(one.before.peak_angle_deg), number(one.after?.peak_N), number(one.after?.peak_angle_deg)])));
+    const draw = async (index) => {
+      await plot(locus, () => polarPlot(found.bearings[index]));
+      await plot(size, () => overTurnPlot(found, found.bearings[index]));
+    };
+    await draw(0);
+    await plot(bending, () => {
+      const { before, after } = colours();
+      const curve = (values, name, style) => ({ x: found.bending.position_m, y: values, name, mode: "lines+markers", line: style });
+      const traces = [curve(found.bending.before_Nm, "before", { color: before, dash: "dash" })];
+      if (found.bending.after_Nm) traces.push(curve(found.bending.after_Nm, "after", { color: after }));
+      return { traces, layout: { xaxis: { title: "plane along the shaft, m" }, yaxis: { title: "largest bending moment, N m", rangemode: "tozero" } },
+        label: "Largest bending moment inside the shaft over the turn, along the shaft." };
+    });
+  },
+};
+
+const loads = (one) => [["before", one.before, "dash"], ["after", one.after, "solid"]].filter(([, load]) => load);
+
+function polarPlot(one) {
+  return {
+    traces: loads(one).map(([name, load, dash]) => ({ x: closed(load.force_x_N), y: closed(load.force_y_N), name, mode: "lines",
+      line: { color: colours()[name], dash, width: 2 }, hovertemplate: "%{x:.5~s}, %{y:.5~s}<extra></extra>" })),
+    layout: { height: 340, xaxis: { title: "force x, N" }, yaxis: { title: "force y, N", scaleanchor: "x" } },
+    label: `Locus of the force on bearing ${one.name}.`,
+  };
+}
+
+function overTurnPlot(found, one) {
+  return {
+    traces: loads(one).map(([name, load, dash]) => line(found.angle_deg,
+      load.force_x_N.map((x, step) => Math.hypot(x, load.force_y_N[step])), name, { color: colours()[name], dash })),
+    layout: { height: 340, ...overTurn("force on the bearing, N") },
+    label: `Load of bearing ${one.name} over the turn, peak ${figure((one.after ?? one.before).peak_N)} N.`,
+  };
+}

@@ -1,0 +1,71 @@
+// The pins that keep a scroll from turning: their loads over the turn, as curves and as a moving picture.
+
+import { h, table } from "../dom.js";
+import { PinPicture } from "../drawing/pins.js";
+import { figure, number } from "../format.js";
+import { line, overTurn, plot, series } from "../plots.js";
+import { scene } from "./dynamics.js";
+
+const SECONDS_A_TURN = 6;
+
+export const pins = {
+  id: "pin-loads", output: "pin_loads", title: "Pin loads", kind: "scroll", needs: ["pins"],
+  about: "Positive along the eccentric: the pin's small crank in compression.",
+  async draw(body, context) {
+    const found = (await context.ask("v1/analyze", scene(context, ["pin_loads"]))).pin_loads;
+    const node = h("div");
+    body.replaceChildren(
+      found.warnings.map((warning) => h("p", { class: "error" }, warning.message)).at(0) ?? "",
+      h("div", { class: "pair" }, node, animated(context.request.machine, found)),
+      table("Pins", ["pin", "at, °", "peak load, N", "at shaft angle, °"],
+        found.pins.map((pin) => [String(pin.index), number(pin.phase_deg), number(pin.peak_N), number(pin.peak_angle_deg)])),
+      h("p", {}, found.equilibrium.holds
+        ? `The pins hold the scroll at every angle; their moment differs from the torque by at most ${figure(found.equilibrium.max_moment_error_Nm, 2)} N m.`
+        : `The pins do not hold the scroll at every angle: ${found.equilibrium.reason ?? "see the dead points"}.`),
+      h("p", {}, `A mechanism whose members bear for half a turn only would carry ${figure(found.half_turn_mechanism_peak_N)} N.`));
+    await plot(node, () => ({
+      traces: found.pins.map((pin, index) => line(found.angle_deg, pin.load_N, `pin ${pin.index}`, series(index))),
+      layout: { height: 360, ...overTurn("load of the pin, N") },
+      label: `Pin loads over the turn; the largest is ${figure(found.peak_N)} N.`,
+    }));
+  },
+};
+
+function animated(machine, found) {
+  const picture = new PinPicture(machine, found);
+  const count = found.angle_deg.length;
+  const angle = h("input", { id: "pin-angle", type: "range", min: 0, max: count - 1, step: 1, value: 0,
+    input: () => { stop(); show(Number(angle.value)); } });
+  const shown = h("output", { for: "pin-angle" });
+  const button = h("button", { type: "button", "aria-pressed": "false", click: () => (running ? stop() : start()) }, "Turn");
+  let running = null;
+  const show = (step) => {
+    picture.at(step);
+    angle.value = step;
+    shown.textContent = `${figure(found.angle_deg[step])}°`;
+  };
+  const stop = () => {
+    cancelAnimationFrame(running);
+    running = null;
+    button.setAttribute("aria-pressed", "false");
+    button.textContent = "Turn";
+  };
+  const start = () => {
+    const from = Number(angle.value);
+    let began = null;
+    const step = (now) => {
+      // a panel that is closed or drawn again needs no frames
+      if (!picture.element.isConnected || !picture.element.checkVisibility()) return stop();
+      began ??= now;
+      show(Math.floor(from + (count * (now - began)) / (1000 * SECONDS_A_TURN)) % count);
+      running = requestAnimationFrame(step);
+      return undefined;
+    };
+    button.setAttribute("aria-pressed", "true");
+    button.textContent = "Stop";
+    running = requestAnimationFrame(step);
+  };
+  show(0);
+  return h("div", { class: "animated" }, picture.element,
+    h("div", { class: "slide" }, button, h("label", { for: "pin-angle" }, "Shaft angle"), angle, shown));
+}

@@ -1,0 +1,111 @@
+// What a field takes, from the JSON schema in the OpenAPI document.
+
+export class Schema {
+  constructor(document) {
+    this.known = document.components.schemas;
+  }
+
+  deref(node) {
+    if (!node.$ref) return node;
+    const { $ref, ...own } = node;
+    return { ...this.deref(this.known[$ref.split("/").pop()]), ...own };
+  }
+
+  model(name) {
+    return this.describe({ $ref: `#/components/schemas/${name}` });
+  }
+
+  // all alternatives, however deep they are nested
+  alternatives(node) {
+    const found = this.deref(node);
+    const options = found.anyOf ?? found.oneOf;
+    return options ? options.flatMap((option) => this.alternatives(option)) : [found];
+  }
+
+  unit(node) {
+    const found = this.deref(node);
+    return found["x-unit"] ?? (found.anyOf ?? found.oneOf ?? []).map((option) => this.unit(option)).find(Boolean);
+  }
+
+  // {kind, about, unit, nullable, fallback, example, ...}: kind is one of
+  // number, text, boolean, choice, constant, object, union, list, numbers, variants
+  describe(node) {
+    const found = this.deref(node);
+    const all = this.alternatives(node);
+    const about = {
+      about: found.description ?? "",
+      unit: this.unit(node),
+      nullable: all.some((one) => one.type === "null"),
+      fallback: found.default,
+      example: found.examples?.[0],
+    };
+    const given = all.filter((one) => one.type !== "null");
+    const objects = given.filter((one) => one.properties);
+    const numeric = given.find((one) => one.type === "number" || one.type === "integer");
+    const choice = given.find((one) => one.enum);
+    const list = given.find((one) => one.type === "array");
+    if (objects.length > 1) return { ...about, kind: "union", ...this.union(objects) };
+    if (objects.length && numeric) return { ...about, kind: "variants", object: this.object(objects[0]) };
+    if (objects.length) return { ...about, kind: "object", ...this.object(objects[0]) };
+    if (list) return { ...about, ...this.list(list) };
+    if (given.some((one) => "const" in one)) return { ...about, kind: "constant", value: given[0].const };
+    if (choice) return { ...about, kind: "choice", options: choice.enum };
+    if (numeric) return { ...about, kind: "number", text: given.some((one) => one.type === "string"), ...range(numeric) };
+    if (given.some((one) => one.type === "boolean")) return { ...about, kind: "boolean" };
+    return { ...about, kind: "text", longest: given[0]?.maxLength };
+  }
+
+  object(node) {
+    return { properties: node.properties, required: new Set(node.required ?? []) };
+  }
+
+  union(objects) {
+    const tag = Object.keys(objects[0].properties).find((name) => "const" in objects[0].properties[name]);
+    return { tag, options: new Map(objects.map((one) => [one.properties[tag].const, this.object(one)])) };
+  }
+
+  list(node) {
+    const items = this.describe(node.items);
+    return items.kind === "number" ? { kind: "numbers", items } : { kind: "list", items };
+  }
+
+  // the least that a new thing needs; examples stand for what has no default
+  blank(description) {
+    const { kind } = description;
+    if (kind === "constant") return description.value;
+    if (kind === "list") return [];
+    if (kind === "variants") return typeof description.example === "number" ? description.example : 0;
+    if (kind === "union") {
+      const [tag, object] = [...description.options][0];
+      return { [description.tag]: tag, ...this.filled(object) };
+    }
+    if (kind === "object") return this.filled(description, description.example);
+    return description.example ?? null;
+  }
+
+  filled({ properties, required }, example) {
+    const fields = Object.entries(properties).filter(([name]) => required.has(name));
+    const made = fields.map(([name, node]) => [name, example?.[name] ?? this.blank(this.describe(node))]);
+    return { ...Object.fromEntries(made), ...(fields.length ? {} : example) };
+  }
+}
+
+function range(node) {
+  return {
+    lowest: node.minimum ?? node.exclusiveMinimum,
+    highest: node.maximum ?? node.exclusiveMaximum,
+    whole: node.type === "integer",
+  };
+}
+
+// a new item beside others is like the last one, under a name that is free
+export function another(items) {
+  const made = structuredClone(items.at(-1));
+  if (typeof made?.name !== "string") return made;
+  const taken = new Set(items.map((item) => item.name));
+  const stem = /\d$/.test(made.name) ? made.name.replace(/\d+$/, "") : `${made.name} `;
+  let number = items.length + 1;
+  while (taken.has(`${stem}${number}`)) number += 1;
+  made.name = `${stem}${number}`;
+  return made;
+}

@@ -1,0 +1,27 @@
+"""Requests that are refused before anybody looks at what they ask."""
+
+from collections.abc import Sequence
+
+
+class Unauthorized(Exception):
+    """There is no key, or it is wrong; ``wrong`` says which."""
+
+    def __init__(self, wrong: bool) -> None:
+        self.wrong = wrong
+        super().__init__(
+            "The key is wrong or has expired." if wrong else "Send a key as Authorization: Bearer, or as X-API-Key."
+        )
+
+
+class Forbidden(Exception):
+    """The key does not allow this."""
+
+    def __init__(self, scopes: Sequence[str]) -> None:
+        super().__init__(f"This needs a key with the scope {' or '.join(scopes)}.")
+
+
+class TooManyConnections(Exception):
+    """As many connections as are allowed are open; a retry may help."""
+
+    def __init__(self, most: int) -> None:
+        super().__init__(f"{most} connections are open already; try again later.")

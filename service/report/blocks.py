@@ -1,0 +1,153 @@
+"""What a document is made of: chapters of paragraphs, tables, figures and listings.
+
+Chapters build these blocks; HTML and PDF are written from the same blocks, so that they say the same.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal, NamedTuple
+
+from service.report.drawing import Drawing
+
+
+class Run(NamedTuple):
+    """A stretch of text: on the line, raised or lowered."""
+
+    text: str
+    level: Literal["base", "sup", "sub"] = "base"
+
+
+_MAX_SHORT = 16
+#: text with raised and lowered parts, as formulas have
+Formula = tuple[Run, ...]
+
+
+@dataclass(frozen=True)
+class Number:
+    """A figure of the answer: its value, and the digits that are shown."""
+
+    value: float
+    text: str
+
+
+Cell = str | Number | Formula
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """Sentences."""
+
+    text: str
+    tone: Literal["plain", "key", "warning"] = "plain"
+
+
+@dataclass(frozen=True)
+class Equation:
+    """A formula on a line of its own."""
+
+    formula: Formula
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of a table."""
+
+    title: str
+    numeric: bool = False
+    wide: bool = False
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; without column titles it is a list of names and values."""
+
+    title: str
+    columns: tuple[Column, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    headed: bool = True
+
+    @property
+    def short(self) -> bool:
+        """Whether the table stays on one page."""
+        return len(self.rows) <= _MAX_SHORT
+
+
+@dataclass(frozen=True)
+class Figure:
+    """Drawings side by side, and what they show."""
+
+    drawings: tuple[Drawing, ...]
+    caption: str
+
+
+@dataclass(frozen=True)
+class Listing:
+    """Text as it is, in a fixed pitch."""
+
+    text: str
+
+
+Block = Paragraph | Equation | Table | Figure | Listing
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """A chapter."""
+
+    title: str
+    blocks: tuple[Block, ...]
+
+
+@dataclass(frozen=True)
+class Attachment:
+    """A file that goes with the document."""
+
+    name: str
+    content: str
+
+
+@dataclass(frozen=True)
+class Document:
+    """A document.
+
+    head : names and values under the title.
+    date : ISO 8601, UTC.
+    """
+
+    title: str
+    subject: str
+    date: str
+    status: Literal["optimal", "inaccurate", "infeasible"]
+    head: Table
+    chapters: tuple[Chapter, ...]
+    attachment: Attachment
+
+
+def number(value: float | None) -> Cell:
+    """A figure to six digits; a dash where there is none."""
+    return "–" if value is None else Number(value, digits(value))
+
+
+def digits(value: float) -> str:
+    """Six significant digits; the integer part is never cut below a thousand million."""
+    if 1e5 <= abs(value) < 1e9:
+        return f"{value:.0f}"
+    return f"{value + 0.0:.6g}"
+
+
+def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Cell | float | None]]) -> Table:
+    """A table. A title that begins with ``#`` heads numbers, one with ``<`` text that takes the room left."""
+    heads = tuple(
+        Column(column.lstrip("#<"), numeric=column.startswith("#"), wide=column.startswith("<")) for column in columns
+    )
+    return Table(title, heads, tuple(tuple(_cell(cell) for cell in row) for row in rows))
+
+
+def facts(title: str, rows: Sequence[tuple[str, Cell | float | None]]) -> Table:
+    """Names and values."""
+    columns = (Column(""), Column("", wide=True))
+    return Table(title, columns, tuple((name, _cell(value)) for name, value in rows), headed=False)
+
+
+def _cell(cell: Cell | float | None) -> Cell:
+    return number(cell) if cell is None or isinstance(cell, int | float) else cell

@@ -1,0 +1,233 @@
+"""What was found: layout, stages, counterweights, first order before and after, orders."""
+
+from collections.abc import Iterator, Sequence
+
+from optimizer.formulate import span
+from schemas.answers import Counterweight, FirstOrder, OptimizeAnswer
+from schemas.base import FieldProblem
+from schemas.outputs import OrdersComparison, Stage
+from schemas.requests import OptimizeRequest
+from service.report import charts
+from service.report.blocks import (
+    Block,
+    Chapter,
+    Equation,
+    Figure,
+    Paragraph,
+    number,
+    table,
+)
+from service.report.formula import formula
+from service.report.front import front
+from service.report.side import side
+from service.validation import pointer
+
+_FIRST_ORDER = (
+    ("peak force, N", "force", "peak_N"),
+    ("smallest force over the turn, N", "force", "minor_N"),
+    ("direction of the peak force, deg", "force", "major_axis_deg"),
+    ("peak force along x, N", "force", "peak_x_N"),
+    ("peak force along y, N", "force", "peak_y_N"),
+    ("turning with the shaft |f|, N", "force", "co_rotating_N"),
+    ("turning against the shaft |b|, N", "force", "counter_rotating_N"),
+    ("peak moment, N m", "moment", "peak_Nm"),
+    ("smallest moment over the turn, N m", "moment", "minor_Nm"),
+    ("direction of the peak moment, deg", "moment", "major_axis_deg"),
+    ("peak moment in the x plane, N m", "moment", "peak_x_Nm"),
+    ("peak moment in the y plane, N m", "moment", "peak_y_Nm"),
+    ("turning with the shaft |f|, N m", "moment", "co_rotating_Nm"),
+    ("turning against the shaft |b|, N m", "moment", "counter_rotating_Nm"),
+)
+_LIMITS = {
+    "max_mass": "largest mass",
+    "sector": "sector",
+    "max_total_mass": "largest total mass",
+    "force_ceiling": "ceiling of the force",
+    "moment_ceiling": "ceiling of the moment",
+}
+#: the hodographs reach at least to this share of force and moment without counterweights taken together
+_VISIBLE = 1e-3
+_VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
+
+
+def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder | None]:
+    """Counterweights to show and what they leave; of an infeasible request the best compromise."""
+    if answer.infeasibility is not None:
+        closest = answer.infeasibility.closest
+        return closest.counterweights, closest.first_order
+    return answer.counterweights, answer.residual.after
+
+
+def which(answer: OptimizeAnswer) -> str:
+    """What the counterweights are that :func:`shown` gives."""
+    return "best compromise" if answer.infeasibility is not None else "with counterweights"
+
+
+def layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+    """The machine with its counterweights, drawn."""
+    fitted, _ = shown(answer)
+    what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
+    return Chapter(
+        "Layout",
+        (
+            Figure(
+                (front(request.machine, fitted),),
+                "Front view from +z at shaft angle 0, to scale: cranks black, row axes dash-dotted, "
+                f"{what} blue with their centres of mass as dots, angles that a web allows as green arcs. Areas of "
+                "counterweights are in proportion to their masses; their real shape is a matter of design.",
+            ),
+            Figure(
+                (side(request.machine, fitted, answer.reference_plane_m),),
+                "Side view along the shaft, heights along the direction of the first crank, width of a counterweight "
+                "after its mass; the reference plane of the moments green and dash-dotted. The scales along and "
+                "across the shaft differ.",
+            ),
+        ),
+    )
+
+
+def stages(found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:
+    """The eight balancing stages, or what the machine lacks for them."""
+    title = "The eight balancing stages"
+    if found is None:
+        fields = "; ".join(f"{pointer(path)}: {message}" for path, message in missing[:5])
+        return Chapter(title, (Paragraph(f"Not computed, because the machine does not give what they need. {fields}"),))
+    values = table(
+        "Values without counterweights, and what the counterweights leave",
+        ["stage", "<subject", "#value", "#remaining", "unit", "can be balanced"],
+        [(one.stage, one.title, one.value, one.remaining, one.unit, _VERDICT[one.balanceable]) for one in found],
+    )
+    where = table(
+        "Direction and frequency",
+        ["stage", "<plane", "frequency"],
+        [(one.stage, one.plane, one.frequency) for one in found],
+    )
+    formulas = table(
+        "Formulas, with d the angle of a crank, g that of a row axis, and sums over all masses",
+        ["stage", "<quantity", "<formula"],
+        [(one.stage, one.quantity, formula(one.formula)) for one in found],
+    )
+    return Chapter(title, (values, where, formulas, *_rules(found)))
+
+
+def _rules(found: Sequence[Stage]) -> Iterator[Block]:
+    rows = [
+        (one.stage, rule.name, rule.total_mass_radius_kg_m, rule.peak, one.unit)
+        for one in found
+        for rule in one.rules_of_thumb
+    ]
+    if rows:
+        heads = ["stage", "<rule of thumb", "#mass times radius, kg m", "#peak that it leaves", "unit"]
+        yield table("Customary partial balances, for comparison", heads, rows)
+
+
+def counterweights(answer: OptimizeAnswer) -> Chapter:
+    """One row for each web."""
+    fitted, _ = shown(answer)
+    blocks: list[Block] = []
+    if answer.infeasibility is not None:
+        blocks.append(Paragraph("These are the counterweights of the best compromise, not an answer.", "warning"))
+    if not fitted:
+        blocks.append(Paragraph("There are none."))
+        return Chapter("Counterweights", tuple(blocks))
+    blocks.append(
+        Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
+    )
+    blocks.append(
+        table(
+            "",
+            ["web", "#mass, kg", "#angle, deg", "#mass times radius, kg m", "#x, kg m", "#y, kg m", "limits reached"],
+            [
+                (
+                    one.web, one.mass_kg, one.angle_deg, one.mass_radius_kg_m, one.x_kg_m, one.y_kg_m,
+                    limits(one.active_limits) or "none",
+                )
+                for one in fitted
+            ],
+        )
+    )  # fmt: skip
+    return Chapter("Counterweights", (*blocks, *_prices(answer)))
+
+
+def _prices(answer: OptimizeAnswer) -> Iterator[Block]:
+    """What the limits cost."""
+    if answer.shadow_prices:
+        yield Paragraph(
+            "A shadow price says by how much the smallest objective falls per unit by which a limit is raised, the "
+            "others kept. The objective is taken as a force, which is to say divided by the weight of the force, or as "
+            "a moment where the force has no weight; a sector is opened to both sides. What the certificate cannot "
+            "tell from 0 is given as 0."
+        )
+        yield table(
+            "Shadow prices of the limits",
+            ["limit", "web", "#fall of the objective", "unit"],
+            [(limits([one.limit]), one.web, one.value, one.unit) for one in answer.shadow_prices],
+        )
+    elif answer.certificate is not None:
+        yield Paragraph("No limit holds the objective up: all shadow prices are 0.")
+
+
+def limits(names: Sequence[str]) -> str:
+    """Limits in words."""
+    return ", ".join(_LIMITS[name] for name in names)
+
+
+def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+    """First-order force and moment: ellipses as figures and as hodographs."""
+    was, (_, left) = answer.residual.before, shown(answer)
+    floors = {"peak_N": answer.floor.force_N, "peak_Nm": answer.floor.moment_Nm}
+    rows = [
+        (
+            title,
+            getattr(getattr(was, vector), name),
+            getattr(getattr(left, vector), name) if left else None,
+            number(floors[name]) if name in floors else "",
+        )
+        for title, vector, name in _FIRST_ORDER
+    ]
+    name = f"{which(answer)}: peak"
+    force, moment = was.force, was.moment
+    forces = [charts.before(force.peak_N, force.minor_N, force.major_axis_deg)]
+    moments = [charts.before(moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg)]
+    if left is not None:
+        force, moment = left.force, left.moment
+        forces.append(charts.after(name, force.peak_N, force.minor_N, force.major_axis_deg))
+        moments.append(charts.after(name, moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg))
+    length = float(span(request.machine)) or 1.0
+    reach = _VISIBLE * (was.force.peak_N + was.moment.peak_Nm / length)
+    forces.append(charts.floor(answer.floor.force_N))
+    moments.append(charts.floor(answer.floor.moment_Nm))
+    return Chapter(
+        "First order before and after",
+        (
+            Equation(formula("F(theta) = f e^{j s theta} + b e^{-j s theta},   peak |f| + |b|,   floor |b|")),
+            table("", ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"], rows),
+            Figure(
+                (
+                    charts.hodograph("force", "N", forces, reach),
+                    charts.hodograph("moment", "N m", moments, reach * length),
+                ),
+                "Hodographs: the tips of first-order force and moment run along these ellipses once a turn. No "
+                "counterweight on the shaft brings a peak below the floor circle. Moments are couples in the plane of "
+                "the forces about the reference plane.",
+            ),
+        ),
+    )
+
+
+def orders(found: OrdersComparison) -> Chapter:
+    """Forces and moments by multiples of the shaft speed."""
+    left = {one.order: one for one in found.after or ()}
+    rows = [
+        (
+            str(one.order),
+            one.force.peak_N,
+            left[one.order].force.peak_N if left else None,
+            one.moment.peak_Nm,
+            left[one.order].moment.peak_Nm if left else None,
+        )
+        for one in found.before
+    ]
+    heads = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
+    words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
+    return Chapter("Orders", (Paragraph(words), table("", heads, rows)))

@@ -1,0 +1,264 @@
+"""Effects over the turn: motion, gas, forces in the mechanism, torque, flywheel, main bearings."""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from typing import TypeVar
+
+from schemas.answers import Outputs
+from schemas.dynamics import (
+    BearingLoad,
+    Flywheel,
+    Gas,
+    Kinematics,
+    MainBearings,
+    Overturning,
+    PistonForce,
+    RodLoads,
+    RowSeries,
+    Torque,
+)
+from schemas.machine import Machine
+from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, facts, table
+from service.report.chapters.inputs import row_name
+from service.report.charts import MAX_LINES, Line, chart, over_turn
+from service.report.formula import formula
+
+Row = TypeVar("Row", bound=RowSeries)
+
+_CASES = {"running": "running", "no_load": "no load", "sudden_stop": "sudden stop"}
+#: rows whose piston forces are drawn part by part
+_MAX_APART = 4
+_SIGNS = "Forces are positive in rod tension, torques against rotation."
+
+
+def dynamics(machine: Machine, answer: Outputs) -> Iterator[Chapter]:
+    """A chapter for every output over the turn that was asked for."""
+    if answer.kinematics is not None:
+        yield _kinematics(machine, answer.kinematics)
+    if answer.gas is not None:
+        yield _gas(machine, answer.gas)
+    if answer.piston_force is not None:
+        yield _piston_force(machine, answer.piston_force)
+    if answer.rod_loads is not None:
+        yield _rod_loads(machine, answer.rod_loads)
+    if answer.torque is not None:
+        yield _torque(machine, answer.torque)
+    if answer.flywheel is not None:
+        yield _flywheel(answer.flywheel)
+    if answer.overturning is not None:
+        yield _overturning(machine, answer.overturning)
+    if answer.main_bearings is not None:
+        yield from _main_bearings(answer.main_bearings)
+
+
+def figure(title: str, unit: str, angle_deg: Sequence[float], lines: Sequence[Line], caption: str) -> Figure:
+    """Lines over the turn; of too many, those with the largest values."""
+    if len(lines) > MAX_LINES:
+        largest = sorted(lines, key=lambda line: -max(abs(value or 0.0) for value in line.values))[:MAX_LINES]
+        caption += f" Drawn are the {MAX_LINES} of {len(lines)} with the largest values."
+        lines = [line for line in lines if line in largest]
+    return Figure((over_turn(title, unit, angle_deg, lines),), caption)
+
+
+def _lines(machine: Machine, rows: Sequence[Row], values: Callable[[Row], Sequence[float]]) -> list[Line]:
+    return [Line(row_name(machine, row.throw, row.row), values(row)) for row in rows]
+
+
+def _kinematics(machine: Machine, found: Kinematics) -> Chapter:
+    rows = [
+        (
+            row_name(machine, row.throw, row.row),
+            max(row.displacement_m),
+            max(map(abs, row.velocity_m_s)),
+            max(row.acceleration_m_s2),
+            min(row.acceleration_m_s2),
+        )
+        for row in found.rows
+    ]
+    heads = [
+        "row", "#largest displacement, m", "#largest speed, m/s", "#largest acceleration, m/s2",
+        "#smallest acceleration, m/s2",
+    ]  # fmt: skip
+    series: tuple[tuple[str, str, list[Line]], ...] = (
+        ("displacement from outer dead centre", "m", _lines(machine, found.rows, lambda row: row.displacement_m)),
+        ("velocity towards the shaft", "m/s", _lines(machine, found.rows, lambda row: row.velocity_m_s)),
+        ("acceleration towards the shaft", "m/s²", _lines(machine, found.rows, lambda row: row.acceleration_m_s2)),
+    )
+    figures = [figure(title, unit, found.angle_deg, lines, f"{title.capitalize()}.") for title, unit, lines in series]
+    return Chapter("Motion", (table("Extremes among the samples", heads, rows), *figures))
+
+
+def _gas(machine: Machine, found: Gas) -> Chapter:
+    chambers = [
+        (
+            row_name(machine, row.throw, row.row),
+            chamber.side,
+            chamber.suction_opens_deg,
+            chamber.discharge_opens_deg,
+            chamber.indicated_work_J,
+        )
+        for row in found.rows
+        for chamber in row.chambers
+    ]
+    pressures = [
+        Line(f"{row_name(machine, row.throw, row.row)} {chamber.side}", chamber.pressure_Pa)
+        for row in found.rows
+        for chamber in row.chambers
+    ]
+    powers = [(row_name(machine, row.throw, row.row), row.indicated_power_W) for row in found.rows]
+    forces = _lines(machine, found.rows, lambda row: row.force_N)
+    heads = ["row", "side", "#suction opens, deg", "#discharge opens, deg", "#indicated work a turn, J"]
+    return Chapter(
+        "Gas",
+        (
+            table("Chambers, angles from the row's own outer dead centre", heads, chambers),
+            table(
+                "Indicated power",
+                ["row", "#indicated power, W"],
+                [*powers, ("machine", found.indicated_power_W)],
+            ),
+            figure("pressure", "Pa", found.angle_deg, pressures, "Absolute pressure in the chambers."),
+            figure("gas force", "N", found.angle_deg, forces, f"Gas force on the pistons. {_SIGNS}"),
+        ),
+    )
+
+
+def _piston_force(machine: Machine, found: PistonForce) -> Chapter:
+    rows = [(row_name(machine, row.throw, row.row), row.peak_tension_N, row.peak_compression_N) for row in found.rows]
+    total = _lines(machine, found.rows, lambda row: row.total_N)
+    figures = [figure("piston force", "N", found.angle_deg, total, f"Sum of gas, inertia and friction. {_SIGNS}")]
+    for row in found.rows if len(found.rows) <= _MAX_APART else ():
+        name = row_name(machine, row.throw, row.row)
+        parts = [
+            Line("gas", row.gas_N),
+            Line("inertia", row.inertia_N),
+            Line("friction", row.friction_N),
+            Line("sum", row.total_N),
+        ]
+        figures.append(figure(f"row {name}", "N", found.angle_deg, parts, f"Forces on the piston of row {name}."))
+    heads = ["row", "#largest, N", "#smallest, N"]
+    return Chapter("Piston forces", (table("Extremes among the samples", heads, rows), *figures))
+
+
+def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
+    cases = [
+        (
+            row_name(machine, row.throw, row.row),
+            _CASES[case.case] + (" (governs)" if case.case == row.governing_case else ""),
+            case.tension_N,
+            case.tension_deg,
+            case.compression_N,
+            case.compression_deg,
+        )
+        for row in found.rows
+        for case in row.cases
+    ]
+    heads = ["row", "load case", "#tension, N", "#at, deg", "#compression, N", "#at, deg"]
+    series: tuple[tuple[str, str, list[Line]], ...] = (
+        ("rod force", "Force in the connecting rods.", _lines(machine, found.rows, lambda row: row.rod_N)),
+        ("side force", "Force on the crosshead guides.", _lines(machine, found.rows, lambda row: row.side_N)),
+        ("tangential force", "Tangential force on the crank pins.",
+         _lines(machine, found.rows, lambda row: row.tangential_N)),
+        ("radial force", "Radial force on the crank pins.", _lines(machine, found.rows, lambda row: row.radial_N)),
+    )  # fmt: skip
+    return Chapter(
+        "Rod loads",
+        (
+            facts("", [("largest rod force of the machine, N", found.governing_load_N)]),
+            table("Rod force by load case, at shaft angles among the samples", heads, cases),
+            *(figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}") for title, caption, lines in series),
+        ),
+    )
+
+
+def _torque(machine: Machine, found: Torque) -> Chapter:
+    rows = [(row_name(machine, row.throw, row.row), row.mean_torque_Nm) for row in found.rows]
+    lines = [
+        Line("machine", found.torque_Nm),
+        Line("mean", [found.mean_torque_Nm] * len(found.angle_deg)),
+        *(_lines(machine, found.rows, lambda row: row.torque_Nm) if len(found.rows) <= MAX_LINES - 2 else ()),
+    ]
+    return Chapter(
+        "Torque",
+        (
+            Equation(formula("T_m = 1/(2π) ∫ T dθ,   P = T_m omega,   ΔE = range of ∫ (T - T_m) dθ over the turn")),
+            facts(
+                "",
+                [
+                    ("mean torque, N m", found.mean_torque_Nm),
+                    ("estimate of its error, N m", found.mean_torque_error_Nm),
+                    ("rotating friction, N m", found.rotating_friction_Nm),
+                    ("largest torque among the samples, N m", max(found.torque_Nm)),
+                    ("smallest torque among the samples, N m", min(found.torque_Nm)),
+                    ("indicated power, W", found.indicated_power_W),
+                    ("friction power, W", found.friction_power_W),
+                    ("shaft power, W", found.shaft_power_W),
+                    ("fluctuation energy ΔE, J", found.fluctuation_energy_J),
+                    ("estimate of its error, J", found.fluctuation_energy_error_J),
+                ],
+            ),
+            table("Mean torque of the rows", ["row", "#mean torque, N m"], rows),
+            figure("torque", "N m", found.angle_deg, lines, f"Torque of the shaft. {_SIGNS}"),
+        ),
+    )
+
+
+def _flywheel(found: Flywheel) -> Chapter:
+    rows: list[tuple[str, float | str]] = [
+        ("fluctuation energy ΔE, J", found.fluctuation_energy_J),
+        ("irregularity δ", found.irregularity),
+        ("polar moment of inertia J of all that turns, kg m2", found.inertia_J_kg_m2),
+        ("MD2 = 4 J, kg m2", found.inertia_MD2_kg_m2),
+    ]
+    return Chapter("Flywheel", (Equation(formula("J = ΔE/(omega^2 delta)")), facts("", rows)))
+
+
+def _overturning(machine: Machine, found: Overturning) -> Chapter:
+    lines = [Line("machine", found.couple_Nm)]
+    if 1 < len(found.rows) < MAX_LINES:
+        lines += _lines(machine, found.rows, lambda row: row.couple_Nm)
+    words = "Side forces of the crossheads turn the frame with the rotation; the couple equals the torque of the rows."
+    return Chapter(
+        "Overturning couple",
+        (
+            Paragraph(words),
+            facts("", [("largest couple among the samples, N m", found.peak_Nm)]),
+            figure("overturning couple", "N m", found.angle_deg, lines, "Overturning couple on the frame."),
+        ),
+    )
+
+
+def _main_bearings(found: MainBearings) -> Iterator[Chapter]:
+    rows = [
+        (
+            one.name,
+            one.position_m,
+            one.before.peak_N,
+            one.before.peak_angle_deg,
+            one.after.peak_N if one.after else None,
+            one.after.peak_angle_deg if one.after else None,
+        )
+        for one in found.bearings
+    ]
+    heads = [
+        "bearing", "#plane z, m", "#peak without counterweights, N", "#at, deg", "#peak with counterweights, N",
+        "#at, deg",
+    ]  # fmt: skip
+    shaft = {"simple_spans": "every span simply supported", "continuous": "a continuous shaft on rigid bearings"}
+    lines = [Line(f"{one.name}", _magnitude(one.after or one.before)) for one in found.bearings]
+    which = "with counterweights" if any(one.after for one in found.bearings) else "without counterweights"
+    bending = [Line("without counterweights", found.bending.before_Nm)]
+    if found.bending.after_Nm is not None:
+        bending.append(Line("with counterweights", found.bending.after_Nm))
+    drawn = chart("bending moment", "N m", "plane along the shaft z, m", found.bending.position_m, bending)
+    blocks: list[Block] = [
+        Paragraph(f"Taken as {shaft[found.shaft]}; loads from rows, rotating masses and counterweights."),
+        table("Peaks among the samples", heads, rows),
+        figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
+        Figure((drawn,), "Largest bending moment inside the shaft over the turn, plane by plane."),
+    ]
+    yield Chapter("Main bearings", tuple(blocks))
+
+
+def _magnitude(load: BearingLoad) -> list[float]:
+    return list(map(math.hypot, load.force_x_N, load.force_y_N))

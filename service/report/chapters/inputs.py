@@ -1,0 +1,241 @@
+"""What was asked: the machine, the places for counterweights, the objective."""
+
+from collections.abc import Iterator
+
+from optimizer.formulate import span, weights
+from schemas.cylinder import Cylinder
+from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw
+from schemas.over_turn import ForceTable, TorqueTable
+from schemas.requests import OptimizeRequest
+from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
+
+_ACTING = {"double": "both sides", "head": "head side", "crank": "crank side"}
+
+
+def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
+    """Everything that the request says, in SI units, defaults filled in."""
+    machine = request.machine
+    blocks: list[Block] = []
+    if machine.description:
+        blocks.append(Paragraph(machine.description))
+    blocks.append(_general(machine, reference_plane_m))
+    if isinstance(machine, ReciprocatingMachine):
+        blocks += _reciprocating(machine)
+    else:
+        blocks.append(_scroll(machine))
+    blocks += [_webs(machine), _objective(request)]
+    return Chapter("Inputs", tuple(blocks))
+
+
+def _general(machine: Machine, reference_plane_m: float) -> Table:
+    given = machine.reference_plane_m is not None
+    return facts(
+        "Machine",
+        [
+            ("kind", machine.kind),
+            ("speed, rpm", machine.speed_rpm),
+            ("sense of rotation, seen from +z", machine.rotation),
+            ("reference plane of the moments z, m", reference_plane_m),
+            ("reference plane", "as given" if given else "midway between the outermost throws"),
+            ("axial span of throws and webs, m", float(span(machine))),
+            ("largest total mass of counterweights, kg", _limit(machine.max_total_mass_kg)),
+        ],
+    )
+
+
+def _limit(value: float | None) -> Cell | float:
+    return "no limit" if value is None else value
+
+
+def throw_name(throw: Throw, number: int) -> str:
+    return throw.name or str(number + 1)
+
+
+def row_name(machine: Machine, throw: int, row: int) -> str:
+    """A row as the charts and tables call it: its name, with that of its throw where names repeat."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return "ring"
+    names = [each.name for one in machine.throws for each in one.rows]
+    name = machine.throws[throw].rows[row].name
+    if name is not None and names.count(name) == 1:
+        return name
+    return f"{throw_name(machine.throws[throw], throw)}-{name or row + 1}"
+
+
+def _reciprocating(machine: ReciprocatingMachine) -> Iterator[Block]:
+    yield table(
+        "Throws",
+        ["throw", "#plane z, m", "#crank radius, m", "#crank angle, deg", "#rotating mass, kg"],
+        [
+            (throw_name(one, number), one.position_m, one.crank_radius_m, one.crank_angle_deg, one.rotating_mass_kg)
+            for number, one in enumerate(machine.throws)
+        ],
+    )
+    rows = [
+        (throw_name(throw, t), row_name(machine, t, r), throw.position_m + row.offset_m, row)
+        for t, throw in enumerate(machine.throws)
+        for r, row in enumerate(throw.rows)
+    ]
+    if rows:
+        yield table(
+            "Rows",
+            [
+                "throw", "row", "#plane z, m", "#axis, deg", "#reciprocating mass, kg", "#rod length, m",
+                "#rod mass, kg", "#share reciprocating",
+            ],
+            [
+                (throw, name, plane, row.axis_deg, row.reciprocating_mass_kg, *_rod(row))
+                for throw, name, plane, row in rows
+            ],
+        )  # fmt: skip
+    cylinders = [(name, row.cylinder) for _, name, _, row in rows if row.cylinder is not None]
+    if cylinders:
+        yield from _cylinders(cylinders)
+    yield from _drive(machine)
+
+
+def _rod(row: Row) -> tuple[Cell | float | None, float | None, float | None]:
+    rod = row.connecting_rod
+    if rod is None:
+        return None, None, None
+    return "infinite" if rod.length_m is None else rod.length_m, rod.mass_kg, rod.reciprocating_share
+
+
+def _cylinders(cylinders: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+    yield table(
+        "Cylinders",
+        [
+            "row", "acting", "#bore, m", "#piston rod, m", "#head area, m2", "#crank area, m2",
+            "#ambient pressure, Pa",
+        ],
+        [
+            (
+                name, _ACTING[one.acting], one.bore_m, one.piston_rod_diameter_m, one.head_area_m2, one.crank_area_m2,
+                one.ambient_pressure_Pa,
+            )
+            for name, one in cylinders
+        ],
+    )  # fmt: skip
+    states = [
+        (name, side, state)
+        for name, one in cylinders
+        for side, state in (("both", one), ("head", one.head), ("crank", one.crank))
+        if state is not None
+    ]
+    yield table(
+        "Gas",
+        [
+            "row", "side", "#suction, Pa", "#discharge, Pa", "#relative clearance", "#expansion exponent",
+            "#compression exponent",
+        ],
+        [
+            (
+                name, side, state.suction_pressure_Pa, state.discharge_pressure_Pa, state.relative_clearance,
+                state.expansion_exponent, state.compression_exponent,
+            )
+            for name, side, state in states
+        ],
+    )  # fmt: skip
+
+
+def _drive(machine: ReciprocatingMachine) -> Iterator[Block]:
+    friction, flywheel = machine.friction, machine.flywheel
+    rows: list[tuple[str, Cell | float | None]] = []
+    if friction is not None:
+        rows += [
+            ("mechanical efficiency", friction.mechanical_efficiency),
+            ("share of the losses in the rows", friction.reciprocating_share),
+            ("indicated power of the rows, W", _list(friction.indicated_power_W)),
+            ("friction force of the rows, N", _list(friction.reciprocating_force_N)),
+            ("friction torque of the shaft, N m", friction.rotating_torque_Nm),
+        ]
+    if flywheel is not None:
+        rows += [("irregularity allowed", flywheel.irregularity), ("turning inertia, kg m2", flywheel.inertia_kg_m2)]
+    given = [row for row in rows if row[1] is not None]
+    if given:
+        yield facts("Friction and flywheel", given)
+    if machine.bearings:
+        rows_of = [(bearing.name, bearing.position_m) for bearing in machine.bearings]
+        yield table("Main bearings", ["bearing", "#plane z, m"], rows_of)
+
+
+def _list(values: tuple[float, ...] | None) -> str | None:
+    return None if values is None else ", ".join(map(digits, values))
+
+
+def _scroll(machine: ScrollMachine) -> Table:
+    guide = machine.anti_rotation
+    rows: list[tuple[str, Cell | float | None]] = [
+        ("orbit radius, m", machine.orbit_radius_m),
+        ("orbiting mass, kg", machine.orbiting_mass_kg),
+        ("plane of the orbiting scroll z, m", machine.orbiting_position_m),
+    ]
+    if guide.type == "oldham":
+        rows += [
+            ("anti-rotation", "Oldham ring"),
+            ("mass of the ring, kg", guide.mass_kg),
+            ("direction in which the ring slides, deg", guide.axis_deg),
+            ("plane of the ring z, m", guide.position_m),
+        ]
+    else:
+        rows += [
+            ("anti-rotation", "crank pins"),
+            ("number of pins", guide.count),
+            ("pin circle radius, m", guide.pin_circle_radius_m),
+            ("eccentric mass of one pin, kg", guide.eccentric_mass_kg),
+            ("plane of the pins z, m", guide.position_m),
+        ]
+    torque, force = machine.rotation_torque_Nm, machine.tangential_gas_force_N
+    if torque is not None:
+        rows.append(("rotation torque, N m", _over_turn(torque)))
+    if force is not None:
+        rows.append(("tangential gas force, N", _over_turn(force)))
+    return facts("Scroll", rows)
+
+
+def _over_turn(value: float | TorqueTable | ForceTable) -> Cell | float:
+    if isinstance(value, float | int):
+        return value
+    values = value.torque_Nm if isinstance(value, TorqueTable) else value.force_N
+    return f"table of {len(values)} angles, {digits(min(values))} to {digits(max(values))}"
+
+
+def _webs(machine: Machine) -> Block:
+    if not machine.webs:
+        return Paragraph("The machine has no place for counterweights.", "warning")
+    return table(
+        "Places for counterweights",
+        [
+            "web", "#plane z, m", "#radius of the centre of mass, m", "#largest mass, kg", "#sector centre, deg",
+            "#sector half angle, deg",
+        ],
+        [
+            (
+                web.name, web.position_m, web.counterweight_radius_m, web.max_mass_kg,
+                *(("any angle", "") if web.sector is None else (web.sector.centre_deg, web.sector.half_angle_deg)),
+            )
+            for web in machine.webs
+        ],
+    )  # fmt: skip
+
+
+def _objective(request: OptimizeRequest) -> Table:
+    goal, wanted = request.objective, weights(request.machine, request.objective)
+    combined = {
+        "sum": "smallest weighted sum of peak force and peak moment",
+        "max": "smallest larger one of weighted peak force and weighted peak moment",
+    }
+    return facts(
+        "Objective",
+        [
+            ("aim", combined[goal.combine]),
+            ("weight of the peak force, 1/N", float(wanted["force"])),
+            ("weight of the peak moment, 1/(N m)", float(wanted["moment"])),
+            ("weight of components along x", goal.direction_weights.x),
+            ("weight of components along y", goal.direction_weights.y),
+            ("ceiling of the peak force, N", "none" if goal.force_ceiling_N is None else goal.force_ceiling_N),
+            ("ceiling of the peak moment, N m", "none" if goal.moment_ceiling_Nm is None else goal.moment_ceiling_Nm),
+            ("among all optima", "the lightest" if goal.least_mass else "any"),
+            ("relative gap asked for", request.accuracy.relative_gap),
+        ],
+    )

@@ -1,0 +1,101 @@
+"""What was simulated and why, and all that it takes to compute the report again."""
+
+import hashlib
+import json
+from collections.abc import Iterator, Mapping
+from importlib.metadata import version
+from typing import Any
+
+from optimizer.effects.registry import EFFECTS
+from schemas.answers import EffectUse
+from schemas.requests import OptimizeRequest
+from service.report.blocks import Chapter, Listing, Paragraph, table
+
+#: characters of a line of the listing
+_LINE = 118
+_PACKAGES = ("counterweight", "numpy", "scipy", "clarabel", "cvxpy")
+
+
+def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
+    """Every effect, whether it was simulated and for what."""
+    rows = [
+        (
+            name.replace("_", " "),
+            EFFECTS[name].meaning,
+            "yes" if use.simulated else "no",
+            ", ".join(use.needed_by) or None,
+        )
+        for name, use in uses.items()
+    ]
+    words = (
+        f"Asked for: {', '.join(asked)}. Only the effects that these need were simulated; the first order of force and "
+        "moment needs nothing but masses and geometry."
+    )
+    heads = ["effect", "<what it simulates", "simulated", "<for"]
+    return Chapter("Which effects were simulated", (Paragraph(words), table("", heads, rows)))
+
+
+def versions() -> dict[str, str]:
+    """Versions of the package and of what it computes with."""
+    return {name: version(name) for name in _PACKAGES}
+
+
+def request_json(request: OptimizeRequest) -> str:
+    """The request as it was read: SI units, defaults filled in, sorted keys, ASCII only."""
+    return "\n".join(_lines(request.model_dump(mode="json"), _LINE))
+
+
+def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:
+    """A value as lines of JSON: what fits on a line is not broken up, what is broken up fills its lines.
+
+    Parameters
+    ----------
+    before : characters that go before the first line.
+    """
+    whole = json.dumps(value, sort_keys=True)
+    if before + len(whole) <= room or not value or not isinstance(value, dict | list):
+        yield whole
+        return
+    if isinstance(value, dict):
+        start, end, items = "{", "}", [(f"{json.dumps(key)}: ", value[key]) for key in sorted(value)]
+    else:
+        start, end, items = "[", "]", [("", each) for each in value]
+    yield start
+    filled = ""
+    for index, (name, each) in enumerate(items):
+        first, *more = _lines(each, room - 1, len(name) + 1)
+        lines = [f" {name}{first}", *(f" {line}" for line in more)]
+        lines[-1] += "," if index < len(items) - 1 else ""
+        if filled and (more or len(filled) + len(lines[0]) > room):
+            yield filled
+            filled = ""
+        if more:
+            yield from lines
+        else:
+            filled += lines[0]
+    if filled:
+        yield filled
+    yield end
+
+
+def digest(request: OptimizeRequest) -> str:
+    """SHA-256 of the request as JSON without blanks, keys sorted, ASCII only."""
+    content = json.dumps(request.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+    return hashlib.sha256(content.encode()).hexdigest()
+
+
+def appendix(request: OptimizeRequest) -> Chapter:
+    """The request and its digest."""
+    words = (
+        "This request, posted to /v1/report or given to the command counterweight report, makes this document again; "
+        "posted to /v1/optimize it answers the same figures as JSON. It is the request as it was read: numbers in SI "
+        "units, defaults filled in."
+    )
+    check = (
+        "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "
+        'hashlib.sha256(json.dumps(request, sort_keys=True, separators=(",", ":")).encode()).hexdigest():'
+    )
+    return Chapter(
+        "Appendix: request",
+        (Paragraph(words), Paragraph(check), Listing(digest(request)), Listing(request_json(request))),
+    )

@@ -1,0 +1,133 @@
+"""The verdict: the answer in plain words and a few figures, and its proof."""
+
+from collections.abc import Iterator
+
+from schemas.answers import Certificate, Infeasibility, OptimizeAnswer
+from schemas.requests import OptimizeRequest
+from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
+from service.report.chapters.balance import limits, shown, which
+from service.report.formula import formula
+
+_CEILINGS = {"force_ceiling_N": "the ceiling of the force", "moment_ceiling_Nm": "the ceiling of the moment"}
+
+
+def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+    """The answer in plain words and a few figures."""
+    was, (_, left) = answer.residual.before, shown(answer)
+    if answer.infeasibility is not None:
+        words: list[Block] = list(_refusal(request, answer.infeasibility))
+    else:
+        words = [_certified(request, answer)]
+    rows = [
+        ("peak force, N", was.force.peak_N, left.force.peak_N if left else None, answer.floor.force_N),
+        ("peak moment, N m", was.moment.peak_Nm, left.moment.peak_Nm if left else None, answer.floor.moment_Nm),
+    ]
+    heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
+    figures = table("First-order peaks over a turn", heads, rows)
+    return Chapter("Result", (*words, figures, *_total(answer)))
+
+
+def _total(answer: OptimizeAnswer) -> Iterator[Block]:
+    if answer.total_mass_kg is not None:
+        rows: list[tuple[str, float | str]] = [("total mass of the counterweights, kg", answer.total_mass_kg)]
+        if answer.active_limits:
+            rows.append(("limits of the machine reached", limits(answer.active_limits)))
+        yield facts("", rows)
+
+
+def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
+    proof = answer.certificate
+    assert proof is not None  # only an infeasible answer has none
+    if not request.machine.webs:
+        return Paragraph("The machine has no place for counterweights, so that nothing can be chosen.", "key")
+    if answer.status == "inaccurate":
+        return Paragraph(
+            "Not certified to the accuracy asked for. The counterweights below keep the limits; how far they may be "
+            f"from the best ones is proven: by at most {_percent(proof.relative_gap)} of the objective without "
+            f"counterweights, where {_percent(request.accuracy.relative_gap)} was asked for. See the certificate.",
+            "warning",
+        )
+    return Paragraph(
+        "Optimal, and proven so: no counterweights within these limits can do better than an objective of "
+        f"{digits(proof.lower_bound)}; those below reach {digits(proof.objective)}. The difference is "
+        f"{_percent(proof.relative_gap)} of the objective without counterweights.",
+        "key",
+    )
+
+
+def _percent(share: float) -> str:
+    return "less than 0.00001 %" if 0 < share < 1e-7 else f"{100 * share:.2g} %"
+
+
+def _refusal(request: OptimizeRequest, why: Infeasibility) -> Iterator[Block]:
+    names = " and ".join(_CEILINGS[name] for name in why.conflict)
+    together = "cannot be met together" if len(why.conflict) > 1 else "cannot be met"
+    yield Paragraph(
+        f"Infeasible, and proven so: {names} {together} by any counterweights within the limits of the webs. There is "
+        "therefore no answer; what follows shows the best compromise, whose largest excess over the ceilings is "
+        "smallest.",
+        "warning",
+    )
+    goal, closest = request.objective, why.closest.first_order
+    yield table(
+        "What can be reached",
+        ["case", "#peak force, N", "#peak moment, N m"],
+        [
+            ("ceiling", goal.force_ceiling_N, goal.moment_ceiling_Nm),
+            ("smallest, the other left free", why.smallest_force_N, why.smallest_moment_Nm),
+            ("certified not below", why.smallest_force_lower_bound_N, why.smallest_moment_lower_bound_Nm),
+            ("best compromise", closest.force.peak_N, closest.moment.peak_Nm),
+        ],
+    )
+
+
+def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter:
+    """The proof, in plain words and in figures."""
+    title = "Certificate"
+    if proof is None:
+        assert why is not None  # an answer without a certificate is infeasible
+        return Chapter(
+            title,
+            (
+                Paragraph(
+                    "That no counterweights satisfy the ceilings is proven by a lower bound in closed form on the "
+                    "smallest possible excess over them, which is above zero. The smallest peaks that can be reached, "
+                    "each with the other left free, are certified in the same way: the force is never below "
+                    f"{digits(why.smallest_force_lower_bound_N)} N and the moment never below "
+                    f"{digits(why.smallest_moment_lower_bound_Nm)} N m."
+                ),
+            ),
+        )
+    words = (
+        f"Without counterweights the objective is {digits(proof.objective_without_counterweights)}. The counterweights "
+        f"bring it to {digits(proof.objective)}, recomputed from their masses and angles. A lower bound in closed form "
+        f"shows that no counterweights within these limits bring it below {digits(proof.lower_bound)}: whatever "
+        f"else is tried, it gains at most {_percent(proof.relative_gap)} of the objective without counterweights."
+    )
+    blocks: list[Block] = [Paragraph(words), _bound()]
+    rows: list[tuple[str, float | str | None]] = [
+        ("objective without counterweights", proof.objective_without_counterweights),
+        ("objective", proof.objective),
+        ("lower bound", proof.lower_bound),
+        ("gap", proof.gap),
+        ("relative gap", proof.relative_gap),
+    ]
+    if proof.mass_lower_bound_kg is not None:
+        blocks.append(
+            Paragraph(
+                f"Among all counterweights that reach this objective, none weigh less than "
+                f"{digits(proof.mass_lower_bound_kg)} kg together, by the same kind of bound."
+            )
+        )
+        rows += [
+            ("lower bound of the total mass, kg", proof.mass_lower_bound_kg),
+            ("relative gap of the mass", proof.mass_relative_gap),
+        ]
+    rows.append(("found by", proof.method))
+    return Chapter(title, (*blocks, facts("", rows)))
+
+
+def _bound() -> Equation:
+    """docs/mathematics.md section 5."""
+    runs: Formula = formula("P(u) >= sum lambda_r (floor_r + sum Re(y_j* a_j(u))) = const + sum Re(w_k* u_k)")
+    return Equation((*runs, Run(",   |y"), Run("j", "sub"), Run("| ≤ 1, λ ≥ 0, Σ λ = 1")))

@@ -1,0 +1,219 @@
+"""Charts: lines over the turn or along the shaft, and hodographs."""
+
+import math
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from service.report.blocks import digits
+from service.report.drawing import (
+    AFTER,
+    BEFORE,
+    DASHES,
+    FAINT,
+    INK,
+    MUTED,
+    PAGE_WIDTH,
+    SERIES,
+    Drawing,
+    Point,
+    shortened,
+)
+
+#: more lines than this cannot be told apart
+MAX_LINES = len(SERIES)
+#: points of a line that can be told apart on paper
+_BINS = 720
+#: an ellipse smaller than this is marked by a circle of this radius, px
+_DOT = 2.5
+#: smallest value that a prefix is used for, factor and prefix
+_PREFIXES = ((1e10, 1e9, "G"), (1e7, 1e6, "M"), (1e4, 1e3, "k"))
+_TURN = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0)
+
+
+class Line(NamedTuple):
+    """One line of a chart; it is broken where it has no value."""
+
+    name: str
+    values: Sequence[float | None]
+
+
+class Ellipse(NamedTuple):
+    """An ellipse about the origin, as the answers give it; or a circle."""
+
+    name: str
+    major: float
+    minor: float
+    axis_deg: float
+    stroke: str
+    width: float
+    dash: str | None = None
+
+
+class _Scale(NamedTuple):
+    """From values to px."""
+
+    low: float
+    high: float
+    start: float
+    end: float
+
+    def __call__(self, value: float) -> float:
+        return self.start + (value - self.low) / (self.high - self.low) * (self.end - self.start)
+
+
+def over_turn(title: str, unit: str, angle_deg: Sequence[float], lines: Sequence[Line]) -> Drawing:
+    """Lines over one turn of the shaft; the samples go on at 360 degrees as they began."""
+    closed = [Line(line.name, [*line.values, line.values[0]]) for line in lines]
+    return chart(title, unit, "shaft angle, deg", [*angle_deg, 360.0], closed, _TURN)
+
+
+def chart(
+    title: str,
+    unit: str,
+    across: str,
+    places: Sequence[float],
+    lines: Sequence[Line],
+    ticks: Sequence[float] | None = None,
+) -> Drawing:
+    """Lines over places on one axis.
+
+    Parameters
+    ----------
+    ticks : marks of the axis across; chosen if not given.
+    """
+    longest = max(len(line.name) for line in lines)
+    beside = 4 if longest <= 20 else 2
+    rows = -(-len(lines) // beside) if len(lines) > 1 else 0
+    top, left = 24.0 + 16.0 * rows, 66.0
+    drawing = Drawing(PAGE_WIDTH, top + 190.0, f"{title}: {', '.join(line.name for line in lines)}")
+    found = [value for line in lines for value in line.values if value is not None]
+    factor, prefix = _prefix(max(map(abs, found), default=0.0))
+    low, high, steps = _axis(min(found, default=0.0) / factor, max(found, default=0.0) / factor)
+    bottom = top + 150.0
+    x = _Scale(*_ends(places, ticks), left, PAGE_WIDTH - 14.0)
+    y = _Scale(low, high, bottom, top)
+    for value in steps:
+        drawing.line([(left, y(value)), (x.end, y(value))], INK if value == 0 else FAINT, 0.8)
+        drawing.text((left - 6, y(value) + 3.5), _tick(value), "end", 10)
+    for value in ticks or _axis(x.low, x.high)[2]:
+        if x.low <= value <= x.high:
+            drawing.line([(x(value), top), (x(value), bottom + 4)], FAINT, 0.8)
+            drawing.text((x(value), bottom + 16), _tick(value), "middle", 10)
+    drawing.line([(left, top), (left, bottom), (x.end, bottom)], MUTED, 0.8)
+    drawing.text((left, 12), f"{title}, {prefix}{unit}", size=11)
+    drawing.text((x.end, bottom + 32), across, "end", 10, MUTED)
+    for index, line in enumerate(lines):
+        stroke, dash = SERIES[index % MAX_LINES], DASHES[index % MAX_LINES]
+        for points in _pieces(places, line.values):
+            drawing.line([(x(place), y(value / factor)) for place, value in points], stroke, 1.5, dash)
+        if rows:
+            place = left + (index % beside) * 568.0 / beside, 27.0 + 16.0 * (index // beside)
+            drawing.line([place, (place[0] + 22, place[1])], stroke, 1.5, dash)
+            drawing.text((place[0] + 27, place[1] + 3.5), shortened(line.name, 80 // beside), size=10)
+    return drawing
+
+
+def hodograph(title: str, unit: str, ellipses: Sequence[Ellipse], least: float = 0.0) -> Drawing:
+    """Ellipses that the tip of a vector runs along, on equal scales.
+
+    Parameters
+    ----------
+    least : the drawing reaches at least so far, so that what is nothing beside it looks like nothing.
+    """
+    width = PAGE_WIDTH / 2 - 6
+    drawing = Drawing(width, width + 46, f"hodograph of {title}: {', '.join(one.name for one in ellipses)}")
+    largest = max([one.major for one in ellipses] + [least])
+    factor, prefix = _prefix(largest)
+    low, high, steps = _axis(-largest / factor, largest / factor, 8)
+    x, y = _Scale(low, high, 42, width - 8), _Scale(low, high, width - 38, 12)
+    for value in steps:
+        stroke = MUTED if value == 0 else FAINT
+        drawing.line([(x(low), y(value)), (x(high), y(value))], stroke, 0.8)
+        drawing.line([(x(value), y(low)), (x(value), y(high))], stroke, 0.8)
+        drawing.text((x(low) - 4, y(value) + 3.5), _tick(value), "end", 9)
+        drawing.text((x(value), y(low) + 12), _tick(value), "middle", 9)
+    drawing.text((x(high), y(low) + 24), f"{title} x, {prefix}{unit}", "end", 9, MUTED)
+    drawing.text((9, y(high)), f"{title} y, {prefix}{unit}", "end", 9, MUTED, turned=True)
+    for index, one in enumerate(ellipses):
+        points = [(x(a / factor), y(b / factor)) for a, b in _ellipse(one)]
+        if one.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT:
+            drawing.circle(points[0], _DOT, one.stroke)
+        drawing.line(points, one.stroke, one.width, one.dash)
+        place = 42.0, width + 2 + 16 * index
+        drawing.line([place, (place[0] + 22, place[1])], one.stroke, one.width, one.dash)
+        drawing.text((place[0] + 27, place[1] + 3.5), f"{one.name} {digits(one.major)} {unit}", size=10)
+    return drawing
+
+
+def before(peak: float, minor: float, axis_deg: float) -> Ellipse:
+    return Ellipse("without counterweights: peak", peak, minor, axis_deg, BEFORE, 1.4, "7 3")
+
+
+def after(name: str, peak: float, minor: float, axis_deg: float) -> Ellipse:
+    return Ellipse(name, peak, minor, axis_deg, AFTER, 2.0)
+
+
+def floor(radius: float) -> Ellipse:
+    return Ellipse("floor", radius, radius, 0.0, INK, 1.0, "2 2")
+
+
+def _ellipse(one: Ellipse) -> list[Point]:
+    turn = complex(math.cos(math.radians(one.axis_deg)), math.sin(math.radians(one.axis_deg)))
+    found = []
+    for step in range(181):
+        angle = math.radians(2 * step)
+        tip = complex(one.major * math.cos(angle), one.minor * math.sin(angle)) * turn
+        found.append((tip.real, tip.imag))
+    return found
+
+
+def _prefix(largest: float) -> tuple[float, str]:
+    return next(((factor, prefix) for least, factor, prefix in _PREFIXES if largest >= least), (1.0, ""))
+
+
+def _axis(low: float, high: float, parts: int = 5) -> tuple[float, float, list[float]]:
+    """Ends and marks of an axis: round numbers around the values, 0 among them."""
+    low, high = min(low, 0.0), max(high, 0.0)
+    if high - low < 1e-200:
+        low, high = -1.0, 1.0
+    step = _round_step((high - low) / parts)
+    first, last = math.floor(low / step + 1e-9), math.ceil(high / step - 1e-9)
+    return first * step, last * step, [mark * step for mark in range(first, last + 1)]
+
+
+def _round_step(rough: float) -> float:
+    power = 10.0 ** math.floor(math.log10(rough))
+    return next(each * power for each in (1.0, 2.0, 2.5, 5.0, 10.0) if each * power >= rough * (1 - 1e-9))
+
+
+def _ends(places: Sequence[float], ticks: Sequence[float] | None) -> tuple[float, float]:
+    if ticks is not None:
+        return ticks[0], ticks[-1]
+    low, high = min(places, default=0.0), max(places, default=0.0)
+    room = 0.03 * (high - low) or 1.0
+    return low - room, high + room
+
+
+def _pieces(places: Sequence[float], values: Sequence[float | None]) -> list[list[Point]]:
+    """The stretches that have values, thinned to the lowest and highest of every few."""
+    pieces: list[list[Point]] = [[]]
+    for place, value in zip(places, values, strict=True):
+        if value is None:
+            pieces.append([])
+        else:
+            pieces[-1].append((place, value))
+    return [_thinned(piece) for piece in pieces if len(piece) > 1]
+
+
+def _thinned(points: list[Point]) -> list[Point]:
+    if len(points) <= 2 * _BINS:
+        return points
+    kept = []
+    for index in range(_BINS):
+        bin_ = points[index * len(points) // _BINS : (index + 1) * len(points) // _BINS]
+        kept += sorted({min(bin_, key=lambda point: point[1]), max(bin_, key=lambda point: point[1])})
+    return [points[0], *kept, points[-1]]
+
+
+def _tick(value: float) -> str:
+    return f"{value + 0.0:.6g}".replace("-", "−") if abs(value) > 1e-300 else "0"

@@ -1,0 +1,98 @@
+"""From a request to its document: the answer of the service, chapter by chapter."""
+
+from collections.abc import Iterator
+from datetime import UTC, datetime
+
+from optimizer.effects.registry import require_inputs
+from optimizer.errors import MissingInput
+from optimizer.optimize import optimize
+from schemas.answers import OptimizeAnswer
+from schemas.base import FieldProblem
+from schemas.requests import OptimizeRequest
+from service.report.blocks import Attachment, Chapter, Document, facts
+from service.report.chapters import balance, inputs, reproduction, verdict
+from service.report.chapters.dynamics import dynamics
+from service.report.chapters.pins import pin_loads
+
+_STATUS = {
+    "optimal": "optimal, certified",
+    "inaccurate": "not certified to the accuracy asked for",
+    "infeasible": "infeasible",
+}
+
+
+def report(request: OptimizeRequest, at: datetime | None = None) -> Document:
+    """The report on a machine: what was asked, what was found, and the proof.
+
+    The eight balancing stages are in it wherever the machine gives what they need, the other outputs as asked for.
+
+    Parameters
+    ----------
+    at : time that the document bears; now if not given. Nothing else in it changes from one time to the next.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what a requested output needs.
+    """
+    full, missing = _with_stages(request)
+    return document(request, optimize(full), missing, at or datetime.now(UTC))
+
+
+def _with_stages(request: OptimizeRequest) -> tuple[OptimizeRequest, tuple[FieldProblem, ...]]:
+    if "stages" in request.outputs:
+        return request, ()
+    try:
+        require_inputs(request.machine, ("stages",))
+    except MissingInput as error:
+        return request, tuple(error.problems)
+    return request.model_copy(update={"outputs": (*request.outputs, "stages")}), ()
+
+
+def document(
+    request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...], at: datetime
+) -> Document:
+    """The document that says what an answer says.
+
+    Parameters
+    ----------
+    missing : what the machine lacks for the eight stages, where the answer does not hold them.
+    at : time that the document bears.
+    """
+    date = at.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
+    used = ", ".join(f"{name} {version}" for name, version in reproduction.versions().items())
+    head = facts(
+        "",
+        [
+            ("status", _STATUS[answer.status]),
+            ("date", date),
+            ("computed with", used),
+            ("digest of the request", reproduction.digest(request)),
+        ],
+    )
+    return Document(
+        title=request.machine.name or "Machine without a name",
+        subject="Counterweights: report",
+        date=date,
+        status=answer.status,
+        head=head,
+        chapters=tuple(_chapters(request, answer, missing)),
+        attachment=Attachment("request.json", reproduction.request_json(request)),
+    )
+
+
+def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...]) -> Iterator[Chapter]:
+    yield verdict.result(request, answer)
+    yield inputs.inputs(request, answer.reference_plane_m)
+    yield balance.layout(request, answer)
+    yield balance.stages(answer.stages, missing)
+    yield balance.counterweights(answer)
+    yield balance.before_and_after(request, answer)
+    yield verdict.certificate(answer.certificate, answer.infeasibility)
+    if answer.orders is not None:
+        yield balance.orders(answer.orders)
+    yield from dynamics(request.machine, answer)
+    if answer.pin_loads is not None:
+        yield pin_loads(answer.pin_loads)
+    yield reproduction.effects(answer.effects, request.outputs)
+    yield reproduction.appendix(request)

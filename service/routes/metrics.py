@@ -1,0 +1,24 @@
+"""Metrics for Prometheus."""
+
+from anyio import to_thread
+from fastapi import APIRouter
+from prometheus_client import CONTENT_TYPE_LATEST
+from starlette.requests import Request
+from starlette.responses import Response
+
+from service.openapi import problems
+
+router = APIRouter(tags=["health"])
+
+
+@router.get(
+    "/metrics",
+    operation_id="metrics",
+    summary="Metrics for Prometheus",
+    response_class=Response,
+    responses={200: {"description": "text format of Prometheus", "content": {"text/plain": {}}}, **problems()},
+)
+async def metrics(request: Request) -> Response:
+    """Requests, times of computations by method, certified gaps, queue, workers, jobs and their rows."""
+    content = await to_thread.run_sync(request.app.state.metrics.exposition)
+    return Response(content, media_type=CONTENT_TYPE_LATEST)

@@ -1,0 +1,292 @@
+"""Worker processes: started when needed, ended when their client is gone or their time is over, replaced when dead."""
+
+import logging
+import multiprocessing
+from collections.abc import Callable
+from contextlib import nullcontext, suppress
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from typing import Any, TypeVar
+
+from anyio import CancelScope, CapacityLimiter, fail_after, get_cancelled_exc_class, move_on_after, to_thread
+from anyio import wait_readable as readable
+
+from service.workers.worker import Crashed, Outcome, Task, serve
+
+_LOG = logging.getLogger(__name__)
+#: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
+_PRELOAD = ["service.workers.preload", "service.cli"]
+#: a request whose client is gone may end within this time, which is cheaper than another worker
+_GRACE_S = 0.1
+#: what a connection takes without waiting for its reader
+_AT_ONCE_BYTES = 32_000
+_MB = 1_000_000
+
+Result = TypeVar("Result")
+
+
+class WorkersFailed(Exception):
+    """No worker can compute; the message says why."""
+
+
+class WorkerDied(Exception):
+    """The worker died while it computed, more than once; a retry may help."""
+
+
+class TooSlow(Exception):
+    """The request was not answered in time; ``computing`` says whether its computation had begun."""
+
+    def __init__(self, seconds: float, computing: bool) -> None:
+        self.computing = computing
+        super().__init__(
+            f"The computation was not finished within {seconds:g} s."
+            if computing
+            else f"No computation could begin within {seconds:g} s."
+        )
+
+
+class Busy(Exception):
+    """As many requests as are allowed are waiting; a retry helps after ``retry_after_s``."""
+
+    def __init__(self, waiting: int, retry_after_s: int) -> None:
+        self.retry_after_s = retry_after_s
+        super().__init__(f"{waiting} requests are waiting already; try again later.")
+
+
+@dataclass
+class PoolCounts:
+    """What happened so far."""
+
+    started: int = 0
+    died: int = 0
+    ended_late: int = 0
+    ended_gone: int = 0
+    refused_busy: int = 0
+
+
+class _Dead(Exception):
+    """The other end of a connection is closed."""
+
+
+class _Worker:
+    def __init__(self, memory_bytes: int) -> None:
+        context = multiprocessing.get_context("forkserver")
+        ours, theirs = context.Pipe()
+        self._connection: Connection = ours
+        self._process: BaseProcess = context.Process(
+            target=serve, args=(theirs, memory_bytes), name="solver", daemon=True
+        )
+        try:
+            self._process.start()
+            theirs.close()
+            failure = self.receive()
+        except _Dead:
+            self.end()
+            raise WorkersFailed("a worker died at its start") from None
+        if failure is not None:
+            self.end()
+            raise WorkersFailed(str(failure))
+
+    @property
+    def pid(self) -> int:
+        return self._process.pid or 0
+
+    def alive(self) -> bool:
+        return self._process.is_alive()
+
+    def send(self, task: Task) -> None:
+        try:
+            self._connection.send(task)
+        except OSError as error:
+            raise _Dead from error
+
+    async def answered(self) -> None:
+        await readable(self._connection)
+
+    def receive(self) -> Any:
+        try:
+            return self._connection.recv()
+        except (EOFError, OSError) as error:
+            raise _Dead from error
+
+    def kill(self) -> None:
+        """Kill it; who waits for its answer is told that it is dead."""
+        with suppress(OSError, ValueError):
+            self._process.kill()
+
+    def end(self) -> None:
+        """Kill it; nobody may be waiting for its answer."""
+        self.kill()
+        with suppress(OSError, ValueError):
+            self._process.join(5)
+        self._connection.close()
+
+
+@dataclass
+class Pool:
+    """So many computations at a time, each in a process.
+
+    Parameters
+    ----------
+    size : computations at a time.
+    waiting : requests that may wait for one.
+    timeout_s : for waiting and computing [s].
+    memory_mb : of one worker [MB].
+    """
+
+    size: int
+    waiting: int
+    timeout_s: float
+    memory_mb: int
+    counts: PoolCounts = field(default_factory=PoolCounts)
+
+    def __post_init__(self) -> None:
+        self._slots = CapacityLimiter(self.size)
+        # tasks that take seconds never take every worker, if there are two at least
+        self._long = CapacityLimiter(max(1, self.size // 2))
+        self._threads = CapacityLimiter(2 * self.size)
+        self._idle: list[_Worker] = []
+        self._busy: set[_Worker] = set()
+        # of recent computations, for Retry-After [s]
+        self._typical_s = 0.1
+        self._closed = False
+
+    @property
+    def running(self) -> int:
+        return len(self._busy)
+
+    @property
+    def queued(self) -> int:
+        return self._slots.statistics().tasks_waiting + self._long.statistics().tasks_waiting
+
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """Process ids of the workers."""
+        return tuple(worker.pid for worker in (*self._idle, *self._busy))
+
+    def open(self) -> None:
+        """Load the optimiser and start every worker; this takes seconds. Without it they start when needed.
+
+        Raises
+        ------
+        WorkersFailed
+        """
+        while len(self._idle) < self.size and not self._closed:
+            self._idle.append(self._start())
+
+    def close(self) -> None:
+        """End every worker; what is computed or waits comes to :class:`WorkersFailed`."""
+        self._closed = True
+        for worker in self._busy:
+            worker.kill()
+        while self._idle:
+            self._idle.pop().end()
+
+    async def run(self, task: Task) -> Outcome:
+        """The outcome of a task; if the caller is cancelled, its worker is ended.
+
+        Raises
+        ------
+        Busy, TooSlow, WorkerDied, WorkersFailed
+        """
+        gate = self._long if task.long else nullcontext()
+        full = self._slots.available_tokens < 1 or (task.long and self._long.available_tokens < 1)
+        if full and self.queued >= self.waiting:
+            self.counts.refused_busy += 1
+            raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size)))
+        computing = False
+        try:
+            with fail_after(self.timeout_s):
+                async with gate, self._slots:
+                    computing = True
+                    return await self._computed(task)
+        except TimeoutError:
+            self.counts.ended_late += 1
+            raise TooSlow(self.timeout_s, computing) from None
+
+    async def _computed(self, task: Task) -> Outcome:
+        # the second one is new: the first may have died long before, and the next idle one with it
+        for take in (self._free, self._fresh):
+            worker = await take()
+            self._busy.add(worker)
+            try:
+                outcome = await self._asked(worker, task)
+            except _Dead:
+                if not self._closed:
+                    _LOG.warning("a worker died while it computed")
+                    self.counts.died += 1
+                await self._in_thread(worker.end)
+            except Exception:
+                # nobody knows what it would say next
+                await self._in_thread(worker.end)
+                raise
+            else:
+                await self._keep(worker, outcome)
+                return outcome
+            finally:
+                self._busy.discard(worker)
+        raise WorkerDied("The process that computed this died; try again later.")
+
+    async def _asked(self, worker: _Worker, task: Task) -> Outcome:
+        answering = False
+        try:
+            if len(task.body) < _AT_ONCE_BYTES:
+                worker.send(task)
+            else:
+                await self._in_thread(worker.send, task)
+            await worker.answered()
+            answering = True
+            return await self._in_thread(worker.receive)
+        except get_cancelled_exc_class():
+            with CancelScope(shield=True):
+                await self._abandon(worker, 0.0 if answering else _GRACE_S)
+            raise
+
+    async def _abandon(self, worker: _Worker, grace_s: float) -> None:
+        with suppress(_Dead, OSError), move_on_after(grace_s):
+            await worker.answered()
+            await self._in_thread(worker.receive)
+            self._idle.append(worker)
+            return
+        self.counts.ended_gone += 1
+        await self._in_thread(worker.end)
+
+    async def _free(self) -> _Worker:
+        while self._idle:
+            worker = self._idle.pop()
+            if worker.alive():
+                return worker
+            _LOG.warning("a worker died while it was idle")
+            self.counts.died += 1
+            await self._in_thread(worker.end)
+        return await self._fresh()
+
+    async def _fresh(self) -> _Worker:
+        # shielded: a worker that starts while its client leaves must not get lost
+        with CancelScope(shield=True):
+            started = await self._in_thread(self._start)
+        return started  # noqa: RET504 - the scope may swallow an exception, says the type checker
+
+    def _start(self) -> _Worker:
+        if not self._closed:
+            multiprocessing.set_forkserver_preload(_PRELOAD)
+            worker = _Worker(self.memory_mb * _MB)
+            self.counts.started += 1
+            if not self._closed:
+                return worker
+            worker.end()
+        raise WorkersFailed("The service ends.")
+
+    async def _keep(self, worker: _Worker, outcome: Outcome) -> None:
+        resident = getattr(outcome, "resident", 0)
+        if isinstance(outcome, Crashed) or resident > self.memory_mb * _MB / 2 or len(self._idle) >= self.size:
+            # fresh ones hold no more than they need, and there are no more of them than needed
+            await self._in_thread(worker.end)
+        else:
+            self._idle.append(worker)
+        self._typical_s += 0.1 * (getattr(outcome, "seconds", self._typical_s) - self._typical_s)
+
+    async def _in_thread(self, work: Callable[..., Result], *given: object) -> Result:
+        # whoever leaves a thread behind ends its worker, and with it the thread
+        return await to_thread.run_sync(work, *given, limiter=self._threads, abandon_on_cancel=True)

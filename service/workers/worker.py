@@ -1,0 +1,154 @@
+"""What runs in a worker: bytes of a request in, bytes of an answer out, one after the other."""
+
+import gc
+import os
+import resource
+import signal
+import sys
+import time
+import traceback
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from optimizer.errors import MissingInput
+from optimizer.rating.errors import OutOfRange
+from schemas.base import Model
+from service.size_limits import SizeLimits
+from service.validation import InvalidRequest, UnreadableJson, check, read_json
+
+#: below the event loop, above the workers of sweeps
+_NICENESS = 5
+#: faults of the request; anything else is a fault of the service
+REFUSALS = (UnreadableJson, InvalidRequest, MissingInput, OutOfRange)
+
+
+class OutOfMemory(Exception):
+    """The computation needs more memory than it is given."""
+
+
+@dataclass(frozen=True)
+class Task:
+    """A request and what to do with it; ``compute`` is found by name in the worker, ``long`` takes seconds."""
+
+    model: type[Model]
+    compute: Callable[..., Model | bytes]
+    body: bytes
+    limits: SizeLimits
+    long: bool = False
+
+
+@dataclass(frozen=True)
+class Certified:
+    """How an optimum was found: method, seconds, certified relative gap."""
+
+    method: str
+    solve_s: float
+    relative_gap: float
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What a task came to.
+
+    content : JSON, or a document as it is.
+    seconds : time of the whole computation.
+    resident : memory that the worker holds now [bytes].
+    """
+
+    content: bytes
+    seconds: float
+    certified: Certified | None
+    resident: int
+
+
+@dataclass(frozen=True)
+class Refused:
+    """The request is at fault: an exception, in parts, as many an exception cannot be made from its message alone."""
+
+    kind: type[Exception]
+    args: tuple[object, ...]
+    fields: Mapping[str, object]
+
+    @classmethod
+    def because(cls, error: Exception) -> "Refused":
+        return cls(type(error), error.args, vars(error))
+
+    @property
+    def error(self) -> Exception:
+        made = self.kind.__new__(self.kind, *self.args)
+        vars(made).update(self.fields)
+        return made
+
+
+@dataclass(frozen=True)
+class Crashed:
+    """The service is at fault; the traceback without messages, which may quote the request, and the messages."""
+
+    trace: str
+    message: str
+
+
+Outcome = Answer | Refused | Crashed
+
+
+def serve(connection: Connection, memory_bytes: int) -> None:
+    """Answer tasks until the service ends."""
+    signal.signal(signal.SIGTERM, signal.SIG_IGN)
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.nice(_NICENESS)
+    # private writable memory: what is shared with the process this was forked from does not move
+    resource.setrlimit(resource.RLIMIT_DATA, (memory_bytes, memory_bytes))
+    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    # collecting would touch, and so copy, everything that is shared
+    gc.freeze()
+    preload = sys.modules.get("service.workers.preload")
+    try:
+        connection.send(getattr(preload, "failure", None))
+        while True:
+            task: Task = connection.recv()
+            outcome: Outcome = perform(task)
+            del task
+            connection.send(outcome)
+    except (EOFError, BrokenPipeError, ConnectionResetError):
+        return
+
+
+def perform(task: Task) -> Outcome:
+    """The outcome of a task; nothing escapes."""
+    begun = time.perf_counter()
+    try:
+        asked = check(task.model, read_json(task.body))
+        task.limits.require(asked)
+        found = task.compute(asked)
+        content = found if isinstance(found, bytes) else found.model_dump_json().encode()
+        return Answer(content, time.perf_counter() - begun, _certified(found), _resident())
+    except REFUSALS as error:
+        return Refused.because(error)
+    except MemoryError:
+        return Refused.because(OutOfMemory("The computation needs more memory than one request is given."))
+    except Exception as error:
+        return Crashed("\n".join(_frames(error)), str(error))
+
+
+def _frames(error: BaseException) -> Iterator[str]:
+    for frame in traceback.extract_tb(error.__traceback__):
+        yield f"{frame.filename}:{frame.lineno} in {frame.name}"
+    yield type(error).__qualname__
+
+
+def _certified(found: Model | bytes) -> Certified | None:
+    proof = getattr(found, "certificate", None)
+    timing = getattr(found, "timing", None)
+    if proof is None or timing is None:
+        return None
+    return Certified(proof.method, timing.solve_ms / 1000, proof.relative_gap)
+
+
+def _resident() -> int:
+    try:
+        pages = int(Path("/proc/self/statm").read_text().split()[1])
+    except OSError:
+        return 0
+    return pages * resource.getpagesize()

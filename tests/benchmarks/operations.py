@@ -1,0 +1,122 @@
+"""Operations of the interior point, counted: it runs interpreted, on numbers that count what is done to them."""
+
+import operator
+from collections.abc import Callable, Sequence
+from types import FunctionType, SimpleNamespace
+from typing import Any
+
+import numpy as np
+
+from optimizer.program import interior_point
+
+Operate = Callable[[Any, Any], Any]
+
+
+def _counting(operate: Operate) -> Callable[["Counted", Any], "Counted"]:
+    def operation(one: "Counted", other: Any) -> "Counted":
+        if isinstance(other, np.ndarray):
+            # numpy goes through the elements
+            return NotImplemented
+        Counted.done += 1
+        return Counted(operate(one.value, float(other)))
+
+    return operation
+
+
+def _swapped(operate: Operate) -> Operate:
+    return lambda one, other: operate(other, one)
+
+
+def _quotient(one: float, other: float) -> float:
+    """As compiled: infinite or not a number where a float would raise."""
+    return one / other if other else float(np.divide(one, other))
+
+
+def _comparing(compare: Operate) -> Callable[["Counted", Any], bool]:
+    return lambda one, other: bool(compare(one.value, float(other)))
+
+
+class Counted:
+    """A number that counts additions, multiplications, divisions and roots; of all numbers together."""
+
+    done = 0
+
+    def __init__(self, value: float) -> None:
+        self.value = float(value)
+
+    def __float__(self) -> float:
+        return self.value
+
+    __add__ = __radd__ = _counting(operator.add)
+    __mul__ = __rmul__ = _counting(operator.mul)
+    __sub__, __rsub__ = _counting(operator.sub), _counting(_swapped(operator.sub))
+    __truediv__, __rtruediv__ = _counting(_quotient), _counting(_swapped(_quotient))
+    __pow__ = _counting(operator.pow)
+    __lt__, __le__ = _comparing(operator.lt), _comparing(operator.le)
+    __gt__, __ge__ = _comparing(operator.gt), _comparing(operator.ge)
+
+    def __neg__(self) -> "Counted":
+        return Counted(-self.value)
+
+    def __abs__(self) -> "Counted":
+        return Counted(abs(self.value))
+
+    def sqrt(self) -> "Counted":
+        Counted.done += 1
+        return Counted(float(np.sqrt(self.value)))
+
+
+def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, float]:
+    """Operations of both stages, and iterations, for each program.
+
+    Parameters
+    ----------
+    calls : arguments of :func:`optimizer.program.interior_point.solve`.
+    """
+    space, iterations = _interpreted(), 0
+    scaling = space["scaling"]
+
+    def one_more(*arguments: Any) -> None:
+        nonlocal iterations
+        iterations += 1
+        scaling(*arguments)
+
+    space["scaling"] = one_more
+    Counted.done = programs = 0
+    with np.errstate(all="ignore"):
+        for data, *rest in calls:
+            space["solve"](data._make(map(_counted, data)), *rest)
+            programs += len(data.constant)
+    return Counted.done / programs, iterations / programs
+
+
+def _interpreted() -> dict[str, Any]:
+    """The compiled functions before compilation, on numbers that count."""
+    space: dict[str, Any] = {**vars(interior_point), "np": _numbers()}
+    for name, value in vars(interior_point).items():
+        if hasattr(value, "py_func"):
+            space[name] = FunctionType(value.py_func.__code__, space, name, value.py_func.__defaults__)
+    return space
+
+
+def _counted(values: Any) -> Any:
+    """The same array in numbers that count; whole numbers as they are."""
+    return values if values.dtype == np.int64 else np.vectorize(Counted, otypes=[object])(values)
+
+
+def _numbers() -> SimpleNamespace:
+    """What the compiled functions use of numpy."""
+
+    def zeros(shape: Any, dtype: Any = float) -> Any:
+        return _counted(np.zeros(shape, dtype))
+
+    return SimpleNamespace(
+        zeros=zeros,
+        empty=zeros,
+        ones=lambda shape: _counted(np.ones(shape)),
+        sqrt=lambda number: Counted(float(number)).sqrt(),
+        isfinite=lambda number: bool(np.isfinite(float(number))),
+        inf=np.inf,
+        max=max,
+        int64=np.int64,
+    )

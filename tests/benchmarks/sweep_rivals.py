@@ -1,0 +1,195 @@
+"""Other ways to solve both stages of a design, each as a good engineer would with that tool.
+
+Stage 1: minimise the sum of t_j subject to |constant_j + influence_j p| <= t_j, |p_k| <= 1.
+Stage 2: minimise mass @ f subject to the same with |p_k| <= f_k <= 1 and the sum of t_j at most the target.
+"""
+
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import clarabel
+import cvxpy as cp
+import numpy as np
+from scipy import sparse
+
+from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
+from optimizer.response import Complex, Real
+from tests.benchmarks.sweep_case import Program
+
+#: share of what optima may differ by that the second stage may use: solvers are exact to a tolerance only
+_USED = 0.9
+
+
+class Stages(NamedTuple):
+    """What both stages found: shares of the reach (K, 2), multipliers of the terms and of the target."""
+
+    smallest: Real
+    lightest: Real
+    smallest_terms: Complex
+    lightest_terms: Complex
+    price: float
+
+
+Method = Callable[[Program], Stages]
+
+
+class Gaps(NamedTuple):
+    """What the answer of a method is certified to."""
+
+    objective: float  # relative to the objective without counterweights
+    mass: float  # relative to the mass
+
+
+def gaps(program: Program, found: Stages) -> Gaps:
+    """Certified gaps of an answer, by the same closed-form bounds that our own answers are judged by."""
+    statement, none = program.statement, np.zeros(0, complex)
+    first, last = (program.unbalance(p) for p in (found.smallest, found.lightest))
+    bound = float(objective_lower_bound(statement, Multipliers(found.smallest_terms, np.ones(1), none)))
+    per_objective = program.mass_unit / program.unit
+    multipliers = Multipliers(found.lightest_terms * per_objective, np.array([found.price * per_objective]), none)
+    counted = max(float(statement.objective(first)), bound) + program.share * program.unit
+    mass, lightest = float(statement.mass(last)), float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
+    rest = float(statement.objective(np.zeros_like(last)))
+    return Gaps((float(statement.objective(last)) - bound) / rest, (mass - lightest) / mass if mass > 0 else 0.0)
+
+
+def _vectors(dual: Real) -> Complex:
+    """Multipliers of vectors (J, 2) in cones, as complex numbers."""
+    return -(dual[:, 0] + 1j * dual[:, 1])
+
+
+def target(value: float, program: Program) -> float:
+    """Largest value of an optimum."""
+    return value + _USED * program.share
+
+
+class _Built(NamedTuple):
+    """Both stages as cvxpy problems."""
+
+    first: cp.Problem
+    p: cp.Variable
+    terms: cp.Constraint
+    second: cp.Problem
+    p2: cp.Variable
+    terms2: cp.Constraint
+    budget: cp.Constraint
+
+    def found(self) -> Stages:
+        duals = [np.reshape(cone.dual_value[1].T, (-1, 2)) for cone in (self.terms, self.terms2)]
+        return Stages(self.p.value, self.p2.value, *map(_vectors, duals), float(self.budget.dual_value))
+
+
+def _build(constant: Any, influence: Any, mass: Any, most: Any, terms: int, webs: int) -> _Built:
+    p, t = cp.Variable((webs, 2)), cp.Variable(terms)
+    cone = cp.SOC(t, (constant + influence @ p).T, axis=0)
+    first = cp.Problem(cp.Minimize(cp.sum(t)), [cone, cp.norm(p, axis=1) <= 1])
+    p2, f, t2 = cp.Variable((webs, 2)), cp.Variable(webs), cp.Variable(terms)
+    cone2, budget = cp.SOC(t2, (constant + influence @ p2).T, axis=0), cp.sum(t2) <= most
+    second = cp.Problem(cp.Minimize(mass @ f), [cone2, budget, cp.norm(p2, axis=1) <= f, f <= 1])
+    return _Built(first, p, cone, second, p2, cone2, budget)
+
+
+def rebuilt(program: Program) -> Stages:
+    """(a) cvxpy, the problems written down anew for every design."""
+    most = cp.Constant(0.0)
+    data = program.constant, program.influence, program.mass
+    first = _build(*data, most, *program.influence.shape)
+    first.first.solve(cp.CLARABEL)
+    both = _build(*data, target(first.first.value, program), *program.influence.shape)
+    both.second.solve(cp.CLARABEL)
+    return both._replace(p=first.p, terms=first.terms).found()
+
+
+class Parametrised:
+    """(b) cvxpy, the problems compiled once with parameters (DPP)."""
+
+    def __init__(self, like: Program) -> None:
+        terms, webs = like.influence.shape
+        self._data = cp.Parameter((terms, 2)), cp.Parameter((terms, webs)), cp.Parameter(webs), cp.Parameter()
+        self._built = _build(*self._data, terms, webs)
+        assert self._built.first.is_dpp()
+        assert self._built.second.is_dpp()
+
+    def __call__(self, program: Program) -> Stages:
+        constant, influence, mass, most = self._data
+        constant.value, influence.value, mass.value = program.constant, program.influence, program.mass
+        self._built.first.solve(cp.CLARABEL)
+        most.value = target(self._built.first.value, program)
+        self._built.second.solve(cp.CLARABEL)
+        return self._built.found()
+
+
+class Prepared(NamedTuple):
+    """What changes of a design in the matrices of both stages."""
+
+    values: tuple[Real, Real]  # of the sparse matrices
+    sides: tuple[Real, Real]  # right sides, that of the second without its target
+    mass: Real  # costs of the second
+
+
+class Direct:
+    """(c) clarabel without a modelling layer: sparse matrices prepared beforehand, only their data updated.
+
+    clarabel solves A v + s = b with s in the cones.
+    """
+
+    def __init__(self, like: Program) -> None:
+        self._terms, self._webs = like.influence.shape
+        prepared = self.prepare(like)
+        costs = np.concatenate([np.zeros(2 * self._webs), np.ones(self._terms)]), prepared.mass
+        plane, settings = clarabel.SecondOrderConeT(3), clarabel.DefaultSettings()
+        settings.verbose = settings.presolve_enable = False
+        cones = (
+            [plane] * (self._webs + self._terms),
+            [clarabel.NonnegativeConeT(self._webs + 1), *[plane] * (self._webs + self._terms)],
+        )
+        self._solvers = [
+            clarabel.DefaultSolver(sparse.csc_matrix((cost.size, cost.size)), cost, matrix, side, cone, settings)
+            for cost, matrix, side, cone in zip(costs, self._matrices(like), prepared.sides, cones, strict=True)
+        ]
+
+    def prepare(self, program: Program) -> Prepared:
+        """The data of a design."""
+        terms, webs = self._terms, self._webs
+        constant = np.concatenate([np.zeros((terms, 1)), program.constant], axis=-1).ravel()
+        discs = np.tile([1.0, 0.0, 0.0], webs)
+        first = np.concatenate([discs, constant])
+        second = np.concatenate([np.ones(webs), [0.0], np.zeros(3 * webs), constant])
+        mass = np.concatenate([np.zeros(2 * webs), program.mass, np.zeros(terms)])
+        one, two = self._matrices(program)
+        return Prepared((one.data, two.data), (first, second), mass)
+
+    def _matrices(self, program: Program) -> tuple[sparse.csc_matrix, sparse.csc_matrix]:
+        """Variables p (x and y of each web in turn), f in the second stage, t."""
+        terms, webs = self._terms, self._webs
+        place = np.zeros((3 * webs, 2 * webs))
+        for k in range(webs):
+            place[3 * k + 1, 2 * k] = place[3 * k + 2, 2 * k + 1] = -1.0
+        vectors = np.zeros((3 * terms, 2 * webs))
+        vectors[1::3, 0::2] = vectors[2::3, 1::2] = -program.influence
+        sizes, fractions = np.zeros((3 * terms, terms)), np.zeros((3 * webs, webs))
+        sizes[::3], fractions[::3] = -np.eye(terms), -np.eye(webs)
+        first = np.block([[place, np.zeros((3 * webs, terms))], [vectors, sizes]])
+        second = np.block(
+            [
+                [np.zeros((webs, 2 * webs)), np.eye(webs), np.zeros((webs, terms))],
+                [np.zeros((1, 3 * webs)), np.ones((1, terms))],
+                [place, fractions, np.zeros((3 * webs, terms))],
+                [vectors, np.zeros((3 * terms, webs)), sizes],
+            ]
+        )
+        return sparse.csc_matrix(first), sparse.csc_matrix(second)
+
+    def solve(self, program: Program, prepared: Prepared) -> Stages:
+        """Both stages of a design."""
+        terms, webs = self._terms, self._webs
+        first, second = self._solvers
+        first.update(A=prepared.values[0], b=prepared.sides[0])
+        smallest = first.solve()
+        side = prepared.sides[1]
+        side[webs] = target(smallest.obj_val, program)
+        second.update(q=prepared.mass, A=prepared.values[1], b=side)
+        lightest = second.solve()
+        duals = [np.array(found.z[-3 * terms :]).reshape(-1, 3)[:, 1:] for found in (smallest, lightest)]
+        places = [np.array(found.x[: 2 * webs]).reshape(-1, 2) for found in (smallest, lightest)]
+        return Stages(*places, *map(_vectors, duals), lightest.z[webs])

@@ -1,0 +1,146 @@
+"""Where the time of a sweep goes, and how far the program is from what the core could do."""
+
+import time
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from importlib import import_module
+from typing import Any
+from unittest.mock import patch
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from optimizer.program import interior_point
+from schemas.sweep import SweepRequest
+from service.jobs.kinds import KINDS
+from tests.benchmarks.operations import operations_per_program
+
+_STAGES = "program, both stages"
+#: part of the work -> functions that do it; what they call belongs to the innermost part
+PARTS: dict[str, tuple[str, ...]] = {
+    "axes": ("optimizer.sweep.rows:axis_values",),
+    "validity": ("optimizer.sweep.rows:_refuse", "optimizer.sweep.rows:_same_nulls"),
+    "columns, phasors, statement": (
+        "optimizer.sweep.optimized:layout_of",
+        "optimizer.sweep.optimized:rotating",
+        "optimizer.sweep.optimized:reciprocating",
+        "optimizer.sweep.optimized:_statement",
+    ),
+    _STAGES: ("optimizer.program.interior_point:solve",),
+    "scaling, choice of the point": ("optimizer.program.batch:fast", "optimizer.program.batch:yardstick"),
+    "certificate": ("optimizer.program.fast:objective_lower_bound", "optimizer.program.fast:mass_lower_bound"),
+    "reference solver": ("optimizer.program.batch:optimum",),
+    "masses, angles, residuals": (
+        "optimizer.sweep.optimized:masses_and_angles",
+        "optimizer.sweep.optimized:unbalance",
+        "optimizer.sweep.optimized:_certified",
+        "optimizer.sweep.optimized:first_order_peaks",
+    ),
+    "table, Parquet": ("optimizer.sweep.chunk:result_table", "service.jobs.kinds:_piece"),
+}
+
+
+class Stopwatch:
+    """Seconds by part; a part does not count what it calls of another."""
+
+    def __init__(self) -> None:
+        self.seconds: dict[str, float] = {}
+        self._running: list[str] = []
+        self._since = 0.0
+
+    @contextmanager
+    def part(self, name: str) -> Iterator[None]:
+        self._book()
+        self._running.append(name)
+        try:
+            yield
+        finally:
+            self._book()
+            self._running.pop()
+
+    def _book(self) -> None:
+        now = time.perf_counter()
+        if self._running:
+            self.seconds[self._running[-1]] = self.seconds.get(self._running[-1], 0.0) + now - self._since
+        self._since = now
+
+    def watched(self, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
+        def timed(*arguments: Any, **options: Any) -> Any:
+            with self.part(name):
+                return function(*arguments, **options)
+
+        return timed
+
+
+def where_the_time_goes(request: SweepRequest) -> dict[str, float]:
+    """Seconds by part of one worker's work, the bytes of the request to the bytes of the file."""
+    body, watch = request.model_dump_json().encode(), Stopwatch()
+    with ExitStack() as patched:
+        for name, functions in PARTS.items():
+            for place in functions:
+                module, function = place.split(":")
+                known = getattr(import_module(module), function)
+                patched.enter_context(patch(f"{module}.{function}", watch.watched(name, known)))
+        with watch.part("everything else"):
+            KINDS["sweep"].compute(body, 0, request.total, lambda: None)
+    return watch.seconds
+
+
+def solved(request: SweepRequest, designs: int) -> list[tuple[Any, ...]]:
+    """What the first designs of a sweep hand to the interior point."""
+    calls: list[tuple[Any, ...]] = []
+    solve = interior_point.solve
+
+    def kept(*arguments: Any) -> Any:
+        calls.append(arguments)
+        return solve(*arguments)
+
+    with patch.object(interior_point, "solve", kept):
+        KINDS["sweep"].compute(request.model_dump_json().encode(), 0, designs, lambda: None)
+    return calls
+
+
+def first_stage_share(request: SweepRequest) -> float:
+    """Share of the first stage in the time of the program, on the same programs."""
+    calls, solve = solved(request, min(request.total, 2000)), interior_point.solve
+    seconds = {False: 0.0, True: 0.0}
+    for least_mass in (False, True) * 5:
+        began = time.perf_counter()
+        for programs, _, *rest in calls:
+            solve(programs, least_mass, *rest)
+        seconds[least_mass] += time.perf_counter() - began
+    return seconds[False] / seconds[True]
+
+
+def peak_rate(size: int = 768, repeats: int = 12) -> float:
+    """Operations a second that this core reaches: the best of some matrix products with one thread."""
+    a, b = np.ones((size, size)), np.ones((size, size))
+    best = np.inf
+    for _ in range(repeats):
+        began = time.perf_counter()
+        a @ b
+        best = min(best, time.perf_counter() - began)
+    return 2.0 * size**3 / best
+
+
+def show(console: Console, request: SweepRequest) -> None:
+    """Both tables."""
+    taken = [where_the_time_goes(request) for _ in range(3)]
+    seconds = min(taken, key=lambda one: sum(one.values()))
+    share, total = first_stage_share(request), sum(seconds.values())
+    both = seconds.pop(_STAGES)
+    seconds = {"program, stage 1": share * both, "program, stage 2": (1.0 - share) * both, **seconds}
+    table = Table(title=f"where the time goes: {1e6 * total / request.total:.1f} us a design")
+    for heading in ("part", "us a design", "share"):
+        table.add_column(heading, justify="left" if heading == "part" else "right")
+    for name, value in sorted(seconds.items(), key=lambda one: -one[1]):
+        table.add_row(name, f"{1e6 * value / request.total:.2f}", f"{value / total:.1%}")
+    console.print(table)
+    operations, iterations = operations_per_program(solved(request, 12))
+    rate, peak = operations * request.total / both, peak_rate()
+    console.print(
+        f"program: {operations:,.0f} operations a design in {iterations:.1f} iterations, "
+        f"{rate / 1e9:.2f} of {peak / 1e9:.1f} Gflop/s of this core (matrix product): {rate / peak:.0%}; at that peak "
+        f"{1e6 * operations / peak:.1f} us a design"
+    )

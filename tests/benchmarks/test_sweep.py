@@ -1,0 +1,62 @@
+"""The sweep's benchmark runs once on every change, on a few designs; times are for `make bench`."""
+
+import pytest
+
+from schemas.sweep import SweepRequest
+from tests.benchmarks import sweep_memory, sweep_scaling, sweep_time
+from tests.benchmarks.operations import Counted, operations_per_program
+from tests.benchmarks.sweep import OURS, at_limits, compare
+from tests.benchmarks.sweep_case import programs, sweep
+from tests.benchmarks.sweep_rivals import Direct, Parametrised, gaps, rebuilt
+
+
+@pytest.fixture(scope="module")
+def request_() -> SweepRequest:
+    return sweep(40)
+
+
+def test_every_method_certifies_both_stages(request_: SweepRequest) -> None:
+    rates, rows = compare(request_, (2, 3, 5), turns=1)
+    assert len(rates) == 4
+    for rate in rates.values():
+        # the asked gap; of the mass what calls an answer inaccurate (optimizer.optimize.MASS_GAP)
+        assert rate.worst.objective <= 1e-6
+        assert rate.worst.mass <= 1e-4
+        assert rate.per_second > 0
+    assert rates[OURS].times(rates[OURS]) == 1.0
+    assert set(rows["status"].to_pylist()) == {"optimal"}
+    assert at_limits(request_, rows) > 0.8
+
+
+def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
+    # independent: three formulations, two modelling layers
+    for program in programs(request_, (0, 17, 39)):
+        direct = Direct(program)
+        found = [rebuilt(program), Parametrised(program)(program), direct.solve(program, direct.prepare(program))]
+        masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in found]
+        assert masses == pytest.approx([masses[0]] * 3, rel=1e-5)
+        assert max(gaps(program, stages).objective for stages in found) <= 1e-6
+
+
+def test_the_parts_of_the_time(request_: SweepRequest) -> None:
+    seconds = sweep_time.where_the_time_goes(request_)
+    assert set(seconds) - {"reference solver"} == {*sweep_time.PARTS, "everything else"} - {"reference solver"}
+    assert min(seconds.values()) > 0
+    assert 0 < sweep_time.first_stage_share(request_) < 1
+
+
+def test_counted_operations(request_: SweepRequest) -> None:
+    number = Counted(3.0)
+    Counted.done = 0
+    # analytic: four operations
+    assert float((2.0 * number - number / 2.0) + number) == 7.5
+    assert Counted.done == 4
+    operations, iterations = operations_per_program(sweep_time.solved(request_, 1))
+    # some thousand operations for eight webs in each of some dozen iterations
+    assert 5 < iterations < 80
+    assert 1e3 < operations / iterations < 1e5
+
+
+def test_scaling_and_memory_run() -> None:
+    assert sweep_scaling.seconds(sweep(50), workers=1) > 0
+    assert sweep_memory.workers() == []

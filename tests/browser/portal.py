@@ -1,0 +1,120 @@
+"""The page as a reader sees it, watched for what must never happen."""
+
+import json
+import urllib.request
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
+from urllib.parse import urlsplit
+
+from playwright.sync_api import ConsoleMessage, Locator, Page, Request
+
+ARTEFACTS = Path(__file__).parents[2] / "artefacts" / "portal"
+ALL_PANELS = (
+    "counterweights",
+    "hodographs",
+    "over-angle",
+    "orders",
+    "pareto",
+    "accuracy",
+    "torque",
+    "rod-loads",
+    "flywheel",
+    "main-bearings",
+    "pin-loads",
+    "sweep",
+)
+
+
+@dataclass(frozen=True)
+class Look:
+    """Width of the window, px, and the colours that the system has."""
+
+    width: int = 1280
+    scheme: Literal["light", "dark"] = "light"
+
+
+@dataclass
+class Portal:
+    """A page on a service; ``refusals`` are statuses that a test provokes, which the browser reports as errors."""
+
+    page: Page
+    url: str
+    refusals: set[int] = field(default_factory=set)
+    troubles: list[str] = field(default_factory=list)
+    requests: list[Request] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.page.on("console", self._heard)
+        self.page.on("pageerror", lambda error: self.troubles.append(f"uncaught: {error}"))
+        self.page.on("request", lambda request: self.requests.append(request))
+
+    def _heard(self, message: ConsoleMessage) -> None:
+        provoked = any(f"status of {status}" in message.text for status in self.refusals)
+        if message.type in ("error", "warning") and not provoked:
+            self.troubles.append(f"{message.type}: {message.text}")
+
+    @property
+    def strangers(self) -> set[str]:
+        """Everything that was asked of anybody but the service."""
+        home = urlsplit(self.url).netloc
+        asked = (urlsplit(request.url) for request in self.requests)
+        return {url.geturl() for url in asked if url.scheme not in ("data", "blob") and url.netloc != home}
+
+    def open(self, example: str = "2d12", panels: tuple[str, ...] = ("counterweights",)) -> None:
+        self.page.goto(f"{self.url}/#example={example}&open={','.join(panels)}")
+        self.drawn(1)
+        # the form comes after the result
+        self.page.wait_for_selector("#form [data-pointer='/machine']")
+
+    def drawn(self, run: int) -> None:
+        """Wait for everything that a run draws."""
+        self.page.wait_for_selector(f"#results[data-drawn='{run}']", timeout=40_000)
+
+    def runs(self) -> int:
+        return int(self.page.locator("#results").get_attribute("data-drawn") or 0)
+
+    def optimise(self) -> None:
+        old = self.runs()
+        self.page.click("#optimise")
+        self.page.wait_for_selector(f"#results[data-drawn]:not([data-drawn='{old}'])", timeout=40_000)
+
+    def panel(self, name: str) -> Locator:
+        return self.page.locator(f"#panel-{name}")
+
+    def open_panel(self, name: str) -> Locator:
+        panel = self.panel(name)
+        panel.locator("> summary").click()
+        self.page.wait_for_selector(f"#panel-{name}[data-drawn]", timeout=40_000)
+        return panel
+
+    def unfold(self, *pointers: str) -> None:
+        """Open parts of the form, from the outside inwards."""
+        for pointer in pointers:
+            part = self.page.locator(f"#form details[data-pointer='{pointer}']")
+            if part.get_attribute("open") is None:
+                part.locator("> summary").click()
+
+    def input(self, pointer: str) -> Locator:
+        return self.page.locator(f"#form .field[data-pointer='{pointer}']").locator("input, select, textarea")
+
+    def bodies(self, path: str) -> list[Any]:
+        """What was posted to a path."""
+        return [json.loads(request.post_data or "") for request in self.requests if urlsplit(request.url).path == path]
+
+    def screenshot(self, name: str) -> None:
+        ARTEFACTS.mkdir(parents=True, exist_ok=True)
+        self.page.screenshot(path=ARTEFACTS / f"{name}.png", full_page=True)
+
+
+def ask(url: str, path: str, body: Any = None) -> Any:
+    """The same question without the page."""
+    data = None if body is None else json.dumps(body).encode()
+    call = urllib.request.Request(url + path, data, {"Content-Type": "application/json"})
+    with urllib.request.urlopen(call, timeout=60) as answer:
+        return json.load(answer)
+
+
+def cells(table: Locator) -> list[list[str]]:
+    """The texts of a table, row by row, without its heads."""
+    return [row.locator("th, td").all_inner_texts() for row in table.locator("tbody tr").all()]

@@ -1,0 +1,47 @@
+"""A service as users start it, on a free port, in a process of its own."""
+
+import os
+import re
+import subprocess
+import sys
+import time
+import urllib.error
+import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+_READY_WITHIN_S = 90.0
+_URL = re.compile(r"http://127\.0\.0\.1:\d+")
+
+
+@contextmanager
+def serving(folder: Path, **settings: str) -> Iterator[str]:
+    """Address of a service that is ready; its data and its log are in the folder."""
+    variables = {f"COUNTERWEIGHT_{name.upper()}": value for name, value in settings.items()}
+    environment = {**os.environ, "COUNTERWEIGHT_DATA_DIR": str(folder), "PYTHONUNBUFFERED": "1", **variables}
+    command = [sys.executable, "-m", "service", "serve", "--port", "0"]
+    with (
+        (folder / "log").open("w") as log,
+        subprocess.Popen(command, env=environment, stdout=subprocess.PIPE, stderr=log, text=True) as process,
+    ):
+        try:
+            assert process.stdout is not None
+            said = _URL.search(process.stdout.readline())
+            assert said, (folder / "log").read_text()
+            _wait(said[0])
+            yield said[0]
+        finally:
+            process.terminate()
+            process.wait(30)
+
+
+def _wait(url: str) -> None:
+    deadline = time.monotonic() + _READY_WITHIN_S
+    while time.monotonic() < deadline:
+        try:
+            with urllib.request.urlopen(f"{url}/readyz", timeout=5):
+                return
+        except (urllib.error.URLError, ConnectionError):
+            time.sleep(0.1)
+    raise TimeoutError(f"the service was not ready within {_READY_WITHIN_S} s")

@@ -1,0 +1,75 @@
+"""What the page is made of: compressed, kept, allowed to load nothing from elsewhere. Needs no browser."""
+
+import gzip
+import re
+import urllib.error
+import urllib.request
+from email.message import Message
+
+import pytest
+
+from service.portal.assets import PLOTS, asset, names, page, release
+
+
+def _get(url: str, **headers: str) -> tuple[int, Message, bytes]:
+    given = {name.replace("_", "-"): value for name, value in headers.items()}
+    try:
+        with urllib.request.urlopen(urllib.request.Request(url, headers=given), timeout=30) as answer:
+            return answer.status, answer.headers, answer.read()
+    except urllib.error.HTTPError as error:
+        return error.code, error.headers, error.read()
+
+
+def test_the_page_may_load_from_its_own_service_alone(url: str) -> None:
+    status, headers, body = _get(f"{url}/")
+    assert status == 200
+    policy = headers["content-security-policy"]
+    assert "script-src 'self';" in policy
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    # every address is relative, and nothing is inline
+    assert not re.search(rb'(src|href)="(https?:|//|/)', body)
+    assert not re.search(rb"<style|style=|<script(?![^>]* src=)|\son\w+=", body)
+
+
+def test_nothing_in_our_files_writes_markup() -> None:
+    for name in names():
+        if name.endswith(".js") and name != PLOTS:
+            text = asset(name).content.decode()
+            assert not re.search(
+                r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function", text
+            ), name
+            assert not re.search(r"""["'`]https?://(?!www\.w3\.org/2000/svg)""", text), name
+
+
+def test_files_are_kept_for_ever_until_they_change(url: str) -> None:
+    status, headers, body = _get(f"{url}/portal/{release()}/main.js", Accept_Encoding="gzip, br")
+    assert status == 200
+    assert headers["content-type"].startswith("text/javascript")
+    assert "immutable" in headers["cache-control"]
+    assert headers["vary"].startswith("Accept-Encoding")
+    assert gzip.decompress(body) == asset("main.js").content
+    status, headers, body = _get(f"{url}/portal/of-yesterday/main.js")
+    assert (status, headers["cache-control"], body) == (200, "no-cache", asset("main.js").content)
+    status, headers, _ = _get(f"{url}/", If_None_Match=f'"{release()}"')
+    assert status == 304
+
+
+@pytest.mark.parametrize("refused", ["gzip;q=0", "br", "identity", "*;q=0"])
+def test_who_does_not_take_gzip_gets_none(url: str, refused: str) -> None:
+    _, headers, body = _get(f"{url}/portal/{release()}/theme.css", Accept_Encoding=refused)
+    assert headers["content-encoding"] is None
+    assert body == asset("theme.css").content
+
+
+@pytest.mark.parametrize("name", ["", "nothing.js", "../assets.py", "..%2f..%2fapp.py", "index.html", "%00"])
+def test_nothing_else_is_served(url: str, name: str) -> None:
+    status, headers, _ = _get(f"{url}/portal/{release()}/{name}")
+    assert status == 404
+    assert headers["content-type"] == "application/problem+json"
+
+
+def test_the_page_announces_every_module_of_this_release() -> None:
+    for name in names():
+        if name != PLOTS:
+            assert f"portal/{release()}/{name}".encode() in page() or not name.endswith((".js", ".css"))

@@ -1,0 +1,206 @@
+"""The form: edited, added to, taken from; errors stand at their fields."""
+
+import json
+
+import pytest
+
+from tests.browser.portal import Portal
+
+THROW = "/machine/throws/0"
+
+
+def _throw(portal: Portal) -> None:
+    portal.unfold("/machine", "/machine/throws", THROW)
+
+
+def _error(portal: Portal, pointer: str) -> str:
+    return portal.page.locator(f"#form [data-pointer='{pointer}'] > .error").inner_text()
+
+
+def test_units_are_shown_and_read(portal: Portal) -> None:
+    portal.open()
+    _throw(portal)
+    field = portal.page.locator(f"#form .field[data-pointer='{THROW}/crank_radius_m']")
+    assert field.locator("label").inner_text().split() == ["Crank", "radius", "m"]
+    portal.input(f"{THROW}/crank_radius_m").fill("5.5 in")
+    portal.optimise()
+    machine = portal.bodies("/v1/optimize")[-1]["machine"]
+    assert machine["throws"][0]["crank_radius_m"] == "5.5 in"
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [("crank_radius_m", "-1", "at least"), ("crank_radius_m", "3 kg", "unit"), ("position_m", "", "required")],
+)
+def test_an_error_stands_at_its_field(portal: Portal, name: str, value: str, message: str) -> None:
+    portal.refusals = {422}
+    portal.open()
+    _throw(portal)
+    field = portal.input(f"{THROW}/{name}")
+    before = field.input_value()
+    field.fill(value)
+    # the error opens what is closed around it
+    portal.page.locator("#form details[data-pointer='/machine/throws'] > summary").click()
+    portal.page.click("#optimise")
+    portal.page.locator("#form [aria-invalid='true']").wait_for()
+    assert message in _error(portal, f"{THROW}/{name}")
+    assert field.is_visible()
+    assert field.get_attribute("aria-invalid") == "true"
+    assert field.evaluate("node => node === document.activeElement")
+    assert "Invalid request" in portal.page.locator("#problem").inner_text()
+    field.fill(before)
+    portal.optimise()
+    assert portal.page.locator("#form .wrong").count() == 0
+    assert portal.page.locator("#problem").inner_text() == ""
+
+
+def test_an_error_between_fields_has_a_place_too(portal: Portal) -> None:
+    portal.refusals = {422}
+    portal.open()
+    portal.unfold("/machine", "/machine/webs", "/machine/webs/1")
+    portal.input("/machine/webs/1/name").fill("1a")
+    portal.page.click("#optimise")
+    portal.page.locator("#form [aria-invalid='true']").wait_for()
+    assert "taken already" in _error(portal, "/machine/webs/1/name")
+
+
+def test_things_are_added_and_removed(portal: Portal) -> None:
+    portal.open("two-rows-180")
+    portal.unfold("/machine", "/machine/webs")
+    portal.page.get_by_role("button", name="Add web").click()
+    portal.input("/machine/webs/4/position_m").fill("0.5")
+    portal.unfold("/machine/webs/4")
+    web = portal.page.locator("#form details[data-pointer='/machine/webs/4']")
+    web.get_by_role("button", name="Add sector").click()
+    portal.input("/machine/webs/4/sector/centre_deg").fill("170")
+    portal.unfold("/machine/throws", "/machine/throws/0")
+    portal.page.locator("#form details[data-pointer='/machine/throws/0']").get_by_role(
+        "button", name="Remove throw"
+    ).click()
+    portal.optimise()
+    machine = portal.bodies("/v1/optimize")[-1]["machine"]
+    assert len(machine["webs"]) == 5
+    assert len({web["name"] for web in machine["webs"]}) == 5
+    assert machine["webs"][4]["position_m"] == 0.5
+    assert machine["webs"][4]["sector"]["centre_deg"] == 170
+    assert [each["name"] for each in machine["throws"]] == ["2"]
+    assert portal.page.locator("#answer .sector").count() == 1
+
+
+def test_rows_are_added_to_a_throw(portal: Portal) -> None:
+    portal.open("v60")
+    rows = f"{THROW}/rows"
+    portal.unfold("/machine", "/machine/throws", THROW, rows)
+    portal.page.locator(f"#form details[data-pointer='{rows}']").get_by_role("button", name="Add row").click()
+    portal.input(f"{rows}/2/axis_deg").fill("200")
+    portal.optimise()
+    assert portal.bodies("/v1/optimize")[-1]["machine"]["throws"][0]["rows"][2]["axis_deg"] == 200
+    assert portal.page.locator("#answer .front .row line").count() == 3
+
+
+def test_another_kind_of_machine(portal: Portal) -> None:
+    portal.open("2d12")
+    portal.input("/machine/kind").select_option("scroll")
+    portal.optimise()
+    machine = portal.bodies("/v1/optimize")[-1]["machine"]
+    assert machine["kind"] == "scroll"
+    assert "throws" not in machine
+    assert len(machine["webs"]) == 4
+    portal.page.locator("#panel-sweep").wait_for()
+
+
+def test_a_machine_is_pasted(portal: Portal) -> None:
+    portal.open()
+    machine = {
+        "kind": "reciprocating",
+        "name": "<img src=x onerror=alert(1)>",
+        "speed_rpm": 600,
+        "throws": [
+            {"name": "<b>1</b>", "position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 0, "rotating_mass_kg": 10}
+        ],
+        "webs": [{"name": "<i>w</i>", "position_m": 0, "counterweight_radius_m": 0.1, "max_mass_kg": 20}],
+    }
+    portal.page.locator("#paste > summary").click()
+    portal.page.fill("#json", json.dumps(machine))
+    portal.page.click("#read")
+    portal.drawn(2)
+    assert portal.input("/machine/name").input_value() == machine["name"]
+    # analytic: ten kilograms at the same radius opposite the crank leave nothing
+    row = portal.panel("counterweights").locator("tbody tr").first.locator("th, td").all_inner_texts()
+    assert row[:3] == ["<i>w</i>", "10", "180"]
+    # names are texts, whatever they hold
+    assert portal.page.locator("#results img, #results i, #results b, #form img").count() == 0
+
+
+def test_a_machine_is_uploaded(portal: Portal) -> None:
+    portal.open()
+    portal.page.locator("#paste > summary").click()
+    portal.page.set_input_files("#file", "examples/w60.json")
+    portal.drawn(2)
+    assert portal.page.locator("#answer .front .row line").count() == 3
+    assert portal.page.locator("#example").input_value() == ""
+
+
+@pytest.mark.parametrize("text", ["", "{", "[]", "null", "7"])
+def test_what_is_no_machine_is_said_to_be_none(portal: Portal, text: str) -> None:
+    portal.open()
+    portal.page.locator("#paste > summary").click()
+    portal.page.fill("#json", text)
+    portal.page.click("#read")
+    assert "not a machine" in portal.page.locator("#json-error").inner_text()
+    assert portal.runs() == 1
+
+
+def test_fields_that_the_form_does_not_know_are_refused_in_words(portal: Portal) -> None:
+    portal.refusals = {422}
+    portal.open()
+    portal.page.locator("#paste > summary").click()
+    portal.page.fill("#json", '{"machine": {"kind": "reciprocating", "wings": 2}}')
+    portal.page.click("#read")
+    portal.page.locator("#problem h2").wait_for()
+    portal.page.locator("#form .wrong").first.wait_for(state="attached")
+    assert "wings: unknown field" in portal.page.locator("#form").inner_text()
+
+
+def test_whatever_is_pasted_is_answered_in_words(portal: Portal) -> None:
+    portal.refusals = {422}
+    portal.open()
+    portal.page.locator("#paste > summary").click()
+    machines: list[object] = [
+        None,
+        7,
+        "scroll",
+        [],
+        {},
+        {"kind": "reciprocating", "throws": 3, "webs": {"a": 1}},
+        {"kind": "reciprocating", "throws": [None, 1, "x", {"rows": [None, 2]}, {"rows": "none"}], "webs": [[]]},
+        {"kind": "scroll", "anti_rotation": "none", "rotation_torque_Nm": {"angle_deg": 3}},
+        {"kind": ["scroll"], "__proto__": {"kind": "scroll"}, "constructor": 1},
+    ]
+    for machine in machines:
+        portal.page.evaluate("document.getElementById('problem').replaceChildren()")
+        portal.page.evaluate("document.getElementById('paste').open = true")
+        portal.page.fill("#json", json.dumps({"machine": machine}))
+        portal.page.click("#read")
+        portal.page.locator("#problem h2").wait_for()
+        assert "wrong" in portal.page.locator("#problem").inner_text(), machine
+        assert portal.troubles == [], machine
+
+
+def test_with_the_keyboard_alone(portal: Portal) -> None:
+    portal.open()
+    page = portal.page
+    page.locator("#example").focus()
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        if page.evaluate("document.activeElement.closest('[data-pointer]')?.dataset.pointer") == "/machine/speed_rpm":
+            break
+    page.keyboard.press("Control+A")
+    page.keyboard.type("250")
+    page.keyboard.press("Enter")
+    portal.drawn(2)
+    assert portal.bodies("/v1/optimize")[-1]["machine"]["speed_rpm"] == 250
+    panel = portal.panel("torque").locator("> summary")
+    panel.focus()
+    page.keyboard.press("Enter")
+    page.wait_for_selector("#panel-torque[data-drawn]")

@@ -1,0 +1,136 @@
+"""Every panel is drawn, with the figures that the API gives, for three kinds of machine and at two widths."""
+
+from typing import Any
+
+import pytest
+
+from tests.browser.portal import ALL_PANELS, Portal, ask, cells
+
+ALWAYS = ("counterweights", "hodographs", "over-angle", "orders", "pareto", "accuracy", "sweep")
+DRIVEN = ("torque", "rod-loads", "flywheel", "main-bearings")
+MACHINES = {
+    "2d12": (*ALWAYS, *DRIVEN),
+    "v8-cross-plane": ALWAYS,
+    "scroll-three-pins": (*ALWAYS, "pin-loads"),
+}
+#: plots of each panel; the others hold tables and forms
+PLOTS = {"hodographs": 2, "over-angle": 2, "orders": 2, "pareto": 1, "accuracy": 1, "torque": 1, "rod-loads": 2} | {
+    "flywheel": 1,
+    "main-bearings": 3,
+    "pin-loads": 1,
+}
+
+
+@pytest.mark.parametrize("example", MACHINES)
+def test_every_panel_is_drawn(portal: Portal, example: str) -> None:
+    portal.open(example, ALL_PANELS)
+    shown = [panel.get_attribute("id") for panel in portal.page.locator("details.panel").all()]
+    assert sorted(filter(None, shown)) == sorted(f"panel-{name}" for name in MACHINES[example])
+    for name in MACHINES[example]:
+        panel = portal.panel(name)
+        assert panel.get_attribute("data-drawn") == "1", name
+        assert panel.locator(".error:not(:empty)").count() == 0, name
+        plots = panel.locator(".plot")
+        assert plots.count() == PLOTS.get(name, 0), name
+        for plot in plots.all():
+            assert plot.locator(".trace, .bars .point").count() > 0, name
+            # what cannot be seen is said
+            assert len(plot.get_attribute("aria-label") or "") > 20, name
+    for width in (1280, 390):
+        portal.page.set_viewport_size({"width": width, "height": 900})
+        portal.page.wait_for_timeout(500)
+        portal.screenshot(f"{example}-{width}")
+        # the page itself never scrolls sideways
+        assert portal.page.evaluate("document.documentElement.scrollWidth") <= width
+
+
+@pytest.mark.parametrize("example", MACHINES)
+def test_the_page_shows_what_the_api_answers(portal: Portal, example: str, url: str) -> None:
+    portal.open(example)
+    answer = ask(url, "/v1/optimize", ask(url, f"/v1/examples/{example}"))
+    rows = cells(portal.panel("counterweights").locator("table"))
+    assert [row[0] for row in rows] == [one["web"] for one in answer["counterweights"]]
+    for row, one in zip(rows, answer["counterweights"], strict=True):
+        assert float(row[1].replace(",", "")) == pytest.approx(one["mass_kg"], rel=1e-3, abs=1e-4)
+        if one["mass_kg"] > 0:
+            assert float(row[2]) == pytest.approx(one["angle_deg"], abs=0.1)
+    bound = answer["certificate"]["mass_lower_bound_kg"]
+    proof = portal.page.locator(".proof").inner_text()
+    assert f"none weighs less than {bound:.4f}"[:-2] in proof
+    # one counterweight each in both drawings
+    carrying = sum(one["mass_kg"] > 0 for one in answer["counterweights"])
+    for view in ("front", "side"):
+        assert portal.page.locator(f"#answer .{view} .counterweight").count() == carrying
+
+
+def test_only_open_panels_are_simulated(portal: Portal) -> None:
+    portal.open("2d12")
+    assert portal.bodies("/v1/analyze") == []
+    panel = portal.open_panel("torque")
+    assert [body["outputs"] for body in portal.bodies("/v1/analyze")] == [["torque"]]
+    panel.locator("> summary").click()
+    panel.locator("> summary").click()
+    assert len(portal.bodies("/v1/analyze")) == 1
+    assert not portal.bodies("/v1/pareto")
+    assert not portal.bodies("/v1/accuracy")
+
+
+def test_infeasible_ceilings_are_explained(portal: Portal) -> None:
+    portal.open("2d12", ("counterweights", "hodographs"))
+    portal.unfold("/objective")
+    portal.page.locator("#form details[data-pointer='/objective'] .more > summary").click()
+    portal.input("/objective/force_ceiling_N").fill("1 kN")
+    portal.optimise()
+    assert "No counterweights meet these ceilings" in portal.page.locator("#answer h2").inner_text()
+    # analytic: half of the unbalanced 26.07 kg turns against the shaft, whatever the counterweights
+    floor = 26.07 * 0.14 * (500 * 3.141592653589793 / 30) ** 2 / 2
+    assert f"{floor:,.0f}" in portal.page.locator(".proof").inner_text()
+
+
+def test_choosing_a_point_of_the_front(portal: Portal, url: str) -> None:
+    portal.open("2d12", ("pareto",))
+    points = ask(url, "/v1/pareto", portal.bodies("/v1/pareto")[0])["fronts"][0]["points"]
+    panel = portal.panel("pareto")
+    slider = panel.locator("#pareto-point")
+    slider.focus()
+    slider.press("End")
+    _shows(panel, points[-1], len(points), len(points))
+    markers = panel.locator(".scatterlayer .trace").first.locator(".point")
+    markers.nth(7).click(force=True)
+    panel.get_by_text(f"Point 8 of {len(points)}").wait_for()
+    _shows(panel, points[7], 8, len(points))
+    portal.page.wait_for_url("**point=8*")
+    portal.page.reload()
+    _shows(panel, points[7], 8, len(points))
+
+
+def _shows(panel: Any, point: Any, number: int, count: int) -> None:
+    panel.get_by_role("heading", name=f"Point {number} of {count}").wait_for()
+    rows = cells(panel.locator(".picked table").nth(1))
+    masses = [float(row[1].replace(",", "")) for row in rows]
+    assert masses == pytest.approx([one["mass_kg"] for one in point["counterweights"]], rel=1e-3, abs=1e-3)
+
+
+def test_the_pins_turn(portal: Portal) -> None:
+    portal.open("scroll-three-pins", ("pin-loads",))
+    panel = portal.panel("pin-loads")
+    slider = panel.locator("#pin-angle")
+    scroll = panel.locator("svg .scroll")
+    slider.fill("0")
+    right = float(scroll.get_attribute("cx") or "")
+    slider.fill("45")
+    # analytic: after a quarter of a turn the eccentric points straight up
+    assert panel.locator("output").inner_text() == "90°"
+    assert float(scroll.get_attribute("cx") or "") == pytest.approx(right - 26, abs=0.1)
+    turn = panel.get_by_role("button", name="Turn")
+    turn.click()
+    portal.page.wait_for_timeout(400)
+    panel.get_by_role("button", name="Stop").click()
+    assert slider.input_value() != "45"
+
+
+def test_bearings_are_chosen_by_name(portal: Portal) -> None:
+    portal.open("2d12", ("main-bearings",))
+    panel = portal.panel("main-bearings")
+    panel.locator("select").select_option(label="B")
+    panel.locator("[role=img][aria-label*='bearing B']").first.wait_for()

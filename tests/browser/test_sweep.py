@@ -1,0 +1,68 @@
+"""A sweep from the page: started, watched, drawn, taken away; wrong ranges are refused at their fields."""
+
+from pathlib import Path
+
+from tests.browser.portal import Portal
+
+
+def _count(portal: Portal, *counts: str) -> None:
+    for index, count in enumerate(counts):
+        portal.page.fill(f"#axis-{index}-count", count)
+
+
+def test_a_grid_becomes_a_heat_map(portal: Portal) -> None:
+    portal.open("2d12", ("sweep",))
+    _count(portal, "5", "4")
+    portal.page.get_by_role("button", name="Start the sweep").click()
+    portal.page.wait_for_selector("#panel-sweep[data-swept]", timeout=60_000)
+    panel = portal.panel("sweep")
+    assert "20 of 20 designs are drawn" in panel.inner_text()
+    assert panel.locator(".heatmaplayer image, .heatmaplayer .hm").count() > 0
+    portal.screenshot("sweep-heat-map")
+    panel.locator("#sweep-shown").select_option("total_mass_kg")
+    panel.locator("[role=img][aria-label*='total mass']").wait_for()
+    panel.locator("#sweep-form").select_option("points")
+    panel.locator(".scatterlayer .point").first.wait_for()
+    with portal.page.expect_download() as download:
+        panel.get_by_role("link", name="csv").click()
+    lines = Path(download.value.path()).read_text().splitlines()
+    assert len(lines) == 21
+    # the link leads back to the sweep
+    portal.page.wait_for_url("**sweep=*")
+    portal.page.reload()
+    portal.page.wait_for_selector("#panel-sweep[data-swept]")
+    assert "20 of 20 designs are drawn" in panel.inner_text()
+    assert lines[0].startswith('"index","/machine/throws/0/rows/0/reciprocating_mass_kg"')
+
+
+def test_a_latin_hypercube_becomes_points(portal: Portal) -> None:
+    portal.open("scroll-three-pins", ("sweep",))
+    portal.page.locator("#sweep-design").select_option("latin_hypercube")
+    portal.page.fill("#sweep-samples", "30")
+    portal.page.get_by_role("button", name="Start the sweep").click()
+    portal.page.wait_for_selector("#panel-sweep[data-swept]", timeout=60_000)
+    assert portal.panel("sweep").locator(".scatterlayer .point").count() == 30
+
+
+def test_a_wrong_range_is_refused_at_its_field(portal: Portal) -> None:
+    portal.refusals = {422}
+    portal.open("2d12", ("sweep",))
+    portal.page.fill("#axis-0-start", "3 m")
+    portal.page.fill("#axis-1-count", "0")
+    portal.page.get_by_role("button", name="Start the sweep").click()
+    portal.page.locator("#panel-sweep [aria-invalid='true']").first.wait_for()
+    wrong = portal.page.locator("#panel-sweep .wrong")
+    assert {one.get_attribute("data-pointer") for one in wrong.all()} <= {"/axes/0/start", "/axes/1/count"}
+
+
+def test_another_field_and_an_end_before_its_time(portal: Portal) -> None:
+    portal.open("2d12", ("sweep",))
+    portal.page.get_by_role("button", name="Add a field").click()
+    portal.page.locator("#axis-2-path").select_option("/machine/speed_rpm")
+    assert portal.page.locator("#axis-2-start").input_value() == "400"
+    _count(portal, "300", "300", "10")
+    portal.page.get_by_role("button", name="Start the sweep").click()
+    cancel = portal.page.get_by_role("button", name="Cancel")
+    cancel.wait_for()
+    cancel.click()
+    portal.page.get_by_text("Cancelled").wait_for(timeout=30_000)

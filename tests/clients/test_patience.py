@@ -1,0 +1,123 @@
+"""What the Python client does when it is told to come back later, against a server that says so."""
+
+import json
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from email.utils import formatdate
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+Answer = tuple[int, dict[str, str], bytes]
+_GOOD: Answer = (200, {}, b'{"status": "optimal"}')
+
+
+@contextmanager
+def serving(answers: Iterator[Answer]) -> Iterator[tuple[str, list[tuple[str, dict[str, str]]]]]:
+    """A server that gives one answer after the other; where it is, and what it was sent."""
+    seen: list[tuple[str, dict[str, str]]] = []
+
+    class Handler(BaseHTTPRequestHandler):
+        def _answer(self) -> None:
+            self.rfile.read(int(self.headers.get("Content-Length", "0")))
+            seen.append((self.path, {name.lower(): value for name, value in self.headers.items()}))
+            status, headers, content = next(answers)
+            self.send_response(status)
+            for name, value in headers.items():
+                self.send_header(name, value)
+            self.send_header("Content-Length", str(len(content)))
+            self.end_headers()
+            self.wfile.write(content)
+
+        do_GET = do_POST = _answer
+
+        def log_message(self, format: str, *args: Any) -> None:  # noqa: A002
+            pass
+
+    with ThreadingHTTPServer(("127.0.0.1", 0), Handler) as server:
+        thread = threading.Thread(target=server.serve_forever, kwargs={"poll_interval": 0.01})
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}", seen
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+def busy(status: int, **headers: str) -> Answer:
+    said = {"title": "Busy", "status": status, "detail": "Later."}
+    named = {name.replace("_", "-"): value for name, value in headers.items()}
+    return status, named, json.dumps(said).encode()
+
+
+@pytest.mark.parametrize(
+    ("later", "least_s"),
+    [
+        (lambda: busy(503, Retry_After="1"), 1.0),
+        (lambda: busy(429, Retry_After="0"), 0.0),
+        # a date has no fractions of seconds
+        (lambda: busy(503, Retry_After=formatdate(time.time() + 2, usegmt=True)), 0.9),
+    ],
+)
+def test_it_comes_back_when_it_is_told_to(
+    counterweight: ModuleType, later: Callable[[], Answer], least_s: float
+) -> None:
+    with serving(iter([later(), _GOOD])) as (url, seen):
+        start = time.monotonic()
+        assert counterweight.Service(url).optimize({}) == {"status": "optimal"}
+        assert least_s <= time.monotonic() - start < least_s + 3
+    assert len(seen) == 2
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [busy(503, Retry_After="60"), busy(503), busy(503, Retry_After="soon"), busy(500, Retry_After="0")],
+    ids=["longer than its patience", "without a time", "without a readable time", "not worth a second try"],
+)
+def test_it_gives_up(counterweight: ModuleType, answer: Answer) -> None:
+    with serving(iter([answer])) as (url, seen):
+        start = time.monotonic()
+        with pytest.raises(counterweight.Refused, match="Busy: Later") as refused:
+            counterweight.Service(url, patience_s=5).optimize({})
+        assert time.monotonic() - start < 2
+    assert refused.value.status == answer[0]
+    assert len(seen) == 1
+
+
+def test_its_patience_is_for_all_waits_together(counterweight: ModuleType) -> None:
+    with serving(iter([busy(429, Retry_After="1")] * 9)) as (url, seen), pytest.raises(counterweight.Refused):
+        counterweight.Service(url, patience_s=1.5).optimize({})
+    assert len(seen) == 2
+
+
+def test_a_sweep_that_is_tried_again_is_the_same_sweep(counterweight: ModuleType) -> None:
+    with serving(iter([busy(503, Retry_After="0"), _GOOD])) as (url, seen):
+        counterweight.Service(url).sweep({})
+    assert seen[0][1]["idempotency-key"] == seen[1][1]["idempotency-key"]
+
+
+def test_a_proxy_that_answers_in_its_own_way(counterweight: ModuleType) -> None:
+    page: Answer = (502, {"Content-Type": "text/html"}, b"<h1>Bad gateway</h1>")
+    with serving(iter([page])) as (url, _), pytest.raises(counterweight.Refused, match="502 Bad Gateway"):
+        counterweight.Service(url).optimize({})
+
+
+def test_the_key_goes_to_the_service_and_not_to_where_it_redirects(counterweight: ModuleType) -> None:
+    moved = {"Location": ""}
+    with serving(iter([_GOOD])) as (elsewhere, there), serving(iter([(302, moved, b"")])) as (url, here):
+        moved["Location"] = f"{elsewhere}/v1/examples"
+        counterweight.Service(url, key="cw_secret").examples()
+    assert here[0][1]["authorization"] == "Bearer cw_secret"
+    assert "authorization" not in there[0][1]
+
+
+def test_paths_and_links_behind_a_proxy_with_a_prefix(counterweight: ModuleType) -> None:
+    with serving(iter([_GOOD, _GOOD])) as (url, seen):
+        service = counterweight.Service(f"{url}/balance/")
+        service.examples()
+        service.state({"links": {"self": "/balance/v1/sweeps/5f0c"}})
+    assert [path for path, _ in seen] == ["/balance/v1/examples", "/balance/v1/sweeps/5f0c"]

@@ -1,0 +1,144 @@
+"""The image: what it is made of, who runs in it, and what it writes to. There is no engine here to build it with."""
+
+import json
+import os
+import shlex
+import subprocess
+from fnmatch import fnmatch
+from pathlib import Path
+
+import pytest
+from typer.main import get_command
+
+from service.cli import app
+from service.settings import Settings
+from tests.deploy.files import DEPLOY, ROOT, dockerfile_environment, instructions, settings_variables
+
+
+def copied() -> list[str]:
+    """Sources of COPY from the context."""
+    found = (shlex.split(rest) for kind, rest in instructions() if kind == "COPY")
+    return [source for words in found if not words[0].startswith("--from") for source in words[:-1]]
+
+
+def last(kind: str) -> str:
+    return [rest for found, rest in instructions() if found == kind][-1]
+
+
+def test_everything_copied_is_there_and_reaches_the_builder() -> None:
+    ignored = (DEPLOY / "Dockerfile.dockerignore").read_text("utf-8").split()
+    assert "*" in ignored
+    for source in copied():
+        assert (ROOT / source).exists(), source
+        assert any(fnmatch(source, line[1:]) for line in ignored if line.startswith("!")), source
+
+
+def test_nothing_reaches_the_builder_that_is_not_copied() -> None:
+    ignored = (DEPLOY / "Dockerfile.dockerignore").read_text("utf-8").split()
+    assert {line[1:] for line in ignored if line.startswith("!")} == set(copied())
+
+
+def test_every_package_is_copied() -> None:
+    assert {"schemas", "optimizer", "service", "examples"} <= set(copied())
+
+
+def test_packages_come_by_hash_and_as_wheels() -> None:
+    installs = [rest for kind, rest in instructions() if kind == "RUN" and " install " in rest and "pip" in rest]
+    assert len(installs) == 2
+    assert "--require-hashes" in installs[0]
+    assert "--only-binary :all:" in installs[0]
+    assert "--no-deps" in installs[1]
+
+
+def test_nobody_is_root_in_it() -> None:
+    user, group = map(int, last("USER").split(":"))
+    assert user > 0
+    assert group > 0
+
+
+def test_its_environment_is_one_of_the_service(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = dockerfile_environment()
+    for name, value in found.items():
+        if name.startswith("COUNTERWEIGHT_"):
+            assert name in settings_variables()
+            monkeypatch.setenv(name, value)
+    settings = Settings()
+    assert (settings.host, settings.port) == ("0.0.0.0", 8000)
+    assert settings.data_dir == Path(last("VOLUME")) == Path(last("WORKDIR"))
+    # not open to everybody by default: without a file of keys the service does not start
+    assert settings.keys_file is not None
+    assert not settings.allow_without_keys
+    assert last("EXPOSE") == str(settings.port)
+
+
+def test_it_writes_to_the_volume_and_to_tmp_alone() -> None:
+    found = dockerfile_environment()
+    for name in ("COUNTERWEIGHT_DATA_DIR", "COUNTERWEIGHT_KEYS_FILE", "NUMBA_CACHE_DIR"):
+        assert Path(found[name]).is_relative_to(last("VOLUME")) or Path(found[name]).is_relative_to("/tmp"), name
+
+
+def test_the_kernels_of_the_build_are_those_of_the_run() -> None:
+    """numba keeps kernels by processor: made for one model, they would be compiled anew on another."""
+    assert dockerfile_environment()["NUMBA_CPU_NAME"] == "generic"
+    assert [rest for kind, rest in instructions() if kind == "ENV" and "NUMBA_CPU_NAME=generic" in rest] == [
+        rest for kind, rest in instructions() if kind == "ENV"
+    ]
+    compiled = next(rest for kind, rest in instructions() if kind == "ENV")
+    folder = next(word.split("=")[1] for word in compiled.split() if word.startswith("NUMBA_CACHE_DIR"))
+    assert f"${{COMPILED:-{folder}}}" in (DEPLOY / "entrypoint.sh").read_text("utf-8")
+
+
+def test_the_kernels_are_compiled_by_commands_that_there_are() -> None:
+    """What they compute is copied to the builder."""
+    (run,) = (rest for kind, rest in instructions() if kind == "RUN" and rest.startswith("counterweight "))
+    for command in run.split(" && "):
+        program, name, source, *_ = command.split()
+        assert program == "counterweight"
+        assert name in get_command(app).commands  # type: ignore[attr-defined]
+        assert (ROOT / source).exists()
+
+
+def test_the_health_check_asks_for_readiness() -> None:
+    command = json.loads(last("HEALTHCHECK").split("CMD ")[1])
+    assert command[0] == "python"
+    compile(command[2], "healthcheck", "exec")
+    assert "/readyz" in command[2]
+
+
+@pytest.fixture
+def compiled(tmp_path: Path) -> Path:
+    folder = tmp_path / "compiled"
+    (folder / "program").mkdir(parents=True)
+    (folder / "program" / "kernel.nbi").write_bytes(b"kernel")
+    return folder
+
+
+def enter(compiled: Path, cache: Path, *command: str) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "COMPILED": str(compiled), "NUMBA_CACHE_DIR": str(cache)}
+    return subprocess.run(
+        [DEPLOY / "entrypoint.sh", *command], env=environment, capture_output=True, text=True, check=False
+    )
+
+
+def test_the_kernels_are_put_where_they_can_be_written(compiled: Path, tmp_path: Path) -> None:
+    cache = tmp_path / "numba"
+    found = enter(compiled, cache, "cat", str(cache / "program" / "kernel.nbi"))
+    assert (found.returncode, found.stdout) == (0, "kernel")
+    assert os.access(cache, os.W_OK)
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["compiled", "numba"]
+
+
+def test_kernels_that_were_compiled_since_are_left_alone(compiled: Path, tmp_path: Path) -> None:
+    cache = tmp_path / "numba"
+    enter(compiled, cache, "true")
+    (cache / "program" / "kernel.nbi").write_bytes(b"newer")
+    found = enter(compiled, cache, "cat", str(cache / "program" / "kernel.nbi"))
+    assert found.stdout == "newer"
+
+
+def test_the_command_takes_the_place_of_the_shell_and_its_code_is_that_of_the_container(
+    compiled: Path, tmp_path: Path
+) -> None:
+    found = enter(compiled, tmp_path / "numba", "sh", "-c", "exit 7")
+    assert found.returncode == 7
+    assert (DEPLOY / "entrypoint.sh").read_text().rstrip().endswith('exec "$@"')

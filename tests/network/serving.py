@@ -1,0 +1,162 @@
+"""The real service as a process, the memory of its processes, and raw requests to it."""
+
+import asyncio
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import AsyncIterable, Iterator, Mapping
+from contextlib import asynccontextmanager, contextmanager, suppress
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+import psutil
+
+ROOT = Path(__file__).parents[2]
+_MB = 1e6
+
+
+@dataclass(frozen=True)
+class Reply:
+    """An answer; status 0 if the connection was closed without one."""
+
+    status: int
+    headers: Mapping[str, str]
+    body: bytes
+
+
+class Service:
+    """A service that runs."""
+
+    def __init__(self, process: "subprocess.Popen[str]", port: int, log: IO[str]) -> None:
+        self.process = process
+        self.port = port
+        self.url = f"http://127.0.0.1:{port}"
+        self._log = log
+
+    def log(self) -> str:
+        """Everything that it has said on standard error."""
+        self._log.flush()
+        return Path(self._log.name).read_text()
+
+    def workers(self) -> list[psutil.Process]:
+        """The processes that compute answers: children of the one that they are forked from."""
+        children = psutil.Process(self.process.pid).children()
+        servers = [child for child in children if "forkserver" in " ".join(child.cmdline())]
+        return [worker for server in servers for worker in server.children()]
+
+    def memory_mb(self) -> tuple[float, float]:
+        """Resident memory of the service, and of its largest worker [MB]."""
+        own = psutil.Process(self.process.pid).memory_info().rss
+        largest = 0
+        for worker in self.workers():
+            with suppress(psutil.NoSuchProcess):
+                largest = max(largest, worker.memory_info().rss)
+        return own / _MB, largest / _MB
+
+    async def ask(
+        self, method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None, timeout: float = 60
+    ) -> Reply:
+        return await self.send(request(method, path, body, headers), timeout)
+
+    async def send(self, raw: bytes | AsyncIterable[bytes], timeout: float = 60) -> Reply:
+        """The answer to some bytes, on a connection of their own."""
+        async with asyncio.timeout(timeout), self.connection() as (reader, writer):
+            sending = asyncio.create_task(_write(writer, raw))
+            try:
+                return await read(reader)
+            finally:
+                sending.cancel()
+                with suppress(asyncio.CancelledError, OSError):
+                    await sending
+
+    @asynccontextmanager
+    async def connection(self):  # type: ignore[no-untyped-def]
+        reader, writer = await asyncio.open_connection("127.0.0.1", self.port)
+        try:
+            yield reader, writer
+        finally:
+            writer.close()
+            with suppress(OSError):
+                await writer.wait_closed()
+
+
+def request(method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None) -> bytes:
+    """A request as it goes over the wire; the connection is closed after it unless the headers say otherwise."""
+    given = {"Host": "x", "Connection": "close", "Content-Type": "application/json", **(headers or {})}
+    if body and "Transfer-Encoding" not in given:
+        given.setdefault("Content-Length", str(len(body)))
+    lines = "".join(f"{name}: {value}\r\n" for name, value in given.items())
+    return f"{method} {path} HTTP/1.1\r\n{lines}\r\n".encode("utf-8", "surrogateescape") + body
+
+
+async def _write(writer: asyncio.StreamWriter, raw: bytes | AsyncIterable[bytes]) -> None:
+    with suppress(ConnectionError):
+        if isinstance(raw, bytes):
+            writer.write(raw)
+        else:
+            async for piece in raw:
+                writer.write(piece)
+                await writer.drain()
+        await writer.drain()
+
+
+async def read(reader: asyncio.StreamReader) -> Reply:
+    """The next answer on a connection."""
+    try:
+        head = await reader.readuntil(b"\r\n\r\n")
+    except (asyncio.IncompleteReadError, ConnectionError):
+        return Reply(0, {}, b"")
+    first, *lines = head.decode("latin-1").split("\r\n")
+    headers = {name.lower(): value.strip() for name, _, value in (line.partition(":") for line in lines if line)}
+    body = b""
+    with suppress(ConnectionError, asyncio.IncompleteReadError):
+        if headers.get("transfer-encoding") == "chunked":
+            while size := int(await reader.readline(), 16):
+                body += (await reader.readexactly(size + 2))[:-2]
+            await reader.readline()
+        else:
+            body = await reader.readexactly(int(headers.get("content-length", "0")))
+    return Reply(int(first.split()[1]), headers, body)
+
+
+@contextmanager
+def service(**settings: str | int) -> Iterator[Service]:
+    """A service with some ``COUNTERWEIGHT_*`` settings, ready to compute; ended, and known to have ended, after it."""
+    with tempfile.TemporaryDirectory(prefix="counterweight-") as folder, open(f"{folder}/log", "w") as log:
+        given = {"DATA_DIR": f"{folder}/data", **{name.upper(): str(value) for name, value in settings.items()}}
+        environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in given.items()}}
+        process = subprocess.Popen(
+            [sys.executable, "-m", "service", "serve", "--port", "0"],
+            cwd=ROOT,
+            env=environment,
+            stdout=subprocess.PIPE,
+            stderr=log,
+            text=True,
+        )
+        try:
+            assert process.stdout is not None
+            found = re.search(r"http://\S+:(\d+) ", process.stdout.readline())
+            assert found is not None, Path(log.name).read_text()
+            made = Service(process, int(found[1]), log)
+            _wait(made)
+            yield made
+        finally:
+            process.terminate()
+            try:
+                process.wait(30)
+            finally:
+                process.kill()
+                process.wait()
+                if process.stdout is not None:
+                    process.stdout.close()
+
+
+def _wait(made: Service) -> None:
+    deadline = time.monotonic() + 120
+    while asyncio.run(made.ask("GET", "/readyz")).status != 200:
+        assert time.monotonic() < deadline, made.log()
+        time.sleep(0.1)

@@ -1,0 +1,59 @@
+"""What the workers of the tests compute."""
+
+import json
+import os
+import signal
+import time
+from pathlib import Path
+
+from schemas.problem import Problem
+from schemas.requests import OptimizeRequest
+from service.examples import load
+from service.settings import Settings
+from service.size_limits import SizeLimits
+from service.workers.worker import Task
+
+_DONE = Problem(type="t", title="t", status=200, detail="d", instance="", errors=())
+
+
+def quick(_: OptimizeRequest) -> Problem:
+    return _DONE
+
+
+def slow(_: OptimizeRequest) -> Problem:
+    time.sleep(1)
+    return _DONE
+
+
+def endless(_: OptimizeRequest) -> Problem:
+    time.sleep(600)
+    return _DONE
+
+
+def hungry(_: OptimizeRequest) -> Problem:
+    return Problem(**{**_DONE.model_dump(), "title": "x" * len(bytearray(3_000_000_000))})
+
+
+def faulty(asked: OptimizeRequest) -> Problem:
+    raise RuntimeError(f"secret {asked.machine.name}")
+
+
+def deadly(_: OptimizeRequest) -> Problem:
+    os.kill(os.getpid(), signal.SIGKILL)
+    return _DONE
+
+
+def deadly_once(asked: OptimizeRequest) -> Problem:
+    """Dies once; the file that its machine is named after tells the second time from the first."""
+    if not Path(asked.machine.name).exists():
+        Path(asked.machine.name).touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return _DONE
+
+
+def task(compute: object, name: str = "x", long: bool = False) -> Task:
+    """A task that has the machine of an example, with another name."""
+    body = json.loads(load("w60"))
+    body["machine"]["name"] = name
+    content = json.dumps(body).encode()
+    return Task(OptimizeRequest, compute, content, SizeLimits.of(Settings()), long)  # type: ignore[arg-type]

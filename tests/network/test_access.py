@@ -1,0 +1,278 @@
+"""Keys: who may do what, and what those learn who may not."""
+
+import json
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from service import keys
+from service.app import create_app
+from service.examples import bodies
+from service.keys import BadKeyFile, KeyRecord, Scope
+from service.settings import Settings
+
+KEYS: dict[str, tuple[str, tuple[Scope, ...], dict[str, Any]]] = {
+    "alice": ("alice", ("compute", "sweeps", "read"), {}),
+    "alice's new one": ("alice", ("sweeps", "read"), {}),
+    "bob": ("bob", ("compute", "sweeps", "read"), {}),
+    "reader": ("bob", ("read",), {}),
+    "meter": ("prometheus", ("metrics",), {}),
+    "admin": ("root", ("admin",), {}),
+    "slow": ("slow", ("read",), {"rate_limit": "3/hour"}),
+    "expired": ("alice", ("admin",), {"expires": 1.0}),
+}
+SWEEP = next(iter(bodies("sweeps").values()))
+NOBODYS = ("0" * 32, "f" * 32, "x", "..%2f")
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, dict[str, str]]:
+    """The file of the keys, and the keys by name."""
+    found = {name: keys.make(owner, scopes, **more) for name, (owner, scopes, more) in KEYS.items()}
+    file = tmp_path_factory.mktemp("keys") / "keys"
+    keys.write(file, [record for _, record in found.values()])
+    return file, {name: key for name, (key, _) in found.items()}
+
+
+@pytest.fixture(scope="module")
+def client(made: tuple[Path, dict[str, str]], tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    settings = Settings(
+        host="0.0.0.0",
+        keys_file=made[0],
+        data_dir=tmp_path_factory.mktemp("data"),
+        refusal_limit="2000/minute",
+        cors_origins=("https://portal.example",),
+        hsts_s=600,
+    )
+    with TestClient(create_app(settings, warm_up=lambda: None)) as client:
+        yield client
+
+
+@pytest.fixture
+def ask(client: TestClient, made: tuple[Path, dict[str, str]]) -> Any:
+    def send(name: str | None, method: str, path: str, **given: Any) -> Any:
+        headers = {} if name is None else {"Authorization": f"Bearer {made[1].get(name, name)}"}
+        return client.request(method, path, headers={**headers, **given.pop("headers", {})}, **given)
+
+    return send
+
+
+@pytest.fixture
+def job(ask: Any) -> str:
+    """A sweep of alice; its path."""
+    started = ask("alice", "POST", "/v1/sweeps", json=SWEEP)
+    assert started.status_code == 202
+    return str(started.headers["location"])
+
+
+PLACES = ["", "/results", "/events", "/metadata"]
+
+
+@pytest.mark.parametrize("name", [None, "nonsense", "cw_0123456789ab_" + "x" * 43, "expired", "ü", ""])
+def test_without_a_right_key_everything_looks_the_same(ask: Any, job: str, name: str | None) -> None:
+    def told(path: str, method: str = "GET") -> tuple[Any, ...]:
+        answer = ask(None, method, path, headers={} if name is None else {"X-API-Key": name.encode()})
+        body = answer.json()
+        assert body.pop("instance") in (path, path.replace("%2f", "/"))
+        headers = {k: v for k, v in answer.headers.items() if k not in ("x-request-id", "content-length")}
+        return answer.status_code, body, headers
+
+    for place in PLACES:
+        real = told(job + place)
+        assert real[0] == 401
+        assert all(told(f"/v1/sweeps/{other}{place}") == real for other in NOBODYS)
+        assert told("/nothing") == real
+    assert told(job, "DELETE") == told(f"/v1/sweeps/{NOBODYS[0]}", "DELETE")
+    assert ask("alice", "GET", job).status_code == 200
+
+
+@pytest.mark.parametrize("name", ["bob", "reader"])
+def test_the_job_of_another_is_as_unknown_as_one_that_is_none(ask: Any, job: str, name: str) -> None:
+    def told(path: str) -> tuple[Any, ...]:
+        answer = ask(name, "GET", path)
+        return answer.status_code, {**answer.json(), "instance": ""}
+
+    for place in PLACES:
+        assert told(job + place) == told(f"/v1/sweeps/{NOBODYS[0]}{place}")
+        assert told(job + place)[0] == 404
+    identity = job.rpartition("/")[2]
+    assert told(f"/v1/sweeps?before={identity}") == told(f"/v1/sweeps?before={NOBODYS[0]}")
+    assert ask(name, "GET", "/v1/sweeps").json()["sweeps"] == []
+    assert ask("bob", "DELETE", job).status_code == 404
+    assert ask("bob", "POST", f"{job}/resume").status_code == 404
+    assert ask("alice", "GET", job).status_code == 200
+
+
+def test_jobs_belong_to_the_owner_of_the_key_and_admins_see_all(ask: Any, job: str) -> None:
+    identity = job.rpartition("/")[2]
+    for name in ("alice", "alice's new one", "admin"):
+        assert ask(name, "GET", job).status_code == 200
+        assert identity in [sweep["id"] for sweep in ask(name, "GET", "/v1/sweeps").json()["sweeps"]]
+    assert ask("alice's new one", "DELETE", job).status_code in (200, 204)
+
+
+def test_the_same_idempotency_key_of_two_owners_is_two_jobs(ask: Any) -> None:
+    given = {"json": SWEEP, "headers": {"Idempotency-Key": "same"}}
+    one, again, other = (ask(name, "POST", "/v1/sweeps", **given).json()["id"] for name in ("alice", "alice", "bob"))
+    assert one == again != other
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "path", "status"),
+    [
+        ("reader", "POST", "/v1/optimize", 403),
+        ("reader", "POST", "/v1/sweeps", 403),
+        ("reader", "DELETE", "/v1/sweeps/x", 403),
+        ("reader", "GET", "/metrics", 403),
+        ("reader", "GET", "/v1/examples", 200),
+        ("reader", "HEAD", "/v1/examples", 200),
+        ("reader", "HEAD", "/metrics", 403),
+        ("meter", "GET", "/metrics", 200),
+        ("meter", "GET", "/v1/sweeps", 403),
+        ("meter", "POST", "/v1/optimize", 403),
+        ("admin", "GET", "/metrics", 200),
+        ("alice", "POST", "/v1/optimize", 422),
+        ("alice", "GET", "/metrics", 403),
+        (None, "GET", "/healthz", 200),
+        (None, "GET", "/docs", 200),
+        (None, "GET", "/openapi.json", 200),
+        (None, "GET", "/metrics", 401),
+        (None, "GET", "/v1/examples", 401),
+    ],
+)
+def test_scopes(ask: Any, name: str | None, method: str, path: str, status: int) -> None:
+    more = {"json": {}} if method == "POST" else {}
+    assert ask(name, method, path, **more).status_code == status
+
+
+def test_a_key_has_a_rate_of_its_own(ask: Any) -> None:
+    statuses = [ask("slow", "GET", "/v1/examples").status_code for _ in range(5)]
+    assert statuses == [200] * 3 + [429] * 2
+    answer = ask("slow", "GET", "/v1/examples")
+    assert 0 < int(answer.headers["retry-after"]) <= 3600
+    assert answer.headers["content-type"] == "application/problem+json"
+    assert ask("alice", "GET", "/v1/examples").status_code == 200
+
+
+def test_those_who_guess_are_slowed_down(made: tuple[Path, dict[str, str]]) -> None:
+    app = create_app(Settings(keys_file=made[0], refusal_limit="3/hour"), warm_up=lambda: None)
+    with TestClient(app) as client:
+        statuses = [client.get("/v1/examples", headers={"X-API-Key": "x"}).status_code for _ in range(5)]
+        assert statuses == [401] * 3 + [429] * 2
+        # who has a key is not locked out by a neighbour who guesses
+        assert client.get("/v1/examples", headers={"X-API-Key": made[1]["alice"]}).status_code == 200
+
+
+def test_keys_come_and_go_while_the_service_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(keys, "_LOOK_S", 0.0)
+    file = tmp_path / "keys"
+    (old, first), (new, second) = keys.make("a", ("read",)), keys.make("a", ("read",))
+    keys.write(file, [first])
+    known = keys.Keys(file)
+    keys.write(file, [first, second])
+    assert known.caller(old) == known.caller(old)
+    assert known.caller(new) is not None
+    keys.write(file, [second])
+    assert known.caller(old) is None
+    file.write_text("nonsense")
+    # a file that is wrong for a moment takes nobody's key away
+    assert known.caller(new) is not None
+
+
+def test_no_key_is_in_the_file_and_nobody_else_can_read_it(made: tuple[Path, dict[str, str]]) -> None:
+    text = made[0].read_text()
+    assert not any(key in text or key.split("_", 2)[2] in text for key in made[1].values())
+    assert made[0].stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.parametrize("line", ["{}", "[]", "\x00", '{"id":1}', "x" * 10_000])
+def test_a_file_that_holds_no_keys_is_refused_by_line(tmp_path: Path, line: str) -> None:
+    file = tmp_path / "keys"
+    file.write_text(f"\n{line}\n")
+    with pytest.raises(BadKeyFile, match="line 2"):
+        keys.keys(Settings(keys_file=file))
+    with pytest.raises(BadKeyFile, match="No such file"):
+        keys.keys(Settings(keys_file=tmp_path / "none"))
+
+
+@pytest.mark.parametrize("host", ["0.0.0.0", "::", "10.0.0.1", "service.example"])
+def test_no_other_machine_is_served_without_keys_by_accident(host: str) -> None:
+    with pytest.raises(ValueError, match="COUNTERWEIGHT_KEYS_FILE"):
+        create_app(Settings(host=host))
+    assert keys.keys(Settings(host=host, allow_without_keys=True)) is None
+
+
+@pytest.mark.parametrize("host", ["127.0.0.1", "::1", "localhost", "127.9.9.9"])
+def test_on_loopback_nobody_needs_a_key(host: str) -> None:
+    assert keys.keys(Settings(host=host)) is None
+
+
+def test_a_wrong_key_takes_as_long_as_a_right_one(made: tuple[Path, dict[str, str]]) -> None:
+    known = keys.Keys(made[0])
+
+    def seconds(key: str) -> float:
+        best = float("inf")
+        for _ in range(200):
+            begun = time.perf_counter()
+            known.caller(key)
+            best = min(best, time.perf_counter() - begun)
+        return best
+
+    right = made[1]["alice"]
+    times = [seconds(key) for key in (right, right[:-1] + "~", right[:-4] + "AAAA", "cw_0123456789ab_" + "x" * 43)]
+    assert max(times) < 3 * min(times)
+
+
+def test_records_hold_what_they_say() -> None:
+    key, record = keys.make("portal", ("compute",), expires=5.0, rate_limit="1/second")
+    assert key.startswith(f"cw_{record.id}_")
+    assert KeyRecord.model_validate_json(record.model_dump_json()) == record
+    assert json.loads(record.model_dump_json())["owner"] == "portal"
+
+
+# ---- what browsers are told
+
+
+def test_only_pages_of_the_listed_origins_may_ask(client: TestClient) -> None:
+    asked = {"Access-Control-Request-Method": "POST", "Access-Control-Request-Headers": "authorization,content-type"}
+    allowed = client.options("/v1/optimize", headers={"Origin": "https://portal.example", **asked})
+    assert allowed.status_code == 200
+    assert allowed.headers["access-control-allow-origin"] == "https://portal.example"
+    refused = client.options("/v1/optimize", headers={"Origin": "https://evil.example", **asked})
+    assert "access-control-allow-origin" not in refused.headers
+    # an error can be read by the page too
+    answer = client.get("/v1/examples", headers={"Origin": "https://portal.example"})
+    assert (answer.status_code, answer.headers["access-control-allow-origin"]) == (401, "https://portal.example")
+    assert (
+        "access-control-allow-origin" not in client.get("/healthz", headers={"Origin": "https://evil.example"}).headers
+    )
+
+
+@pytest.mark.parametrize("path", ["/healthz", "/v1/examples", "/nothing", "/docs", "/"])
+def test_security_headers_are_on_every_answer(client: TestClient, path: str) -> None:
+    headers = client.get(path).headers
+    assert headers["x-content-type-options"] == "nosniff"
+    assert headers["x-frame-options"] == "DENY"
+    assert headers["referrer-policy"] == "no-referrer"
+    assert "default-src" in headers["content-security-policy"]
+    assert "strict-transport-security" not in headers
+
+
+def test_https_is_insisted_on_where_it_is_used(client: TestClient) -> None:
+    answer = client.get("https://testserver/healthz")
+    assert answer.headers["strict-transport-security"] == "max-age=600; includeSubDomains"
+
+
+def test_a_prefix_changes_nothing_about_who_may_what(made: tuple[Path, dict[str, str]], tmp_path: Path) -> None:
+    app = create_app(Settings(keys_file=made[0], data_dir=tmp_path), warm_up=lambda: None)
+    with TestClient(app, root_path="/cw") as client:
+        for prefix in ("", "/cw"):
+            assert client.get(f"{prefix}/healthz").status_code == 200
+            assert client.get(f"{prefix}/v1/examples").status_code == 401
+            assert client.get(f"{prefix}/metrics", headers={"X-API-Key": made[1]["alice"]}).status_code == 403
+            assert client.get(f"{prefix}/healthz/../v1/examples").status_code == 401
+        assert client.get("/cwhealthz").status_code == 401

@@ -1,0 +1,26 @@
+"""Hand-written attacks in short; ``python -m tests.network.attacks`` is the whole of them."""
+
+import asyncio
+
+import pytest
+
+from tests.network.attacks import ATTACKS, CEILING_MB, Attack, run
+from tests.network.serving import Service
+
+#: every so many requests of the attacks that have thousands
+_EVERY = {"no numbers": 61, "lone surrogates": 61, "wrong types": 67, "pointers into nowhere": 5, "paths astray": 7}
+
+
+@pytest.mark.parametrize("attack", ATTACKS, ids=lambda attack: attack.name)
+def test_nothing_that_means_ill_does_harm(target: Service, attack: Attack) -> None:
+    outcome = asyncio.run(run(target, attack, every=_EVERY.get(attack.name, 1)))
+    assert outcome.wrong == []
+    assert outcome.statuses.total() >= 10
+    own, worker = outcome.memory_mb
+    assert own < CEILING_MB[0]
+    assert worker < CEILING_MB[1]
+
+
+def test_the_service_says_nothing_of_faults_and_still_computes(target: Service) -> None:
+    assert asyncio.run(target.ask("GET", "/readyz")).status == 200
+    assert '"ERROR"' not in target.log()

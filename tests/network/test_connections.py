@@ -1,0 +1,149 @@
+"""Clients that are slow, too many, or go away; they must not disturb others."""
+
+import asyncio
+import json
+import time
+from collections.abc import Iterator
+
+import pytest
+
+from service.examples import load
+from tests.network.serving import Service, read, request, service
+
+
+@pytest.fixture(scope="module")
+def strict() -> Iterator[Service]:
+    with service(
+        headers_timeout_s=1, body_timeout_s=1, write_timeout_s=1, max_connections=20, keep_alive_s=2, log_level="info"
+    ) as made:
+        yield made
+
+
+async def healthy(target: Service) -> None:
+    begun = time.monotonic()
+    assert (await target.ask("GET", "/healthz")).status == 200
+    assert time.monotonic() - begun < 1
+
+
+def test_headers_that_come_too_slowly_end_the_connection(strict: Service) -> None:
+    async def drip() -> int:
+        async with strict.connection() as (reader, writer):
+            writer.write(b"GET /healthz HTTP/1.1\r\nHost: x\r\n")
+            answer = asyncio.create_task(read(reader))
+            while not answer.done():
+                # each piece is in time, the whole is not
+                writer.write(b"X: y\r\n")
+                await asyncio.sleep(0.1)
+            return (await answer).status
+
+    async def all_of_them() -> list[int]:
+        dripping = [asyncio.create_task(drip()) for _ in range(10)]
+        await asyncio.sleep(0.5)
+        await healthy(strict)
+        return await asyncio.gather(*dripping)
+
+    begun = time.monotonic()
+    assert asyncio.run(all_of_them()) == [408] * 10
+    assert time.monotonic() - begun < 5
+
+
+def test_a_connection_that_says_nothing_is_closed(strict: Service) -> None:
+    async def silent() -> int:
+        async with strict.connection() as (reader, _):
+            return (await asyncio.wait_for(read(reader), 5)).status
+
+    assert asyncio.run(silent()) == 408
+
+
+def test_a_body_that_comes_too_slowly_is_answered_408(strict: Service) -> None:
+    async def drip() -> tuple[int, str]:
+        async with strict.connection() as (reader, writer):
+            writer.write(request("POST", "/v1/optimize", headers={"Content-Length": "100"}))
+            answer = asyncio.create_task(read(reader))
+            while not answer.done():
+                writer.write(b" ")
+                await asyncio.sleep(0.1)
+            found = await answer
+            return found.status, json.loads(found.body)["title"]
+
+    assert asyncio.run(drip()) == (408, "Body too slow")
+
+
+def test_a_body_that_never_ends_after_its_answer_ends_the_connection(strict: Service) -> None:
+    async def endless() -> float:
+        async with strict.connection() as (reader, writer):
+            head = request("POST", "/v1/optimize", headers={"Content-Length": "9" * 15, "Connection": "keep-alive"})
+            writer.write(head)
+            assert (await read(reader)).status == 413
+            begun = time.monotonic()
+            try:
+                while time.monotonic() - begun < 10:
+                    writer.write(b" " * 1000)
+                    await writer.drain()
+                    await asyncio.sleep(0.02)
+            except ConnectionError:
+                pass
+            return time.monotonic() - begun
+
+    assert asyncio.run(endless()) < 5
+
+
+def test_a_client_that_reads_nothing_is_let_go(strict: Service) -> None:
+    async def reads_nothing() -> None:
+        async with strict.connection() as (reader, writer):
+            reader._transport.pause_reading()  # type: ignore[attr-defined]
+            # more than the buffers of both kernels hold
+            wanted = request("GET", "/openapi.json", headers={"Connection": "keep-alive"})
+            writer.write(wanted * 200)
+            await asyncio.sleep(4)
+            await healthy(strict)
+
+    asyncio.run(reads_nothing())
+    # one of the few connections that there may be would be gone for ever
+    asyncio.run(too_many(strict, 15, 200))
+
+
+async def too_many(target: Service, others: int, expected: int) -> None:
+    held = [await asyncio.open_connection("127.0.0.1", target.port) for _ in range(others)]
+    try:
+        reply = await target.ask("GET", "/healthz")
+        assert reply.status == expected
+        if expected == 503:
+            assert reply.headers["retry-after"] == "1"
+            assert reply.headers["connection"] == "close"
+            assert reply.headers["content-type"] == "application/problem+json"
+    finally:
+        for _, writer in held:
+            writer.close()
+    await asyncio.sleep(0.2)
+
+
+def test_too_many_connections_are_answered_503_and_forgotten(strict: Service) -> None:
+    asyncio.run(too_many(strict, 25, 503))
+    asyncio.run(too_many(strict, 5, 200))
+
+
+def test_the_work_of_a_client_that_goes_away_ends(strict: Service) -> None:
+    # many seconds of work, which nobody waits for
+    body = json.dumps({"machine": json.loads(load("2d12"))["machine"], "repeats": 20}).encode()
+
+    async def leave() -> None:
+        async with strict.connection() as (_, writer):
+            writer.write(request("POST", "/v1/accuracy", body))
+            await writer.drain()
+            await running(strict, 1)
+        begun = time.monotonic()
+        await running(strict, 0)
+        assert time.monotonic() - begun < 2
+
+    asyncio.run(leave())
+    assert 'accuracy 499"' in strict.log()
+
+
+async def running(target: Service, count: int) -> None:
+    deadline = time.monotonic() + 10
+    while (
+        f"counterweight_computations_running {count:.1f}\n".encode() not in (await target.ask("GET", "/metrics")).body
+    ):
+        assert time.monotonic() < deadline
+        await asyncio.sleep(0.02)

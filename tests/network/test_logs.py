@@ -1,0 +1,177 @@
+"""What is logged and counted about requests, and what is not: nothing of a machine unless asked for."""
+
+import asyncio
+import json
+import logging
+import re
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from starlette.testclient import TestClient
+
+from service import logs
+from service.app import create_app
+from service.examples import load
+from service.settings import Settings
+from tests.network.serving import Service, service
+
+SECRET = "secret-7021962"
+#: a path that would like to be a line
+INJECTION = '/\n{"level":"ERROR"}'
+TRACE = "0af7651916cd43dd8448eb211c80319c"
+BODY = load("w60").replace(b'"name": "', f'"name": "{SECRET} '.encode(), 1)
+
+
+def lines(said: str) -> list[dict[str, Any]]:
+    return [json.loads(line) for line in said.splitlines()]
+
+
+def requests(said: str, path: str) -> list[dict[str, Any]]:
+    return [line for line in lines(said) if line["logger"] == "service.requests" and line["path"] == path]
+
+
+def said_about_requests(target: Service) -> str:
+    """What the service logs about four requests, one of which tries to write a line of its own."""
+    before = len(target.log())
+
+    async def ask() -> None:
+        headers = {"X-Request-ID": "mine-1", "Traceparent": f"00-{TRACE}-b7ad6b7169203331-01"}
+        assert (await target.ask("POST", "/v1/optimize", BODY, headers)).headers["x-request-id"] == "mine-1"
+        await target.ask("POST", "/v1/optimize", BODY.replace(b"speed_rpm", SECRET.encode()))
+        odd = await target.ask("GET", "/v1/sweeps", headers={"X-Request-ID": 'a"\tb', "Traceparent": "00-x-y-z"})
+        assert re.fullmatch("[0-9a-f]{32}", odd.headers["x-request-id"])
+        await target.ask("GET", "/%0a%7b%22level%22:%22ERROR%22%7d")
+
+    asyncio.run(ask())
+    # a line is written when the answer is already on its way
+    deadline = time.monotonic() + 10
+    while not requests(target.log()[before:], INJECTION):
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+    return target.log()[before:]
+
+
+def test_every_line_is_json_with_the_request_and_without_the_machine(target: Service) -> None:
+    said = said_about_requests(target)
+    good, bad = requests(said, "/v1/optimize")
+    assert (good["status"], good["method"], good["request_id"], good["trace_id"]) == (200, "POST", "mine-1", TRACE)
+    assert good["duration_ms"] > 0
+    assert bad["status"] == 422
+    assert bad["trace_id"] != TRACE
+    assert [line["level"] for line in requests(said, INJECTION)] == ["INFO"]
+    assert SECRET not in said
+
+
+def test_machines_are_logged_if_asked_for() -> None:
+    with service(log_machines="true") as target:
+        good, bad = requests(said_about_requests(target), "/v1/optimize")
+    assert SECRET in good["body"]
+    assert SECRET in bad["body"]
+
+
+def test_a_fault_is_logged_by_where_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    def fail() -> None:
+        raise RuntimeError(SECRET)
+
+    kept = logging.getLogger().handlers[:], logging.getLogger().level
+    try:
+        for quotes, form in ((False, "json"), (True, "json"), (False, "text")):
+            logs.configure(Settings(log_machines=quotes, log_format=form))
+            try:
+                fail()
+            except RuntimeError:
+                logging.getLogger("x").exception("it failed")
+            said = capsys.readouterr().err
+            assert "it failed" in said
+            assert "RuntimeError" in said
+            assert "test_logs.py" in said
+            assert (SECRET in said) is quotes
+    finally:
+        logging.getLogger().handlers[:], _ = kept
+        logging.getLogger().setLevel(kept[1])
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    settings = Settings(concurrent_solves=1, data_dir=tmp_path_factory.mktemp("data"))
+    with TestClient(create_app(settings, warm_up=lambda: None), raise_server_exceptions=False) as client:
+        yield client
+
+
+def sample(client: TestClient, name: str) -> float:
+    answer = client.get("/metrics")
+    assert answer.headers["content-type"].startswith("text/plain")
+    found = re.search(rf"^{re.escape(name)} (\S+)$", answer.text, re.MULTILINE)
+    return float(found[1]) if found else 0.0
+
+
+def test_metrics_count_requests_solves_and_gaps(client: TestClient) -> None:
+    headers = {"Content-Type": "application/json"}
+    for _ in range(3):
+        answer = client.post("/v1/optimize", content=BODY, headers=headers)
+        assert answer.status_code == 200
+    method = answer.json()["certificate"]["method"]
+    assert client.post("/v1/optimize", json={}).status_code == 422
+    assert client.head("/healthz").status_code == 200
+    client.request("BREW", "/nothing/at/all")
+    requests = "counterweight_requests_total"
+    assert sample(client, f'{requests}{{method="POST",route="/v1/optimize",status="200"}}') == 3
+    assert sample(client, f'{requests}{{method="POST",route="/v1/optimize",status="422"}}') == 1
+    assert sample(client, f'{requests}{{method="HEAD",route="/healthz",status="200"}}') == 1
+    assert sample(client, f'{requests}{{method="other",route="unmatched",status="404"}}') == 1
+    assert sample(client, f'counterweight_solve_seconds_count{{method="{method}"}}') == 3
+    gap = answer.json()["certificate"]["relative_gap"]
+    total = sample(client, f'counterweight_certified_relative_gap_sum{{method="{method}"}}')
+    assert total == pytest.approx(3 * gap, rel=1e-6)
+    assert sample(client, 'counterweight_computation_seconds_count{computation="optimize"}') == 3
+    assert sample(client, 'counterweight_worker_events_total{event="started"}') == 1
+    assert sample(client, "counterweight_computations_waiting") == 0
+
+
+def test_metrics_tell_of_jobs_only_when_there_are_any(client: TestClient) -> None:
+    assert sample(client, "counterweight_job_database_up") == 1
+    assert sample(client, 'counterweight_jobs{state="cancelled"}') == 0
+    axes = [{"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": 50_000}]
+    started = client.post("/v1/sweeps", json={"base": json.loads(load("w60")), "axes": axes})
+    client.delete(started.headers["location"])
+    assert sample(client, 'counterweight_jobs{state="cancelled"}') == 1
+
+
+def test_traces_go_to_the_collector(tmp_path: Path) -> None:
+    from http.server import BaseHTTPRequestHandler, HTTPServer
+    from threading import Thread
+
+    from opentelemetry.proto.collector.trace.v1.trace_service_pb2 import ExportTraceServiceRequest
+
+    got: list[bytes] = []
+
+    class Collector(BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            got.append(self.rfile.read(int(self.headers["Content-Length"])))
+            self.send_response(200)
+            self.send_header("Content-Length", "0")
+            self.end_headers()
+
+        def log_message(self, *_: object) -> None:
+            pass
+
+    with HTTPServer(("127.0.0.1", 0), Collector) as collector:
+        thread = Thread(target=collector.serve_forever)
+        thread.start()
+        try:
+            settings = Settings(otlp_endpoint=f"http://127.0.0.1:{collector.server_port}", data_dir=tmp_path)
+            with TestClient(create_app(settings, warm_up=lambda: None)) as client:
+                headers = {"Content-Type": "application/json", "Traceparent": f"00-{TRACE}-b7ad6b7169203331-01"}
+                assert client.post("/v1/optimize", content=BODY, headers=headers).status_code == 200
+        finally:
+            collector.shutdown()
+            thread.join()
+    sent = ExportTraceServiceRequest.FromString(got[0])
+    spans = {span.name: span for scope in sent.resource_spans[0].scope_spans for span in scope.spans}
+    assert set(spans) == {"POST", "optimize"}
+    assert {span.trace_id.hex() for span in spans.values()} == {TRACE}
+    assert spans["optimize"].parent_span_id == spans["POST"].span_id
+    assert SECRET.encode() not in got[0]

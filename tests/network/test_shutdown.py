@@ -1,0 +1,75 @@
+"""SIGTERM: what runs is finished or parked within the grace time, and nothing is left behind."""
+
+import asyncio
+import json
+import signal
+import time
+from collections.abc import Iterator
+
+import psutil
+import pytest
+
+from service.examples import load
+from tests.network.load import killed, start_sweep
+from tests.network.serving import Reply, Service, read, request, service
+
+#: work for longer than the grace time
+LONG = json.dumps({"machine": json.loads(load("2d12"))["machine"], "repeats": 20}).encode()
+GRACE_S = 3
+
+
+@pytest.fixture
+def ending() -> Iterator[Service]:
+    with service(graceful_shutdown_s=GRACE_S) as made:
+        yield made
+
+
+async def ended(target: Service) -> float:
+    begun = time.monotonic()
+    target.process.send_signal(signal.SIGTERM)
+    await asyncio.to_thread(target.process.wait, 30)
+    return time.monotonic() - begun
+
+
+def test_requests_are_finished_streams_are_ended_sweeps_are_parked(ending: Service) -> None:
+    family = psutil.Process(ending.process.pid).children(recursive=True)
+
+    async def everything() -> tuple[Reply, bytes]:
+        sweep = await start_sweep(ending)
+        async with ending.connection() as (events, writer):
+            writer.write(request("GET", f"{sweep}/events"))
+            await events.readuntil(b"event: progress")
+            quick = asyncio.create_task(ending.ask("POST", "/v1/optimize", load("w60")))
+            await asyncio.sleep(0.01)
+            family.extend(psutil.Process(ending.process.pid).children(recursive=True))
+            assert await ended(ending) < GRACE_S + 5
+            return await quick, await events.read()
+
+    quick, rest = asyncio.run(everything())
+    assert quick.status == 200
+    assert rest.endswith(b"0\r\n\r\n")
+    gone, alive = psutil.wait_procs(family, timeout=5)
+    assert gone
+    assert alive == []
+
+
+def test_work_that_does_not_end_is_answered_503_in_time(ending: Service) -> None:
+    async def everything() -> Reply:
+        async with ending.connection() as (reader, writer):
+            writer.write(request("POST", "/v1/accuracy", LONG))
+            await asyncio.sleep(1)
+            stopping = asyncio.create_task(ended(ending))
+            found = await read(reader)
+            assert await stopping < GRACE_S + 5
+            return found
+
+    found = asyncio.run(everything())
+    assert (found.status, json.loads(found.body)["title"]) == (503, "Workers failed")
+    assert int(found.headers["retry-after"]) > 0
+    assert '"ERROR"' not in ending.log()
+
+
+def test_a_worker_that_is_killed_is_replaced_within_a_second(target: Service) -> None:
+    times = [asyncio.run(killed(target)) for _ in range(3)]
+    # the machine may be busy with other tests
+    assert min(times) < 1

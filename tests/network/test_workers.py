@@ -1,0 +1,142 @@
+"""The pool of workers: what becomes of tasks that are slow, hungry, faulty, deadly, or nobody's any more."""
+
+import time
+from collections.abc import Iterator
+from tempfile import TemporaryDirectory
+
+import anyio
+import pytest
+
+from service.workers.pool import Busy, Pool, TooSlow, WorkerDied, WorkersFailed
+from service.workers.worker import Answer, Crashed, Outcome, OutOfMemory, Refused
+from tests.network import tasks
+from tests.network.tasks import task
+
+
+@pytest.fixture
+def pool() -> Iterator[Pool]:
+    made = Pool(size=2, waiting=2, timeout_s=30, memory_mb=2000)
+    yield made
+    made.close()
+
+
+def run(pool: Pool, *asked: object) -> list[Outcome | Exception]:
+    """The outcomes of tasks that are given at once."""
+    found: list[Outcome | Exception] = [AssertionError()] * len(asked)
+
+    async def one(index: int) -> None:
+        try:
+            found[index] = await pool.run(asked[index])  # type: ignore[arg-type]
+        except Exception as error:
+            found[index] = error
+
+    async def everything() -> None:
+        async with anyio.create_task_group() as group:
+            for index in range(len(asked)):
+                group.start_soon(one, index)
+
+    anyio.run(everything)
+    return found
+
+
+def test_it_answers(pool: Pool) -> None:
+    [found] = run(pool, task(tasks.quick))
+    assert isinstance(found, Answer)
+    assert b'"title":"t"' in found.content
+    assert found.certified is None
+    assert found.resident > 10_000_000
+
+
+def test_a_task_that_takes_too_long_is_ended_with_its_worker(pool: Pool) -> None:
+    run(pool, task(tasks.quick))
+    before = pool.pids
+    pool.timeout_s = 0.5
+    begun = time.monotonic()
+    found = run(pool, task(tasks.endless), task(tasks.endless), task(tasks.endless))
+    assert [isinstance(each, TooSlow) for each in found] == [True] * 3
+    assert sorted(each.computing for each in found if isinstance(each, TooSlow)) == [False, True, True]
+    assert time.monotonic() - begun < 5
+    assert not set(before) & set(pool.pids)
+    assert pool.counts.ended_late == 3
+    pool.timeout_s = 30
+    assert isinstance(run(pool, task(tasks.quick))[0], Answer)
+
+
+def test_more_than_may_wait_are_refused_at_once(pool: Pool) -> None:
+    run(pool, task(tasks.quick), task(tasks.quick))
+    found = run(pool, *[task(tasks.slow)] * 6)
+    refused = [each for each in found if isinstance(each, Busy)]
+    assert len(refused) == 2
+    assert all(each.retry_after_s >= 1 for each in refused)
+    assert sum(isinstance(each, Answer) for each in found) == 4
+    assert (pool.running, pool.queued) == (0, 0)
+
+
+def test_long_tasks_leave_a_worker_to_the_others(pool: Pool) -> None:
+    run(pool, task(tasks.quick), task(tasks.quick))
+    found: list[float] = []
+
+    async def three_at_once() -> None:
+        async with anyio.create_task_group() as group:
+            for _ in range(2):
+                group.start_soon(pool.run, task(tasks.slow, long=True))
+            await anyio.sleep(0.1)
+            begun = time.monotonic()
+            assert isinstance(await pool.run(task(tasks.quick)), Answer)
+            found.append(time.monotonic() - begun)
+
+    anyio.run(three_at_once)
+    assert found[0] < 0.8
+
+
+def test_a_task_that_takes_too_much_memory_is_refused_alone(pool: Pool) -> None:
+    hungry, other = run(pool, task(tasks.hungry), task(tasks.slow))
+    assert isinstance(hungry, Refused)
+    assert isinstance(hungry.error, OutOfMemory)
+    assert isinstance(other, Answer)
+
+
+def test_a_fault_says_where_and_apart_what(pool: Pool) -> None:
+    [found] = run(pool, task(tasks.faulty, "7021962"))
+    assert isinstance(found, Crashed)
+    assert "tasks.py" in found.trace
+    assert "RuntimeError" in found.trace
+    assert "7021962" not in found.trace
+    assert "7021962" in found.message
+
+
+def test_a_worker_that_dies_is_replaced_and_its_task_done_again(pool: Pool) -> None:
+    # a name of a machine is shorter than pytest's own folders
+    with TemporaryDirectory() as folder:
+        [found] = run(pool, task(tasks.deadly_once, f"{folder}/x"))
+    assert isinstance(found, Answer)
+    assert pool.counts.died == 1
+
+
+def test_a_task_that_kills_its_workers_is_given_up(pool: Pool) -> None:
+    deadly, other = run(pool, task(tasks.deadly), task(tasks.slow))
+    assert isinstance(deadly, WorkerDied)
+    assert isinstance(other, Answer)
+    assert pool.counts.died == 2
+
+
+def test_a_task_whose_caller_is_gone_is_ended(pool: Pool) -> None:
+    run(pool, task(tasks.quick), task(tasks.quick))
+
+    async def leave() -> None:
+        with anyio.move_on_after(0.3):
+            await pool.run(task(tasks.endless))
+        assert pool.running == 0
+        assert isinstance(await pool.run(task(tasks.quick)), Answer)
+
+    begun = time.monotonic()
+    anyio.run(leave)
+    assert time.monotonic() - begun < 5
+    assert pool.counts.ended_gone == 1
+
+
+def test_a_closed_pool_starts_nothing(pool: Pool) -> None:
+    run(pool, task(tasks.quick))
+    pool.close()
+    assert pool.pids == ()
+    assert isinstance(run(pool, task(tasks.quick))[0], WorkersFailed)

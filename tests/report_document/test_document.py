@@ -1,0 +1,173 @@
+"""What the document says is what the service answers."""
+
+import hashlib
+import json
+from collections.abc import Callable, Iterator
+
+import pytest
+
+from optimizer.optimize import optimize
+from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Table
+from service.report.chapters.reproduction import request_json
+from service.report.document import document
+from service.report.formula import formula
+from tests.report_document.conftest import AT, asked
+
+Make = Callable[..., Document]
+
+
+def chapter(made: Document, title: str) -> Chapter:
+    return next(one for one in made.chapters if one.title == title)
+
+
+def tables(made: Document, title: str) -> Iterator[Table]:
+    return (block for block in chapter(made, title).blocks if isinstance(block, Table))
+
+
+def words(made: Document, title: str) -> str:
+    return " ".join(block.text for block in chapter(made, title).blocks if isinstance(block, Paragraph))
+
+
+def value(cell: Cell) -> object:
+    return cell.value if isinstance(cell, Number) else cell
+
+
+def values(table: Table) -> list[tuple[object, ...]]:
+    return [tuple(map(value, row)) for row in table.rows]
+
+
+def test_the_counterweights_and_the_prices_of_their_limits(made: Make) -> None:
+    answer = optimize(asked("2d12"))
+    weights, prices = tables(made("2d12"), "Counterweights")
+    assert [row[:3] for row in values(weights)] == [
+        (one.web, one.mass_kg, one.angle_deg) for one in answer.counterweights
+    ]
+    assert [row[-1] for row in weights.rows] == [
+        "largest mass" if one.active_limits else "none" for one in answer.counterweights
+    ]
+    assert values(prices) == [("largest mass", one.web, one.value, one.unit) for one in answer.shadow_prices]
+    assert len(prices.rows) == 3
+
+
+def test_a_machine_that_no_limit_holds_up(made: Make) -> None:
+    assert "all shadow prices are 0" in words(made("scroll-three-pins"), "Counterweights")
+
+
+def test_before_and_after(made: Make) -> None:
+    answer = optimize(asked("v60"))
+    (table,) = tables(made("v60"), "First order before and after")
+    after = answer.residual.after
+    assert after is not None
+    assert values(table)[0] == (
+        "peak force, N", answer.residual.before.force.peak_N, after.force.peak_N, answer.floor.force_N
+    )  # fmt: skip
+    assert any(row[2] == after.moment.peak_Nm for row in values(table))
+
+
+def test_the_eight_stages_stand_in_it_without_being_asked_for(made: Make) -> None:
+    stages = optimize(asked("2d12", outputs=["stages"])).stages
+    assert stages is not None
+    shown = values(next(tables(made("2d12"), "The eight balancing stages")))
+    assert [row[0] for row in shown] == ["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
+    assert [row[2:4] for row in shown] == [(one.value, one.remaining) for one in stages]
+
+
+def test_stages_that_cannot_be_computed_say_what_is_missing(made: Make) -> None:
+    request = asked("single-vertical").model_dump(mode="json")
+    request["machine"]["throws"][0]["rows"][0]["connecting_rod"] = None
+    said = words(made("single-vertical", **request), "The eight balancing stages")
+    assert "/machine/throws/0/rows/0/connecting_rod" in said
+
+
+def test_the_verdict_on_an_optimum(made: Make) -> None:
+    answer = optimize(asked("2d12"))
+    assert answer.certificate is not None
+    found = made("2d12")
+    assert found.status == "optimal"
+    assert f"better than an objective of {answer.certificate.lower_bound:.6g}" in words(found, "Result")
+    (figures,) = tables(found, "Certificate")
+    assert ("lower bound", answer.certificate.lower_bound) in values(figures)
+
+
+def test_the_verdict_on_ceilings_that_cannot_be_met(made: Make) -> None:
+    found = made("2d12", objective={"force_ceiling_N": 4000})
+    assert found.status == "infeasible"
+    assert "the ceiling of the force cannot be met" in words(found, "Result")
+    assert "best compromise, not an answer" in words(found, "Counterweights")
+    assert "never below 5003.07 N" in words(found, "Certificate")
+
+
+def test_the_verdict_on_less_accuracy_than_was_asked_for() -> None:
+    request = asked("2d12")
+    answer = optimize(request).model_copy(update={"status": "inaccurate"})
+    said = document(request, answer, (), AT)
+    assert said.status == "inaccurate"
+    assert "Not certified to the accuracy asked for" in words(said, "Result")
+
+
+def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
+    request = asked("2d12").model_dump(mode="json")
+    request["machine"]["webs"] = []
+    found = made("2d12", **request)
+    assert "no place for counterweights" in words(found, "Result")
+    assert words(found, "Counterweights").startswith("There are none.")
+
+
+@pytest.mark.parametrize(
+    ("output", "title", "figures"),
+    [
+        ("kinematics", "Motion", 3),
+        ("gas", "Gas", 2),
+        ("piston_force", "Piston forces", 3),
+        ("rod_loads", "Rod loads", 4),
+        ("torque", "Torque", 1),
+        ("flywheel", "Flywheel", 0),
+        ("overturning", "Overturning couple", 1),
+        ("main_bearings", "Main bearings", 2),
+        ("orders", "Orders", 0),
+    ],
+)
+def test_every_output_asked_for_has_its_chapter(made: Make, output: str, title: str, figures: int) -> None:
+    found = made("2d12", outputs=[output])
+    assert sum(isinstance(block, Figure) for block in chapter(found, title).blocks) == figures
+    used = {row[0]: row[2] for row in values(next(tables(found, "Which effects were simulated")))}
+    assert used["pin loads"] == "no"
+    # only what was asked for
+    assert ("Torque" in [one.title for one in found.chapters]) == (output == "torque")
+
+
+def test_pin_loads_of_a_scroll(made: Make) -> None:
+    facts, pins = tables(made("scroll-three-pins", outputs=["pin_loads"]), "Pin loads")
+    # analytic: 2 T/(n R) with 12.5 N m, 3 pins on 48 mm
+    assert value(facts.rows[0][1]) == pytest.approx(2 * 12.5 / (3 * 0.048))
+    assert len(pins.rows) == 3
+
+
+def test_the_request_in_the_appendix_is_the_request() -> None:
+    request = asked("v8-cross-plane", outputs=["orders"])
+    shown = request_json(request)
+    assert json.loads(shown) == request.model_dump(mode="json")
+    assert max(map(len, shown.splitlines())) <= 120 + len(request.machine.description or "")
+
+
+def test_the_digest_is_that_of_the_attached_request(made: Make) -> None:
+    found = made("2d12")
+    content = json.dumps(json.loads(found.attachment.content), sort_keys=True, separators=(",", ":"))
+    said = dict(values(found.head))
+    assert said["digest of the request"] == hashlib.sha256(content.encode()).hexdigest()
+    assert said["date"] == "2026-02-03T04:05:06Z"
+    assert "counterweight 0.1.0" in str(said["computed with"])
+
+
+@pytest.mark.parametrize(
+    ("text", "runs"),
+    [
+        ("omega^2/2", [("ω", "base"), ("2", "sup"), ("/2", "base")]),
+        ("e^{j(2d - g)}", [("e", "base"), ("j(2d − g)", "sup")]),
+        ("|A1|", [("|", "base"), ("A", "base"), ("1", "sub"), ("|", "base")]),
+        ("m_r z_ref", [("m", "base"), ("r", "sub"), (" z", "base"), ("ref", "sub")]),
+        ("first-order force <script>", [("first-order force <script>", "base")]),
+    ],
+)
+def test_formulas(text: str, runs: list[tuple[str, str]]) -> None:
+    assert list(formula(text)) == runs

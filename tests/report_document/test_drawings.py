@@ -1,0 +1,110 @@
+"""The drawings are to scale."""
+
+import math
+import re
+from collections.abc import Sequence
+from xml.etree import ElementTree
+
+import pytest
+
+from optimizer.optimize import optimize
+from schemas.answers import Counterweight
+from service.report import charts
+from service.report.drawing import AFTER, PAGE_WIDTH, Drawing
+from service.report.front import front
+from service.report.side import side
+from tests.report_document.conftest import asked
+
+Point = tuple[float, float]
+
+
+def shapes(drawing: Drawing, tag: str) -> list[dict[str, str]]:
+    root = ElementTree.fromstring(drawing.svg())
+    return [shape.attrib for shape in root if shape.tag.endswith(tag)]
+
+
+def points(path: str) -> list[Point]:
+    return [(float(x), float(y)) for x, y in re.findall(r"(-?[\d.]+) (-?[\d.]+)", path)]
+
+
+def area(outline: Sequence[Point]) -> float:
+    """Shoelace formula."""
+    ends = [*outline[1:], outline[0]]
+    return abs(sum(a[0] * b[1] - a[1] * b[0] for a, b in zip(outline, ends, strict=True))) / 2
+
+
+def fitted(example: str, masses: Sequence[float]) -> list[Counterweight]:
+    found = optimize(asked(example)).counterweights
+    return [one.model_copy(update={"mass_kg": mass}) for one, mass in zip(found, masses, strict=True)]
+
+
+def test_crank_pins_stand_where_the_machine_says() -> None:
+    machine = asked("inline-six").machine
+    drawing = front(machine, ())
+    x0, y0 = drawing.width / 2, drawing.height / 2
+    pins = [one for one in shapes(drawing, "circle") if one["r"] == "4.5"]
+    # analytic: y points upwards
+    for throw, pin in zip(sorted(machine.throws, key=lambda one: one.crank_angle_deg % 360), pins, strict=True):
+        angle = math.degrees(math.atan2(y0 - float(pin["cy"]), float(pin["cx"]) - x0)) % 360
+        assert angle == pytest.approx(throw.crank_angle_deg % 360, abs=0.1)
+
+
+def test_areas_of_counterweights_are_in_proportion_to_their_masses() -> None:
+    drawing = front(asked("2d12").machine, fitted("2d12", (40, 20, 10, 5)))
+    areas = [area(points(one["d"])) for one in shapes(drawing, "path") if one["fill"] == AFTER]
+    # analytic, but for the corners of arcs and hundredths of a px
+    assert [one / areas[0] for one in areas] == pytest.approx([1, 0.5, 0.25, 0.125], rel=0.01)
+
+
+def test_no_counterweights_are_drawn_where_there_are_none() -> None:
+    drawing = front(asked("2d12").machine, fitted("2d12", (0, 0, 0, 0)))
+    assert not [one for one in shapes(drawing, "path") if one["fill"] == AFTER]
+
+
+def test_planes_along_the_shaft_are_to_scale() -> None:
+    machine = asked("2d12").machine
+    drawing = side(machine, fitted("2d12", (40, 20, 10, 5)), 0.0)
+    bars = [points(one["d"]) for one in shapes(drawing, "path") if one["fill"] == AFTER]
+    middles = [(bar[0][0] + bar[1][0]) / 2 for bar in bars]
+    planes = [web.position_m for web in machine.webs]
+    per_m = (middles[0] - middles[-1]) / (planes[0] - planes[-1])
+    assert [middle - middles[0] for middle in middles] == pytest.approx(
+        [(plane - planes[0]) * per_m for plane in planes], abs=0.02
+    )
+    assert 0 < min(middles) < max(middles) < PAGE_WIDTH
+
+
+def test_a_hodograph_reaches_its_peak_in_the_direction_of_its_axis() -> None:
+    drawing = charts.hodograph("force", "N", [charts.after("peak", 3.0, 1.0, 30.0)])
+    (path,) = (points(one["d"]) for one in shapes(drawing, "path") if one["stroke"] == AFTER and len(one["d"]) > 100)
+    x0, y0 = (sum(values) / len(values) for values in zip(*path[:-1], strict=True))
+    tips = [(math.hypot(x - x0, y0 - y), math.degrees(math.atan2(y0 - y, x - x0)) % 180) for x, y in path]
+    longest, shortest = max(tips), min(tips)
+    assert longest[1] == pytest.approx(30, abs=0.2)
+    assert longest[0] / shortest[0] == pytest.approx(3, rel=0.01)
+
+
+def test_what_is_nothing_looks_like_nothing() -> None:
+    drawing = charts.hodograph("force", "N", [charts.after("peak", 1e-9, 1e-9, 0.0)], least=10.0)
+    assert [float(one["r"]) for one in shapes(drawing, "circle")] == [2.5]
+    ends = [points(one["d"]) for one in shapes(drawing, "path") if one["stroke"] == AFTER]
+    assert area(ends[0]) < 0.01
+
+
+def test_a_line_is_broken_where_it_has_no_value() -> None:
+    drawing = charts.chart("load", "N", "z", [0, 1, 2, 3, 4, 5], [charts.Line("a", [1, 2, None, 3, 4, 5])])
+    drawn = [points(one["d"]) for one in shapes(drawing, "path") if one["stroke-width"] == "1.5"]
+    assert [len(one) for one in drawn] == [2, 3]
+
+
+def test_thinned_lines_keep_their_extremes() -> None:
+    count = 36_000
+    values = [math.sin(2 * math.pi * k / count) for k in range(count)]
+    values[12_345] = 7.5
+    drawing = charts.over_turn("load", "N", [360 * k / count for k in range(count)], [charts.Line("a", values)])
+    (line,) = (points(one["d"]) for one in shapes(drawing, "path") if one["stroke-width"] == "1.5")
+    assert len(line) < 2000
+    heights = [y for _, y in line]
+    zero = heights[0]
+    # analytic: the spike is 7.5 times as far from zero as the smallest value, -1
+    assert (zero - min(heights)) / (max(heights) - zero) == pytest.approx(7.5, rel=0.01)

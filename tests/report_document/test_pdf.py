@@ -1,0 +1,74 @@
+"""The document as PDF, read again by another library."""
+
+import io
+import json
+import re
+from collections.abc import Callable
+
+import pytest
+from pypdf import PdfReader
+
+from service.report.blocks import Document
+from service.report.pdf import pdf
+from tests.report_document.conftest import MARKUP, asked
+
+Make = Callable[..., Document]
+
+#: A4 in points, ISO 216
+_A4 = (595.28, 841.89)
+
+
+def read(content: bytes) -> tuple[PdfReader, str]:
+    """The reader, and all text with blanks taken out, which lines and columns put anywhere."""
+    reader = PdfReader(io.BytesIO(content))
+    text = "".join(page.extract_text() for page in reader.pages)
+    return reader, re.sub(r"\s|\u200b", "", text)
+
+
+@pytest.mark.parametrize("example", ["2d12", "v8-cross-plane", "scroll-three-pins"])
+def test_pages_are_a4_tagged_and_numbered(made: Make, example: str) -> None:
+    document = made(example)
+    reader, text = read(pdf(document))
+    assert {(round(float(page.mediabox.width)), round(float(page.mediabox.height))) for page in reader.pages} == {
+        (round(_A4[0]), round(_A4[1]))
+    }
+    assert reader.metadata is not None
+    assert reader.metadata.title == document.title
+    root = reader.root_object
+    assert root["/MarkInfo"]["/Marked"]
+    assert root["/Lang"] == "en"
+    assert f"{len(reader.pages)}/{len(reader.pages)}" in text
+    assert len(reader.pages) <= 7
+
+
+def test_it_says_what_was_found(made: Make) -> None:
+    _, text = read(pdf(made("2d12")))
+    # regression: as in the answer, to six digits
+    for figure in ("10006.1", "5003.07", "48734.5", "20298.4", "19516.5", "52.6998"):
+        assert figure in text
+    assert "noneweighlessthan232.699kgtogether" in text
+
+
+def test_the_request_is_attached(made: Make) -> None:
+    reader, _ = read(pdf(made("v60", outputs=["orders"])))
+    ((content,),) = [reader.attachments[name] for name in reader.attachments]
+    assert json.loads(content) == asked("v60", outputs=["orders"]).model_dump(mode="json")
+    assert list(reader.attachments) == ["request.json"]
+
+
+def test_names_that_are_markup_are_names(hostile: Document) -> None:
+    reader, text = read(pdf(hostile))
+    assert text.count(re.sub(r"\s", "", MARKUP)) > 5
+    assert reader.metadata is not None
+    assert reader.metadata.title == MARKUP
+    assert not any("/Annots" in page for page in reader.pages)
+
+
+def test_it_does_nothing_by_itself(hostile: Document) -> None:
+    reader, _ = read(pdf(hostile))
+    assert not {"/OpenAction", "/AA", "/AcroForm"} & set(reader.root_object)
+    assert "/JavaScript" not in reader.root_object.get("/Names", {})
+
+
+def test_the_same_document_is_the_same_file(made: Make) -> None:
+    assert pdf(made("v60")) == pdf(made("v60"))
