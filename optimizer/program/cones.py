@@ -3,6 +3,9 @@
 Arrays of cones are (3, n): the size first, then the vector. W is the Nesterov-Todd scaling of slack s
 and multiplier z, W z = s / W = lam, kept as w and eta with W^2 = eta^2 (2 w w' - J), J = diag(1, -1, -1)
 (Vandenberghe, "The CVXOPT linear and quadratic cone program solvers", 2010, section 4).
+
+Matrices are (n, n, L), one for each of L lanes. Loops end on the longest contiguous axis and do not branch, so that
+the compiler turns them into vector instructions.
 """
 
 import numpy as np
@@ -18,40 +21,50 @@ def step_to_boundary(s0, s1, s2, d0, d1, d2):  # type: ignore[no-untyped-def]
     c = (s0 - r) * (s0 + r)
     # a t^2 + 2 b t + c = 0, the smallest positive root
     disc = b * b - a * c
-    if disc < 0.0 or (a >= 0.0 and b >= 0.0):
-        return 1e300 if d0 >= 0.0 or disc < 0.0 else -s0 / d0
-    root = np.sqrt(disc)
-    if b < 0.0:
-        return c / (root - b)
-    return -(b + root) / a
+    root = np.sqrt(disc if disc > 0.0 else 0.0)
+    falling = c / (root - b if b < 0.0 else 1.0)
+    rising = -(b + root) / (a if a < 0.0 else 1.0)
+    crossing = falling if b < 0.0 else rising
+    leaving = -s0 / (d0 if d0 < 0.0 else 1.0) if d0 < 0.0 else 1e300
+    inside = 1e300 if disc < 0.0 else leaving
+    return inside if (disc < 0.0) | ((a >= 0.0) & (b >= 0.0)) else crossing
 
 
 @njit(cache=True, error_model="numpy")
-def cholesky(matrix, n):  # type: ignore[no-untyped-def]
-    """In place, lower triangle; pivots that rounding has spoiled are replaced by a large number."""
+def cholesky(matrix):  # type: ignore[no-untyped-def]
+    """In place, lower triangle with the diagonal inverted; pivots that rounding has spoiled become infinite."""
+    n, lanes = matrix.shape[1:]
     for i in range(n):
-        for j in range(i + 1):
-            total = matrix[i, j]
+        for j in range(i):
             for k in range(j):
-                total -= matrix[i, k] * matrix[j, k]
-            if i == j:
-                matrix[i, i] = np.sqrt(total) if total > 0.0 else 1e100
-            else:
-                matrix[i, j] = total / matrix[j, j]
+                for t in range(lanes):
+                    matrix[i, j, t] -= matrix[i, k, t] * matrix[j, k, t]
+            for t in range(lanes):
+                matrix[i, j, t] *= matrix[j, j, t]
+        for k in range(i):
+            for t in range(lanes):
+                matrix[i, i, t] -= matrix[i, k, t] * matrix[i, k, t]
+        for t in range(lanes):
+            pivot = matrix[i, i, t]
+            matrix[i, i, t] = 1.0 / np.sqrt(pivot) if pivot > 0.0 else 1e-100
 
 
 @njit(cache=True, error_model="numpy")
-def substitute(factor, vector, n):  # type: ignore[no-untyped-def]
+def substitute(factor, vector):  # type: ignore[no-untyped-def]
+    """Solve in place, (n, L)."""
+    n, lanes = vector.shape
     for i in range(n):
-        total = vector[i]
         for k in range(i):
-            total -= factor[i, k] * vector[k]
-        vector[i] = total / factor[i, i]
+            for t in range(lanes):
+                vector[i, t] -= factor[i, k, t] * vector[k, t]
+        for t in range(lanes):
+            vector[i, t] *= factor[i, i, t]
     for i in range(n - 1, -1, -1):
-        total = vector[i]
         for k in range(i + 1, n):
-            total -= factor[k, i] * vector[k]
-        vector[i] = total / factor[i, i]
+            for t in range(lanes):
+                vector[i, t] -= factor[k, i, t] * vector[k, t]
+        for t in range(lanes):
+            vector[i, t] *= factor[i, i, t]
 
 
 @njit(cache=True, error_model="numpy")
@@ -65,9 +78,11 @@ def scaling(s, z, w, eta, lam):  # type: ignore[no-untyped-def]
         s0, s1, s2 = s[0, i] / ds, s[1, i] / ds, s[2, i] / ds
         z0, z1, z2 = z[0, i] / dz, z[1, i] / dz, z[2, i] / dz
         gamma = np.sqrt(0.5 * (1.0 + s0 * z0 + s1 * z1 + s2 * z2))
-        w[1, i] = (s1 - z1) / (2.0 * gamma)
-        w[2, i] = (s2 - z2) / (2.0 * gamma)
-        w[0, i] = np.sqrt(1.0 + w[1, i] * w[1, i] + w[2, i] * w[2, i])
+        w1 = (s1 - z1) / (2.0 * gamma)
+        w2 = (s2 - z2) / (2.0 * gamma)
+        w[0, i] = np.sqrt(1.0 + w1 * w1 + w2 * w2)
+        w[1, i] = w1
+        w[2, i] = w2
         eta[i] = np.sqrt(ds / dz)
         size, across = np.sqrt(ds * dz), s0 + z0 + 2.0 * gamma
         lam[0, i] = size * gamma
@@ -77,9 +92,9 @@ def scaling(s, z, w, eta, lam):  # type: ignore[no-untyped-def]
 
 @njit(cache=True, error_model="numpy")
 def targets(nu, d, w, eta, lam, s, z, f, ws):  # type: ignore[no-untyped-def]
-    """f = -Z + W^-1 (lam \\ (nu e - d)) and W^2 f = -S + W (lam \\ (nu e - d)), of every cone."""
+    """f = -Z + W^-1 (lam \\ (nu e - d)) and W^2 f = -S + W (lam \\ (nu e - d)), of every cone; nu (n,)."""
     for i in range(s.shape[1]):
-        d0, d1, d2 = nu - d[0, i], -d[1, i], -d[2, i]
+        d0, d1, d2 = nu[i] - d[0, i], -d[1, i], -d[2, i]
         l0, l1, l2 = lam[0, i], lam[1, i], lam[2, i]
         r = np.sqrt(l1 * l1 + l2 * l2)
         y0 = (l0 * d0 - l1 * d1 - l2 * d2) / ((l0 - r) * (l0 + r))
@@ -95,8 +110,8 @@ def targets(nu, d, w, eta, lam, s, z, f, ws):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
-def corrector(w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
-    """Second-order part (W^-1 dS) o (W dZ) of every cone."""
+def corrector(wanted, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
+    """Second-order part (W^-1 dS) o (W dZ) of every cone, times ``wanted`` (n,), 1 or 0."""
     for i in range(ds.shape[1]):
         w0, w1, w2 = w[0, i], w[1, i], w[2, i]
         along = w1 * ds[1, i] + w2 * ds[2, i]
@@ -105,18 +120,25 @@ def corrector(w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
         along = w1 * dz[1, i] + w2 * dz[2, i]
         shift = along / (1.0 + w0) + dz[0, i]
         b0, b1, b2 = w0 * dz[0, i] + along, dz[1, i] + w1 * shift, dz[2, i] + w2 * shift
-        d[0, i] = a0 * b0 + a1 * b1 + a2 * b2
-        d[1, i] = a0 * b1 + b0 * a1
-        d[2, i] = a0 * b2 + b0 * a2
+        d[0, i] = wanted[i] * (a0 * b0 + a1 * b1 + a2 * b2)
+        d[1, i] = wanted[i] * (a0 * b1 + b0 * a1)
+        d[2, i] = wanted[i] * (a0 * b2 + b0 * a2)
 
 
 @njit(cache=True, error_model="numpy")
-def multiplier_steps(webs, w, eta, f, ds, dz):  # type: ignore[no-untyped-def]
-    """dz = f - W^-2 ds of the cones of the webs, which come first."""
-    for i in range(webs):
+def multiplier_steps(count, w, eta, f, ds, dz):  # type: ignore[no-untyped-def]
+    """dz = f - W^-2 ds of the first cones."""
+    for i in range(count):
         w0, w1, w2 = w[0, i], w[1, i], w[2, i]
         along = 2.0 * (w0 * ds[0, i] - w1 * ds[1, i] - w2 * ds[2, i])
         scale = 1.0 / (eta[i] * eta[i])
         dz[0, i] = f[0, i] - scale * (w0 * along - ds[0, i])
         dz[1, i] = f[1, i] - scale * (-w1 * along + ds[1, i])
         dz[2, i] = f[2, i] - scale * (-w2 * along + ds[2, i])
+
+
+@njit(cache=True, error_model="numpy")
+def cone_steps(s, ds, step):  # type: ignore[no-untyped-def]
+    """Largest step of every cone, (n,)."""
+    for i in range(s.shape[1]):
+        step[i] = step_to_boundary(s[0, i], s[1, i], s[2, i], ds[0, i], ds[1, i], ds[2, i])

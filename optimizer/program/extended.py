@@ -59,10 +59,11 @@ PRECISIONS = (EXTENDED, FIFTY_DIGITS)
 @cache
 def solve_in(precision: Precision) -> Callable[..., Any]:
     """:func:`optimizer.program.interior_point.solve` in other numbers; its arrays come back as they are."""
-    from optimizer.program import interior_point
+    from optimizer.program import cones, interior_point, newton
 
-    space: dict[str, Any] = {**vars(interior_point), "np": precision.numbers()}
-    for name, value in vars(interior_point).items():
+    names = {**vars(cones), **vars(newton), **vars(interior_point)}
+    space: dict[str, Any] = {**names, "np": precision.numbers()}
+    for name, value in names.items():
         if hasattr(value, "py_func"):
             source = value.py_func
             space[name] = FunctionType(source.__code__, space, name, source.__defaults__)

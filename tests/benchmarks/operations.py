@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.program import interior_point
+from optimizer.program import cones, interior_point, newton
 
 Operate = Callable[[Any, Any], Any]
 
@@ -92,8 +92,10 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
 
 def _interpreted() -> dict[str, Any]:
     """The compiled functions before compilation, on numbers that count."""
-    space: dict[str, Any] = {**vars(interior_point), "np": _numbers()}
-    for name, value in vars(interior_point).items():
+    names = {**vars(cones), **vars(newton), **vars(interior_point)}
+    # one lane, so that the rounds of the loop are the iterations of a program
+    space: dict[str, Any] = {**names, "np": _numbers(), "_LANES": 1}
+    for name, value in names.items():
         if hasattr(value, "py_func"):
             space[name] = FunctionType(value.py_func.__code__, space, name, value.py_func.__defaults__)
     return space

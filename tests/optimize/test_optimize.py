@@ -12,6 +12,7 @@ from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from optimizer.program import fast, interior_point, solve
 from optimizer.program.cone import ConeProgram
+from optimizer.program.extended import PRECISIONS
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
@@ -338,9 +339,10 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
 
         return run
 
-    finer = fast.solve_in
+    # in finer numbers it is made from the compiled one, and once: before that is changed
+    finer = {precision: changed(fast.solve_in(precision)) for precision in PRECISIONS}
     monkeypatch.setattr(interior_point, "solve", changed(interior_point.solve))
-    monkeypatch.setattr(fast, "solve_in", lambda precision: changed(finer(precision)))
+    monkeypatch.setattr(fast, "solve_in", finer.__getitem__)
 
 
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:

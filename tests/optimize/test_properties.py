@@ -5,7 +5,7 @@ import random
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.optimize import optimize
@@ -15,7 +15,6 @@ from tests.optimize.machines import random_machine
 
 SEEDS = st.integers(0, 10**6)
 OBJECTIVES = st.sampled_from([{"combine": "sum"}, {"combine": "max"}, {"combine": "sum", "moment_weight": 2.0}])
-RUNS = settings(max_examples=20)
 
 
 def answer(body: dict[str, Any], objective: dict[str, Any]) -> OptimizeAnswer:
@@ -45,14 +44,12 @@ def every_angle(body: dict[str, Any], change: Any) -> dict[str, Any]:
     return body
 
 
-@RUNS
 @given(SEEDS, OBJECTIVES, st.floats(-720, 720))
 def test_turning_the_frame(seed: int, objective: dict[str, Any], turn: float) -> None:
     body = random_machine(seed)
     same(answer(body, objective), answer(every_angle(body, lambda angle: angle + turn), objective))
 
 
-@RUNS
 @given(SEEDS, OBJECTIVES)
 def test_looking_from_the_other_end(seed: int, objective: dict[str, Any]) -> None:
     """Mirroring x turns every angle a into 180 - a and the sense of rotation into the other."""
@@ -62,14 +59,12 @@ def test_looking_from_the_other_end(seed: int, objective: dict[str, Any]) -> Non
     same(answer(body, objective), answer(mirrored, objective))
 
 
-@RUNS
 @given(SEEDS, OBJECTIVES)
 def test_the_sense_of_rotation_changes_no_peak(seed: int, objective: dict[str, Any]) -> None:
     body = random_machine(seed)
     same(answer(body | {"rotation": "cw"}, objective), answer(body | {"rotation": "ccw"}, objective))
 
 
-@RUNS
 @given(SEEDS, st.sampled_from([1e-3, 0.37, 12.0, 1e4]))
 def test_scaling_the_speed(seed: int, factor: float) -> None:
     body = random_machine(seed)
@@ -77,7 +72,6 @@ def test_scaling_the_speed(seed: int, factor: float) -> None:
     same(answer(body, {}), answer(faster, {}), objective=factor**2)
 
 
-@RUNS
 @given(SEEDS, st.sampled_from([1e-3, 0.37, 12.0, 1e4]))
 def test_scaling_the_masses(seed: int, factor: float) -> None:
     body = random_machine(seed)
@@ -94,7 +88,6 @@ def test_scaling_the_masses(seed: int, factor: float) -> None:
     same(answer(body, {}), answer(heavier, {}), objective=factor, mass=factor)
 
 
-@RUNS
 @given(SEEDS, st.sampled_from([1e-2, 0.37, 12.0, 1e3]))
 def test_scaling_the_lengths(seed: int, factor: float) -> None:
     """Forces and moments over the span both grow with the length."""
@@ -115,7 +108,6 @@ def test_scaling_the_lengths(seed: int, factor: float) -> None:
     same(answer(body, {}), answer(longer, {}), objective=factor)
 
 
-@RUNS
 @given(SEEDS, OBJECTIVES)
 def test_the_order_of_throws_rows_and_webs(seed: int, objective: dict[str, Any]) -> None:
     body = random_machine(seed)
@@ -128,7 +120,6 @@ def test_the_order_of_throws_rows_and_webs(seed: int, objective: dict[str, Any])
     same(answer(body, objective), answer(shuffled, objective))
 
 
-@RUNS
 @given(SEEDS)
 def test_more_room_never_hurts(seed: int) -> None:
     body = random_machine(seed)

@@ -4,7 +4,7 @@ from dataclasses import fields, replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.formulate import formulate
@@ -68,7 +68,6 @@ def test_a_program_is_solved_the_same_alone_in_a_batch_and_in_any_order(case: tu
         assert same(batch, n, run(problems[n]), 0)
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
 @given(seed=st.integers(0, 10**6), case=st.sampled_from(COMBINATIONS))
 def test_points_and_bounds_agree_with_clarabel(seed: int, case: tuple) -> None:
     """Independent: neither point is below the other's bound, and both keep the limits."""
@@ -76,9 +75,9 @@ def test_points_and_bounds_agree_with_clarabel(seed: int, case: tuple) -> None:
     found = run(problem)
     other = SOLVER.smallest_objective(problem, 1e-10 * float(yardstick(problem)))
     unit = float(yardstick(problem))
-    assert found.lower_bound[0] <= other.objective + 1e-12 * unit
+    # the other point may exceed a ceiling within its tolerance, and then be better than allowed
+    assert found.lower_bound[0] <= other.objective + (1e-12 + 1e-8 * bool(problem.ceilings.names)) * unit
     if found.excess[0] <= CEILING_TOLERANCE:
-        # a ceiling may be exceeded within its tolerance
         assert other.lower_bound <= found.objective[0] + 1e-7 * unit
     if found.certified[0]:
         smallest = float(problem.objective(found.smallest[0]))
