@@ -7,15 +7,20 @@ export PORT
 bin := .venv/bin
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test chromium lint bench hard lock settings image smoke sbom licences audit clean
+.PHONY: install run test kernels chromium lint bench hard lock settings image smoke sbom licences audit clean
 
-install: .venv/runtime
+install: kernels
 
 run: .venv/runtime
 	$(bin)/counterweight serve
 
-test: lint chromium
-	$(bin)/pytest
+# two cores: what a file tests stays together, with its server
+test: lint chromium kernels
+	$(bin)/pytest --numprocesses 2 --dist loadfile
+
+# compiled once and kept beside the sources, not by every process that needs them
+kernels: .venv/runtime
+	$(bin)/python -c "from optimizer.warm_up import warm_up; warm_up()"
 
 # the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested
 chromium: .venv/development

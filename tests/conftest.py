@@ -9,6 +9,8 @@ from hypothesis import settings
 _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
 os.environ["COUNTERWEIGHT_DATA_DIR"] = _DATA.name
 
-# times are for benchmarks, and a run that failed must fail again
-settings.register_profile("counterweight", deadline=None, derandomize=True)
-settings.load_profile("counterweight")
+# times are for benchmarks, and a run that failed must fail again;
+# HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time
+settings.register_profile("quick", deadline=None, derandomize=True, max_examples=30)
+settings.register_profile("thorough", deadline=None, max_examples=1000)
+settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))

@@ -32,7 +32,7 @@ class _Tolerances(NamedTuple):
     mass: float  # second stage, relative to the mass
 
 
-_DOUBLE = _Tolerances(1e-4, 1e-12, 1e-9, 1e-7)
+_DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-7)
 #: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
 #: the answer and where the lightest is; and the largest relative gap of the mass
 _ENOUGH, _ENOUGH_FOR_MASS, _MASS_ENOUGH = 1e-3, 1e-2, 1e-5

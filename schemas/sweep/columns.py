@@ -53,7 +53,7 @@ _ALWAYS = (
         "status",
         "text",
         None,
-        "optimal, inaccurate, infeasible or analyzed; invalid where a field is wrong, failed where computing broke down",
+        "optimal, inaccurate, infeasible or analyzed; invalid if a field is wrong, failed if computing broke down",
     ),
     Column("message", "text", None, "why there is no certified answer: the field that is wrong, or what broke down"),
 )

@@ -12,7 +12,7 @@ Repeats = Annotated[
     typer.Option(min=1, max=20, help="Rounds of timing, in place of `repeats` in the file.", show_default="5"),
 ]
 Picture = Annotated[
-    Path | None, typer.Option(metavar="FILE.svg", help="Draw error against time; needs counterweight[pictures].")
+    Path | None, typer.Option(metavar="FILE.svg", help="Draw error against time; needs counterweight\\[pictures].")
 ]
 
 

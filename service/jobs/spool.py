@@ -12,7 +12,6 @@ from collections.abc import Callable
 from concurrent.futures import Executor, Future, InvalidStateError
 from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 from service.jobs.worker import Piece
 

@@ -141,13 +141,13 @@ def test_a_machine_is_uploaded(portal: Portal) -> None:
     assert portal.page.locator("#example").input_value() == ""
 
 
-@pytest.mark.parametrize("text", ["", "{", "[]", "null", "7"])
-def test_what_is_no_machine_is_said_to_be_none(portal: Portal, text: str) -> None:
+def test_what_is_no_machine_is_said_to_be_none(portal: Portal) -> None:
     portal.open()
     portal.page.locator("#paste > summary").click()
-    portal.page.fill("#json", text)
-    portal.page.click("#read")
-    assert "not a machine" in portal.page.locator("#json-error").inner_text()
+    for text in ("", "{", "[]", "null", "7"):
+        portal.page.fill("#json", text)
+        portal.page.click("#read")
+        assert "not a machine" in portal.page.locator("#json-error").inner_text(), text
     assert portal.runs() == 1
 
 

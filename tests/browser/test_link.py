@@ -10,7 +10,7 @@ from tests.browser.portal import Portal, ask
 
 
 def test_the_link_keeps_an_edited_machine_and_its_panels(portal: Portal) -> None:
-    portal.open("v60", ("counterweights", "stages"))
+    portal.open("v60")
     portal.unfold("/machine")
     portal.input("/machine/speed_rpm").fill("777 rpm")
     portal.optimise()

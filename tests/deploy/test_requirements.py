@@ -40,6 +40,14 @@ def test_the_image_holds_every_extra() -> None:
     assert wanted <= set(locked(DEPLOY / "requirements.txt")), "lock anew: make lock"
 
 
+def test_the_lists_hold_what_the_project_names() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))
+    groups = project["dependency-groups"]
+    run = named(*project["project"]["dependencies"], *groups["runtime-build"])
+    assert run <= set(locked(ROOT / "requirements.txt")), "lock anew: make lock"
+    assert named(*groups["dev"]) <= set(locked(ROOT / "requirements-dev.txt")), "lock anew: make lock"
+
+
 def test_one_version_of_each_package_everywhere() -> None:
     tested, shipped = locked(ROOT / "requirements-dev.txt"), locked(DEPLOY / "requirements.txt")
     run = locked(ROOT / "requirements.txt")

@@ -1,97 +1,110 @@
 """What the documents show is what the package does today."""
 
-import json
 import re
+import subprocess
+import sys
 from pathlib import Path
-from typing import Any, get_args
 
 import pytest
 
-from optimizer.analyze import analyze
-from optimizer.effects.catalogue import catalogue
 from optimizer.optimize import optimize
-from optimizer.rating.rate import rate
-from schemas.rating import RatingRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
+from optimizer.pareto.pareto import pareto
+from schemas.pareto import ParetoRequest
+from schemas.requests import OptimizeRequest
+from service.cli import app
+from service.examples import bodies
+from tests.docs.reading import ROOT, agrees, blocks
 
-ROOT = Path(__file__).parents[2]
+DOCUMENTS = ["README.md", *sorted(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))]
+COMMANDS = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
+GROUPS = {group.name for group in app.registered_groups}
 
 
-def blocks(document: str) -> list[Any]:
-    text = (ROOT / document).read_text()
-    return [json.loads(block) for block in re.findall(r"```json\n(.*?)```", text, re.DOTALL)]
+def document(name: str) -> str:
+    return (ROOT / name).read_text()
 
 
-def agrees(shown: Any, found: Any) -> None:
-    """Everything shown is in what was found, to the digits shown."""
-    if isinstance(shown, dict):
-        for key, value in shown.items():
-            agrees(value, found[key])
-    elif isinstance(shown, list):
-        assert len(shown) == len(found)
-        for one, other in zip(shown, found, strict=True):
-            agrees(one, other)
-    elif isinstance(shown, float):
-        assert found == pytest.approx(shown, rel=1e-4, abs=1e-8)
-    else:
-        assert shown == found
+def code(name: str) -> str:
+    """What a document shows as code."""
+    return "\n".join(re.findall(r"```sh\n(?:.|\n)*?```|`[^`\n]+`|^    .+$", document(name), re.MULTILINE))
+
+
+def readme() -> str:
+    return document("README.md")
 
 
 def test_the_answer_in_the_readme() -> None:
-    body = (ROOT / "examples" / "2d12.json").read_bytes()
-    found = optimize(OptimizeRequest.model_validate_json(body)).model_dump(mode="json")
-    (shown,) = blocks("README.md")
-    shown["certificate"].pop("mass_relative_gap")  # rounding, not a figure to hold on to
-    agrees(shown, found)
+    (shown,) = blocks(readme())
+    agrees(shown, optimize(OptimizeRequest.model_validate(bodies("")["2d12"])).model_dump(mode="json"))
 
 
-def test_the_request_and_the_infeasible_answer_in_the_api_by_example() -> None:
-    request, infeasible, *_ = blocks("docs/api.md")
-    assert optimize(OptimizeRequest.model_validate(request)).status == "optimal"
-    request["objective"]["force_ceiling_N"] = 300
-    found = optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json")
-    infeasible["infeasibility"].pop("closest")  # abbreviated
-    agrees(infeasible, found)
+def test_the_call_in_the_readme(url: str) -> None:
+    (call,) = re.findall(r"^    (curl .+)$", readme(), re.MULTILINE)
+    command = ["bash", "-c", call.replace("http://127.0.0.1:8000", url)]
+    ran = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=60, check=True)
+    assert '"status":"optimal"' in ran.stdout
 
 
-def after(heading: str) -> list[Any]:
-    """Blocks of one section of the API by example."""
-    section = (ROOT / "docs/api.md").read_text().split(f"\n## {heading}\n")[1].split("\n## ")[0]
-    return [json.loads(block) for block in re.findall(r"```json\n(.*?)```", section, re.DOTALL)]
-
-
-def test_the_machine_with_gas_in_the_api_by_example() -> None:
-    _, request, shown = after("POST /v1/analyze")
-    agrees(shown, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
-
-
-def test_the_rating_in_the_api_by_example() -> None:
-    request, shown = after("POST /v1/rating")
-    agrees(shown, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
-
-
-def test_the_effects_in_the_api_by_example() -> None:
-    (shown,) = after("GET /v1/effects")
-    found = catalogue().model_dump(mode="json")
-    for key, entries in shown.items():
-        by_name = {one["name"]: one for one in found[key]}
-        for one in entries:
-            agrees(one, by_name[one["name"]])
-
-
-def test_the_table_of_outputs_is_complete() -> None:
-    listed = re.findall(r"^\| `(\w+)` \|", (ROOT / "docs/api.md").read_text(), re.MULTILINE)
-    assert listed == list(get_args(Output))
-
-
-@pytest.mark.parametrize("document", ["README.md", *(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))])
-def test_links_lead_somewhere(document: str) -> None:
-    text = (ROOT / document).read_text()
-    for target in re.findall(r"\]\(([^)#]+)\)", text):
-        assert ((ROOT / document).parent / target).exists(), target
+def test_the_commands_in_the_readme(tmp_path: Path) -> None:
+    (tmp_path / "examples").symlink_to(ROOT / "examples")
+    commands = re.findall(r"^    \.venv/bin/counterweight (.+)$", readme(), re.MULTILINE)
+    for command in commands:
+        script = f"{sys.executable} -m service {command}"
+        ran = subprocess.run(
+            ["bash", "-c", script], cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False
+        )
+        assert ran.returncode == 0, f"{command}\n{ran.stdout}{ran.stderr}"
+    for name in ("grid.parquet", "report.html"):
+        assert (tmp_path / name).stat().st_size > 0, name
 
 
 def test_the_readme_counts_the_examples_right() -> None:
-    count = re.search(r"(\d+) machines to start from", (ROOT / "README.md").read_text())
+    count = re.search(r"(\d+) machines to start from", readme())
     assert count is not None
-    assert int(count[1]) == len(list((ROOT / "examples").glob("*.json")))
+    assert int(count[1]) == len(bodies(""))
+
+
+def test_the_readme_names_folders_that_are_there() -> None:
+    folders = re.findall(r"^\| (`[^|]*/[^|]*) \|", readme(), re.MULTILINE)
+    parent = ROOT
+    for name in [name for row in folders for name in re.findall(r"`(.+?)`", row)]:
+        # in a list the first names the folder of the others
+        here = ROOT / name if (ROOT / name).exists() else parent / name
+        assert here.exists(), name
+        parent = here.parent
+
+
+def test_the_front_of_the_2d12() -> None:
+    """Regression: the figures of docs/pareto.md, to the digits shown."""
+    rows = re.findall(r"^\| *(\d*) \| ([\d.]+) \| ([\d.]+) \| ([\d.]+) \|$", document("docs/pareto.md"), re.MULTILINE)
+    budgets = [float(budget) for budget, *_ in rows if budget]
+    request = {**bodies("")["2d12"], "points": 5, "total_mass_budgets_kg": budgets}
+    found = pareto(ParetoRequest.model_validate(request))
+    (shown_point,) = blocks(document("docs/pareto.md"))
+    agrees(shown_point, found.fronts[-1].points[2].model_dump(mode="json"))
+    points = [point for front in found.fronts for point in front.points]
+    for (_, *shown), point in zip(rows, points, strict=True):
+        figures = (point.force_peak_N, point.moment_peak_Nm, point.total_mass_kg)
+        for text, figure in zip(shown, figures, strict=True):
+            assert figure == pytest.approx(float(text), rel=0, abs=10.0 ** -len(text.partition(".")[2])), text
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_links_lead_somewhere(name: str) -> None:
+    for target in re.findall(r"\]\(([^)#]+)\)", document(name)):
+        assert ((ROOT / name).parent / target).exists(), target
+
+
+@pytest.mark.parametrize("name", DOCUMENTS)
+def test_commands_are_there(name: str) -> None:
+    targets = (ROOT / "Makefile").read_text().split(".PHONY:")[1].split("\n")[0].split()
+    assert {*re.findall(r"\bmake ([a-z]+)(?=[ `\n])", code(name))} <= set(targets)
+    assert {*re.findall(r"(?:^ *|`|/bin/)counterweight ([a-z-]+)", code(name), re.MULTILINE)} <= COMMANDS | GROUPS
+
+
+def test_the_mathematics_names_files_that_are_there() -> None:
+    """With their path, or beside the last file that had one."""
+    known = {path.name for path in (ROOT / "optimizer").rglob("*.py")}
+    for name in re.findall(r"`([\w/]+\.py)`", document("docs/mathematics.md")):
+        places = [ROOT, ROOT / "optimizer"]
+        assert any((place / name).exists() for place in places) or ("/" not in name and name in known), name

@@ -257,9 +257,9 @@ def test_the_list(client: TestClient, sweep: str) -> None:
     assert client.get("/v1/sweeps?limit=0").status_code == 422
 
 
-@pytest.mark.parametrize("kind", ["optimize", "pareto"])
-def test_answered_later(client: TestClient, kind: str) -> None:
-    body = {"machine": MACHINE}
+@pytest.mark.parametrize(("kind", "more"), [("optimize", {}), ("pareto", {"points": 3})])
+def test_answered_later(client: TestClient, kind: str, more: dict[str, Any]) -> None:
+    body = {"machine": MACHINE, **more}
     answer = client.post(f"/v1/{kind}", json=body, headers={"Prefer": "wait=5, respond-async"})
     assert (answer.status_code, answer.headers["preference-applied"]) == (202, "respond-async")
     path = answer.headers["location"]

@@ -6,7 +6,7 @@ from typing import Any, NamedTuple
 import mpmath
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 from optimizer.mechanics.bearings import (
@@ -192,7 +192,6 @@ def macaulay(shaft: Shaft) -> Any:
 UNEQUAL = Shaft(np.array([0.0, 1e-4, 1.0, 11.0, 11.001, 50.0]), np.array([-1.0, 5e-5, 0.4, 3.0, 11.0005, 51.0]), None)
 
 
-@settings(max_examples=40)
 @given(shafts())
 @example(UNEQUAL)
 def test_continuous_beam_independent_deflection(shaft: Shaft) -> None:

@@ -5,7 +5,7 @@ from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.mechanics.inertia import counterweights, reciprocating, rotating
@@ -197,7 +197,6 @@ def test_a_pure_couple_has_no_plane(machine: ReciprocatingMachine, plane: float)
 
 
 @given(machines())
-@settings(max_examples=50)
 def test_a_row_beside_its_throw_is_a_row_on_another_throw(machine: ReciprocatingMachine) -> None:
     apart = pinned(machine)
     apart = apart.model_copy(

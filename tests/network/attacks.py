@@ -21,7 +21,7 @@ from service.examples import bodies
 from tests.network.serving import Reply, Service, request, service
 
 #: most that the service, and one of its workers, may hold [MB]
-CEILING_MB = (500.0, 1000.0)
+CEILING_MB = (400.0, 500.0)
 _AT_ONCE = 16
 _MEMORY_S = 0.1
 _BIG = 100_000_000

@@ -7,7 +7,6 @@ from typing import Annotated, Any
 import pytest
 from jsonschema import Draft202012Validator
 from pydantic import BaseModel, TypeAdapter
-from pydantic.fields import FieldInfo
 
 import schemas
 from schemas.base import Model
@@ -48,8 +47,8 @@ def all_models() -> list[type[Model]]:
     return sorted(set(found), key=lambda model: model.__name__)
 
 
-FIELDS = [(model, name, field) for model in all_models() for name, field in model.model_fields.items()]
-IDS = [f"{model.__name__}.{name}" for model, name, _ in FIELDS]
+MODELS = all_models()
+each_model = pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
 
 
 def unit_of(name: str) -> str | None:
@@ -65,23 +64,30 @@ def units_in(schema: Any) -> set[str]:
     return set().union(*(units_in(value) for value in schema)) if isinstance(schema, list) else set()
 
 
-@pytest.mark.parametrize(("model", "name", "field"), FIELDS, ids=IDS)
-def test_every_field_is_described_with_an_example(model: type[Model], name: str, field: FieldInfo) -> None:
-    assert field.description
-    assert field.description[0].islower() or field.description[0].isupper()
-    assert field.examples
+def of_a_request(model: type[Model]) -> bool:
+    return model.__module__ in ("schemas.machine", "schemas.cylinder", "schemas.requests", "schemas.rating")
+
+
+@each_model
+def test_every_field_is_described_with_an_example(model: type[Model]) -> None:
+    poor = [
+        name
+        for name, field in model.model_fields.items()
+        if not (field.description and field.description[0].isalpha() and field.examples)
+    ]
+    assert poor == []
 
 
 @pytest.mark.parametrize("mode", ["validation", "serialization"])
-@pytest.mark.parametrize(("model", "name", "field"), FIELDS, ids=IDS)
-def test_every_physical_field_carries_its_unit(model: type[Model], name: str, field: FieldInfo, mode: Any) -> None:
-    schema = model.model_json_schema(mode=mode)["properties"][name]
-    expected = unit_of(name)
-    assert units_in(schema) == ({expected} if expected else set())
+@each_model
+def test_every_physical_field_carries_its_unit(model: type[Model], mode: Any) -> None:
+    properties = model.model_json_schema(mode=mode).get("properties", {})
+    expected = {name: {unit} if (unit := unit_of(name)) else set() for name in model.model_fields}
+    assert {name: units_in(properties[name]) for name in model.model_fields} == expected
 
 
 def test_every_model_is_described() -> None:
-    assert [model.__name__ for model in all_models() if not model.__doc__] == []
+    assert [model.__name__ for model in MODELS if not model.__doc__] == []
 
 
 @pytest.mark.parametrize("request_model", [OptimizeRequest, AnalyzeRequest])
@@ -92,25 +98,11 @@ def test_the_schema_of_a_request_is_a_json_schema(request_model: type[BaseModel]
         assert part.get("additionalProperties", False) is False
 
 
-REQUESTS = [f for f in FIELDS if f[0].__module__ in ("schemas.machine", "schemas.cylinder", "schemas.requests")]
-
-
-@pytest.mark.parametrize(
-    ("model", "name", "field"), REQUESTS, ids=[f"{model.__name__}.{name}" for model, name, _ in REQUESTS]
-)
-def test_examples_of_requests_are_valid(model: type[Model], name: str, field: FieldInfo) -> None:
-    adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])
-    for example in field.examples or []:
-        adapter.validate_python(example)
-
-
-NUMBERS = [f for f in FIELDS if f[2].annotation in (float, int, str)]
-
-
-@pytest.mark.parametrize(
-    ("model", "name", "field"), NUMBERS, ids=[f"{model.__name__}.{name}" for model, name, _ in NUMBERS]
-)
-def test_examples_of_single_values_are_valid(model: type[Model], name: str, field: FieldInfo) -> None:
-    adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])
-    for example in field.examples or []:
-        adapter.validate_python(example)
+@each_model
+def test_examples_are_valid(model: type[Model]) -> None:
+    """Of requests all, of answers those of single values."""
+    for field in model.model_fields.values():
+        if of_a_request(model) or field.annotation in (float, int, str):
+            adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])
+            for example in field.examples or []:
+                adapter.validate_python(example)

@@ -5,7 +5,7 @@ from typing import Any
 import cvxpy as cp
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.mechanics.scroll_pins import (
@@ -49,7 +49,6 @@ def test_moment_and_net_force_balance_at_every_instant_analytic(seed: int, count
     assert_in_equilibrium(elastic_loads(np.full(360, torque), pins, TURN), torque, pins, TURN)
 
 
-@settings(max_examples=25)
 @given(seed=seeds, count=st.integers(3, 7))
 def test_least_strain_energy_independent(seed: int, count: int) -> None:
     """The same quadratic program by a general solver, in N, mm and stiffness over the largest."""

@@ -4,7 +4,7 @@ from itertools import pairwise, product
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.sweep.designs import axis_values, permuted, uniform
@@ -32,7 +32,6 @@ def three(**rest: object) -> SweepRequest:
 
 
 @pytest.mark.parametrize("design", DESIGNS)
-@settings(max_examples=15, deadline=None)
 @given(cuts=st.lists(st.integers(0, 36), max_size=4))
 def test_values_do_not_depend_on_the_chunks(design: dict[str, object], cuts: list[int]) -> None:
     request = three(**design)
@@ -72,7 +71,6 @@ def test_a_range_of_one_value_is_its_start() -> None:
     assert speed.tolist() == [300.0]
 
 
-@settings(max_examples=40, deadline=None)
 @given(count=st.integers(1, 3000), seed=st.integers(0, 2**63 - 1), axis=st.integers(0, 63))
 def test_permutations_hold_every_number_once(count: int, seed: int, axis: int) -> None:
     found = permuted(np.arange(count), count, seed, axis)

@@ -3,7 +3,7 @@
 import numpy as np
 import pyarrow as pa
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.sweep import ParetoFilter, Reducer, Top, reducer
@@ -39,7 +39,6 @@ def brute_force_front(points: list[tuple[float | None, ...]], size: int) -> list
     return [k for k, point in known.items() if not any(beats(other, point) for other in known.values())]
 
 
-@settings(max_examples=60, deadline=None)
 @given(points=POINTS, cut=st.integers(0, 40), backwards=st.booleans(), size=st.sampled_from([2, 3]))
 def test_the_front_is_that_of_the_definition(
     points: list[tuple[float | None, ...]], cut: int, backwards: bool, size: int
@@ -49,7 +48,6 @@ def test_the_front_is_that_of_the_definition(
     assert found == brute_force_front(points, size)
 
 
-@settings(max_examples=60, deadline=None)
 @given(
     points=POINTS,
     cut=st.integers(0, 40),

@@ -5,7 +5,7 @@ import { figure, nameOf } from "../format.js";
 import { circle, line, metres, points, radians, radiiOf, text } from "./view.js";
 
 const WIDTH = 560;
-const HEIGHT = 310;
+const HEIGHT = 322;
 const MIDDLE = 142;
 // what stands towards the viewer is drawn down and to the left, shortened
 const DEPTH = [-0.32, 0.26];
@@ -28,7 +28,7 @@ export function side(machine, counterweights, reference) {
     viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: `drawing side${planes.length > MOST_NAMES ? " many" : ""}`, role: "img",
     "aria-label": `From the side: ${planes.map((plane) => `${plane.name} at ${figure(plane.z)} m`).join(", ")}.`,
   },
-  line([z(reference), 14], [z(reference), HEIGHT - 52], { class: "reference" }),
+  line([z(reference), 14], [z(reference), HEIGHT - 64], { class: "reference" }),
   text(z(reference) + (late ? -4 : 4), 20, "reference plane", { class: `name faint${late ? " end" : ""}` }),
   weights(machine, counterweights, at, z),
   line([24, MIDDLE], [WIDTH - 24, MIDDLE], { class: "shaft" }),
@@ -103,7 +103,7 @@ function names(planes, z) {
     const x = Math.min(Math.max(z(plane.z), half), WIDTH - half);
     const row = Math.max(0, lines.findIndex((end) => end < x - half));
     lines[row] = x + half;
-    return [line([z(plane.z), HEIGHT - 50], [z(plane.z), HEIGHT - 44], { class: "tick" }),
-      text(x, HEIGHT - 29 + 15 * row, plane.name, { class: `name centred${plane.web ? " web" : ""}` })];
+    return [line([z(plane.z), HEIGHT - 62], [z(plane.z), HEIGHT - 56], { class: "tick" }),
+      text(x, HEIGHT - 41 + 15 * row, plane.name, { class: `name centred${plane.web ? " web" : ""}` })];
   });
 }
