@@ -2,7 +2,9 @@
 
 import os
 import tempfile
+from collections import Counter
 
+import pytest
 from hypothesis import settings
 
 # no test may touch the jobs of whoever runs it; processes that tests start inherit this
@@ -14,3 +16,10 @@ os.environ["COUNTERWEIGHT_DATA_DIR"] = _DATA.name
 settings.register_profile("quick", deadline=None, derandomize=True, max_examples=30)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """What could not be tested here is said aloud."""
+    reasons = Counter(report.longrepr[2] for report in terminalreporter.stats.get("skipped", ()))
+    for reason, count in reasons.items():
+        terminalreporter.section(f"{count} NOT RUN. {reason}", sep="!", red=True, bold=True)

@@ -75,19 +75,22 @@ def scaling(s, z, w, eta, lam):  # type: ignore[no-untyped-def]
         rz = np.sqrt(z[1, i] * z[1, i] + z[2, i] * z[2, i])
         ds = np.sqrt((s[0, i] - rs) * (s[0, i] + rs))
         dz = np.sqrt((z[0, i] - rz) * (z[0, i] + rz))
-        s0, s1, s2 = s[0, i] / ds, s[1, i] / ds, s[2, i] / ds
-        z0, z1, z2 = z[0, i] / dz, z[1, i] / dz, z[2, i] / dz
+        # one division serves several: they cost most here
+        unit_s, unit_z = 1.0 / ds, 1.0 / dz
+        s0, s1, s2 = s[0, i] * unit_s, s[1, i] * unit_s, s[2, i] * unit_s
+        z0, z1, z2 = z[0, i] * unit_z, z[1, i] * unit_z, z[2, i] * unit_z
         gamma = np.sqrt(0.5 * (1.0 + s0 * z0 + s1 * z1 + s2 * z2))
-        w1 = (s1 - z1) / (2.0 * gamma)
-        w2 = (s2 - z2) / (2.0 * gamma)
+        half = 0.5 / gamma
+        w1, w2 = (s1 - z1) * half, (s2 - z2) * half
         w[0, i] = np.sqrt(1.0 + w1 * w1 + w2 * w2)
         w[1, i] = w1
         w[2, i] = w2
-        eta[i] = np.sqrt(ds / dz)
-        size, across = np.sqrt(ds * dz), s0 + z0 + 2.0 * gamma
+        eta[i] = np.sqrt(ds * unit_z)
+        size = np.sqrt(ds * dz)
+        share = size / (s0 + z0 + 2.0 * gamma)
         lam[0, i] = size * gamma
-        lam[1, i] = size * ((gamma + z0) * s1 + (gamma + s0) * z1) / across
-        lam[2, i] = size * ((gamma + z0) * s2 + (gamma + s0) * z2) / across
+        lam[1, i] = share * ((gamma + z0) * s1 + (gamma + s0) * z1)
+        lam[2, i] = share * ((gamma + z0) * s2 + (gamma + s0) * z2)
 
 
 @njit(cache=True, error_model="numpy")
@@ -98,12 +101,13 @@ def targets(nu, d, w, eta, lam, s, z, f, ws):  # type: ignore[no-untyped-def]
         l0, l1, l2 = lam[0, i], lam[1, i], lam[2, i]
         r = np.sqrt(l1 * l1 + l2 * l2)
         y0 = (l0 * d0 - l1 * d1 - l2 * d2) / ((l0 - r) * (l0 + r))
-        y1, y2 = (d1 - y0 * l1) / l0, (d2 - y0 * l2) / l0
+        unit, scale = 1.0 / l0, 1.0 / eta[i]
+        y1, y2 = (d1 - y0 * l1) * unit, (d2 - y0 * l2) * unit
         along = w[1, i] * y1 + w[2, i] * y2
         shift = along / (1.0 + w[0, i])
-        f[0, i] = (w[0, i] * y0 - along) / eta[i] - z[0, i]
-        f[1, i] = (y1 + w[1, i] * (shift - y0)) / eta[i] - z[1, i]
-        f[2, i] = (y2 + w[2, i] * (shift - y0)) / eta[i] - z[2, i]
+        f[0, i] = (w[0, i] * y0 - along) * scale - z[0, i]
+        f[1, i] = (y1 + w[1, i] * (shift - y0)) * scale - z[1, i]
+        f[2, i] = (y2 + w[2, i] * (shift - y0)) * scale - z[2, i]
         ws[0, i] = (w[0, i] * y0 + along) * eta[i] - s[0, i]
         ws[1, i] = (y1 + w[1, i] * (shift + y0)) * eta[i] - s[1, i]
         ws[2, i] = (y2 + w[2, i] * (shift + y0)) * eta[i] - s[2, i]
@@ -115,10 +119,11 @@ def corrector(wanted, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
     for i in range(ds.shape[1]):
         w0, w1, w2 = w[0, i], w[1, i], w[2, i]
         along = w1 * ds[1, i] + w2 * ds[2, i]
-        shift = along / (1.0 + w0) - ds[0, i]
+        half = 1.0 / (1.0 + w0)
+        shift = along * half - ds[0, i]
         a0, a1, a2 = w0 * ds[0, i] - along, ds[1, i] + w1 * shift, ds[2, i] + w2 * shift
         along = w1 * dz[1, i] + w2 * dz[2, i]
-        shift = along / (1.0 + w0) + dz[0, i]
+        shift = along * half + dz[0, i]
         b0, b1, b2 = w0 * dz[0, i] + along, dz[1, i] + w1 * shift, dz[2, i] + w2 * shift
         d[0, i] = wanted[i] * (a0 * b0 + a1 * b1 + a2 * b2)
         d[1, i] = wanted[i] * (a0 * b1 + b0 * a1)

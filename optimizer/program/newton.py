@@ -292,24 +292,26 @@ def _eliminate_webs(w, eta, q, zq, sector, sine, cosine, centre, block):  # type
         w1, w2 = 1e-100 if none else w1, 0.0 if none else w2
         size = 1e-200 if none else w1 * w1 + w2 * w2
         theta = zq[0, k] / q[0, k] * e2
-        over = 2.0 * size + 1.0 + theta
+        over = 1.0 / (2.0 * size + 1.0 + theta)
+        per_size, per_e2 = 1.0 / size, 1.0 / e2
         # the cone's block after x is (t t' + n n' / epsilon) / eta^2, n along w and t across it
-        stiff = (1.0 + theta + 2.0 * theta * size) / over  # 1 / epsilon
-        n11, n12, n22 = w1 * w1 / size, w1 * w2 / size, w2 * w2 / size
+        stiff = (1.0 + theta + 2.0 * theta * size) * over  # 1 / epsilon
+        n11, n12, n22 = w1 * w1 * per_size, w1 * w2 * per_size, w2 * w2 * per_size
         # its adjugate (n n' + t t' / epsilon) / eta^2 in (a, b)
-        block[0, k] = s * s * (n11 + n22 * stiff) / e2
-        block[1, k] = s * n12 * (1.0 - stiff) / e2
-        block[2, k] = (n22 + n11 * stiff) / e2
-        block[6, k] = s * s * stiff / (e2 * e2)
-        block[3, k], block[4, k] = 2.0 * w0 * w1 / over, 2.0 * w0 * w2 / over * s
-        block[5, k] = e2 / over
+        block[0, k] = s * s * (n11 + n22 * stiff) * per_e2
+        block[1, k] = s * n12 * (1.0 - stiff) * per_e2
+        block[2, k] = (n22 + n11 * stiff) * per_e2
+        block[6, k] = s * s * stiff * per_e2 * per_e2
+        block[3, k], block[4, k] = 2.0 * w0 * w1 * over, 2.0 * w0 * w2 * over * s
+        block[5, k] = e2 * over
     for k in range(sine.size):
         a11, a12, a22, det, c = block[0, k], block[1, k], block[2, k], block[6, k], cosine[k]
         dp, dm = sector[k] * zq[1, k] / q[1, k], sector[k] * zq[2, k] / q[2, k]
         det += dp * (a11 - 2.0 * c * a12 + c * c * a22) + dm * (a11 + 2.0 * c * a12 + c * c * a22)
         det += dp * dm * 4.0 * c * c
-        block[0, k], block[1, k], block[2, k] = a11 / det, a12 / det, a22 / det
-        block[9, k], block[10, k] = dp / det, dm / det
+        per_det = 1.0 / det
+        block[0, k], block[1, k], block[2, k] = a11 * per_det, a12 * per_det, a22 * per_det
+        block[9, k], block[10, k] = dp * per_det, dm * per_det
     for k in range(sine.size):
         s, c, p, m, cr, ci = sine[k], cosine[k], block[9, k], block[10, k], centre[0, k], centre[1, k]
         t11 = block[0, k] + c * c * (p + m)

@@ -49,8 +49,8 @@ def shadow_prices(
         ShadowPrice(
             limit=each.limit,
             web=each.web,
-            # what a whole limit is worth less than the gap cannot be told from nothing
-            value=each.price * omega_squared / weight if each.price * each.size > gap else 0.0,
+            # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has a price
+            value=each.price * omega_squared / weight if each.size == 0.0 or each.price * each.size > gap else 0.0,
             unit=_UNITS[f"{quantity}/{each.unit}"],
         )
         for each in _every(machine, objective, prices, counterweights, touched, omega_squared)

@@ -1,7 +1,6 @@
 """One service and one browser for all tests of the page."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import pytest
 from playwright.sync_api import Browser, BrowserContext, sync_playwright
@@ -11,11 +10,6 @@ from tests.browser.portal import Look, Portal
 from tests.browser.serving import serving
 
 
-def pytest_terminal_summary(terminalreporter: Any) -> None:
-    if chromium.find() is None:
-        terminalreporter.section(chromium.MISSING, sep="!", red=True, bold=True)
-
-
 @pytest.fixture(scope="session")
 def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Address of a service."""
@@ -23,7 +17,8 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         yield address
 
 
-@pytest.fixture(scope="session")
+# for this folder only: an event loop of playwright would keep the tests of others from running theirs
+@pytest.fixture(scope="package")
 def browser() -> Iterator[Browser]:
     """Chromium, headless."""
     path = chromium.find()
@@ -37,7 +32,7 @@ def browser() -> Iterator[Browser]:
         found.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def context(browser: Browser) -> Iterator[BrowserContext]:
     """One for all: what was loaded once is kept, as for a reader who comes back."""
     context = browser.new_context()

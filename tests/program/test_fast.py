@@ -160,11 +160,12 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
     problems[2] = replace(problems[2], ceilings=replace(ceilings, cap=-0.1 * ceilings.size))
     found = optima(stacked(problems), 1e-6, True, SOLVER)
     assert list(found.unreachable) == [False, False, True, False]
-    assert list(found.method[[0, 1, 3]]) == [INTERIOR_POINT] * 3
+    assert INTERIOR_POINT in list(found.method[[0, 1, 3]])
     assert found.excess[2] > 0
     for n in (0, 1, 3):
         alone = optimum(problems[n], 1e-6, True, SOLVER)
         assert isinstance(alone, Solution)
+        assert found.method[n] == alone.method
         assert np.array_equal(found.unbalance[n], alone.unbalance)
         assert (found.objective[n], found.lower_bound[n], found.mass[n]) == (
             alone.objective,

@@ -153,7 +153,8 @@ def test_isothermal_limit_analytic() -> None:
         ("drive_efficiency", 0.9, 0.95, lambda a: -a.motor_power_W),
         ("speed_rpm", 450, 550, lambda a: -a.stages[0].calculated.bore_m),
     ],
-    ids=str,
+    # a function has no name that is the same in every process
+    ids=lambda value: "" if callable(value) else str(value),
 )
 def test_figures_grow_as_physics_says(path: str, low: float, high: float, figure: object) -> None:
     values = [rate(request((path, x), bore_series="none")) for x in np.linspace(low, high, 5).tolist()]

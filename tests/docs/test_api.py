@@ -1,0 +1,126 @@
+"""The API by example: every route and problem is named, every call runs, every answer is that of today."""
+
+import re
+import subprocess
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+from optimizer.analyze import analyze
+from optimizer.effects.catalogue import catalogue
+from optimizer.optimize import optimize
+from optimizer.pareto.pareto import pareto
+from optimizer.program import extended, solution
+from optimizer.rating.rate import rate
+from schemas.pareto import ParetoRequest
+from schemas.rating import RatingRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
+from service.app import create_app
+from service.errors import FAULTS, problem
+from service.examples import bodies
+from service.keys import SCOPES
+from service.settings import Settings
+from tests.docs.reading import ROOT, agrees, blocks, section
+
+API = "docs/api.md"
+_CALL = re.compile(r"```sh\n(.*?)```\n(?:\n```text\n(.*?)```)?", re.DOTALL)
+_WRITTEN = "http://127.0.0.1:8000"
+
+
+def first_column(heading: str) -> list[str]:
+    """Names in the first column of the tables of a section."""
+    rows = re.findall(r"^\| (`[^|]+) \|", section(API, heading), re.MULTILINE)
+    return [name for row in rows for name in re.findall(r"`([^`]+)`", row)]
+
+
+def test_the_table_of_routes_is_complete() -> None:
+    paths = create_app(Settings()).openapi()["paths"]
+    head = (ROOT / API).read_text().split("\n## ")[0]
+    listed = [name for row in re.findall(r"^\| (.+?) \|", head, re.MULTILINE) for name in re.findall(r"`(.+?)`", row)]
+    assert sorted(listed) == sorted(f"{method.upper()} {path}" for path, found in paths.items() for method in found)
+
+
+def test_the_calls_print_what_stands_below_them(url: str, tmp_path: Path) -> None:
+    calls = _CALL.findall((ROOT / API).read_text())
+    script = "".join(code.replace(_WRITTEN, url) for code, _ in calls)
+    command = ["bash", "-euo", "pipefail", "-c", script]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
+    assert ran.returncode == 0, ran.stderr
+    # headers end with CR LF, which is no difference
+    assert ran.stdout.split() == "".join(shown for _, shown in calls).split()
+
+
+def test_the_request_its_answer_and_the_infeasible_one() -> None:
+    request, shown, infeasible = blocks(section(API, "POST /v1/optimize"))
+    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    request["objective"]["force_ceiling_N"] = 300
+    found = optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json")
+    infeasible["infeasibility"].pop("closest")  # abbreviated
+    agrees(infeasible, found)
+
+
+def test_what_a_shadow_price_promises() -> None:
+    """Analytic: below the optimum mass every kilogram takes R omega^2 = 877.3 N off the peak."""
+    request, *_ = blocks(section(API, "POST /v1/optimize"))
+    before = optimize(OptimizeRequest.model_validate(request)).certificate
+    request["machine"]["max_total_mass_kg"] += 0.1
+    after = optimize(OptimizeRequest.model_validate(request)).certificate
+    assert before is not None
+    assert after is not None
+    assert before.objective - after.objective == pytest.approx(87.73, abs=0.01)
+
+
+def test_the_methods_of_the_certificate() -> None:
+    listed = re.findall(
+        r"`((?:interior point|cone program|closed form), [^`]+)` ?[|,]", section(API, "POST /v1/optimize")
+    )
+    finer = [precision.name for precision in extended.PRECISIONS]
+    assert listed == [solution.INTERIOR_POINT, solution.CONE_PROGRAM, *finer, solution.CLOSED_FORM]
+
+
+def test_the_machine_with_gas() -> None:
+    _, request, shown = blocks(section(API, "POST /v1/analyze"))
+    agrees(shown, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_front() -> None:
+    (shown,) = blocks(section(API, "POST /v1/pareto"))
+    request = ParetoRequest.model_validate({**bodies("")["2d12"], "points": 3})
+    agrees(shown, pareto(request).model_dump(mode="json"))
+
+
+def test_the_rating() -> None:
+    request, shown = blocks(section(API, "POST /v1/rating"))
+    agrees(shown, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_effects() -> None:
+    (shown,) = blocks(section(API, "GET /v1/effects"))
+    found = catalogue().model_dump(mode="json")
+    for key, entries in shown.items():
+        by_name = {one["name"]: one for one in found[key]}
+        for one in entries:
+            agrees(one, by_name[one["name"]])
+
+
+def test_the_table_of_outputs_is_complete() -> None:
+    assert first_column("POST /v1/analyze") == list(get_args(Output))
+
+
+def test_the_table_of_scopes_is_complete() -> None:
+    assert first_column("Keys") == list(SCOPES)
+
+
+def test_the_table_of_problems_is_complete() -> None:
+    rows = re.findall(r"^\| (\d{3}) \| (.+?) \|", section(API, "Errors"), re.MULTILINE)
+    listed = {(int(status), kind) for status, kinds in rows for kind in re.findall(r"`(.+?)`", kinds)}
+    found = set()
+    for kind, describe in FAULTS.items():
+        error = kind.__new__(kind)
+        anything = {"problems": (), "more": False, "wrong": False, "retry": True, "retry_after_s": 1}
+        vars(error).update(anything, status_code=404, detail="", headers=None, _errors=())
+        said = problem(describe(error), "")
+        found.add((said.status, said.type.removeprefix("/problems/")))
+    # nobody reads the answer of a client that has gone; 500 stands below the table
+    assert found - {(499, "client-gone"), (500, "internal-error")} == listed - {(405, "method-not-allowed")}
