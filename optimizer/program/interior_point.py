@@ -92,12 +92,26 @@ def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, error_model="numpy")
+def _to_lane(row, packed, t):  # type: ignore[no-untyped-def]
+    for i in range(row.size):
+        packed[i, t] = row[i]
+
+
+@njit(cache=True, error_model="numpy")
+def _from_lane(packed, t, row):  # type: ignore[no-untyped-def]
+    for i in range(row.size):
+        row[i] = packed[i, t]
+
+
+@njit(cache=True, error_model="numpy")
 def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
     """Program n into lane t."""
     cones, webs = programs.influence.shape[1:]
     lanes = one.target.size
-    one.floor[:, t] = programs.floor[n]
-    one.cap[:, t] = programs.cap[n]
+    for r in range(programs.floor.shape[1]):
+        one.floor[r, t] = programs.floor[n, r]
+    for i in range(programs.cap.shape[1]):
+        one.cap[i, t] = programs.cap[n, i]
     one.target[t] = task.target[n]
     for i in range(cones):
         for c in range(2):
@@ -207,7 +221,7 @@ def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
     while True:
         for t in range(lanes):
             if done[t] > 0.0 and program[t] >= 0:
-                task.best[program[t]] = best[:, t]
+                _from_lane(best, t, task.best[program[t]])
                 task.reached[program[t]] = reached[t]
                 solved += 1
                 program[t] = -1
@@ -216,11 +230,11 @@ def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
                 waiting += 1
                 load(programs, task, n, one, t)
                 if least_mass:
-                    packed[:, t] = task.way[n]
+                    _to_lane(task.way[n], packed, t)
                     restart(one, state, t)
                 else:
                     start(one, state, t)
-                    task.way[n] = packed[:, t]
+                    _from_lane(packed, t, task.way[n])
                 barrier[t], costs[t] = 1.0 * webs * 2 + cones + rows + 1, 0.0
                 for k in range(t, webs * lanes, lanes):
                     barrier[t] += 2.0 * one.present[1, k]
@@ -248,7 +262,7 @@ def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
             stalled[t] += 1.0
             if middle[t] > 0.0 and gap[t] <= middle[t] and program[t] >= 0:
                 middle[t] = 0.0
-                task.way[program[t]] = packed[:, t]
+                _from_lane(packed, t, task.way[program[t]])
             patience = 3.0 if reached[t] < 1e-6 else 20.0
             if reached[t] <= tolerance[t] or stalled[t] > patience or steps[t] >= _MOST_STEPS or not np.isfinite(merit):
                 done[t] = 1.0
@@ -336,14 +350,13 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
             np.zeros((count, size)),
             np.zeros(count),
         )
-        run(False, block, task)
-        _keep(task, v[0, begin:end], p[0, begin:end], prices[0, begin:end])
-        if least_mass:
-            _aim(block, task, share[begin:end], mass_unit[begin:end])
-            task.tolerance[:] = mass_tolerance
-            task.middle[:] = 0.0
-            run(True, block, task)
-            _keep(task, v[1, begin:end], p[1, begin:end], prices[1, begin:end])
+        for stage in range(2 if least_mass else 1):
+            if stage > 0:
+                _aim(block, task, share[begin:end], mass_unit[begin:end])
+                task.tolerance[:] = mass_tolerance
+                task.middle[:] = 0.0
+            run(stage > 0, block, task)
+            _keep(task, v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
     return v, p, prices, mass_unit
 
 
@@ -377,7 +390,10 @@ def _keep(task, v, p, price):  # type: ignore[no-untyped-def]
     webs, rows = v.shape[2], price.shape[1]
     for n in range(number):
         best = views(task.best[n].copy().reshape((-1, 1)), webs, cones, rows)
-        v[n] = best.v
+        for c in range(3):
+            for k in range(webs):
+                v[n, c, k] = best.v[c, k]
         for i in range(cones):
             p[n, i, 0], p[n, i, 1] = -best.z[1, webs + i], -best.z[2, webs + i]
-        price[n] = best.z_rho[:, 0]
+        for r in range(rows):
+            price[n, r] = best.z_rho[r, 0]
