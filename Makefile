@@ -5,22 +5,26 @@ PORT ?= 8000
 export PORT
 
 bin := .venv/bin
+kernels := optimizer/program/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test kernels chromium lint bench hard lock settings image smoke sbom licences audit clean
+.PHONY: install run test chromium lint bench hard lock settings image smoke sbom licences audit clean
 
-install: kernels
+install: $(kernels)
 
-run: .venv/runtime
+run: $(kernels)
 	$(bin)/counterweight serve
 
-# two cores: what a file tests stays together, with its server
-test: lint chromium kernels
+# on two cores; the tests of a file stay together, with the server that they share
+test: lint chromium $(kernels)
 	$(bin)/pytest --numprocesses 2 --dist loadfile
 
-# compiled once and kept beside the sources, not by every process that needs them
-kernels: .venv/runtime
+# compiled once, in a minute, not by every process that needs them;
+# numba looks for changes in the file of a kernel only, not in the files of those that it calls
+$(kernels): $(wildcard optimizer/program/*.py) .venv/runtime
+	rm -f $(@D)/*.nb[ic]
 	$(bin)/python -c "from optimizer.warm_up import warm_up; warm_up()"
+	mkdir -p $(@D) && touch $@
 
 # the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested
 chromium: .venv/development
@@ -33,11 +37,11 @@ lint: .venv/development
 	$(bin)/lint-imports
 	deploy/lint.sh
 
-bench: .venv/development
+bench: .venv/development $(kernels)
 	$(bin)/python -m tests.benchmarks
 
 # hard cases of the program and of the effects against high-precision references: a summary of each
-hard: .venv/development
+hard: .venv/development $(kernels)
 	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only

@@ -175,19 +175,21 @@ def _programs(statement: Statement, reach: Real, unit: Real) -> "Programs":
     mass = reach / limits.radius
     highest = np.max(statement.floor, axis=-1)
     budget = limits.max_total_mass[:, None]
-    return Programs(
+    programs = Programs(
         row=statement.row.astype(np.int64),
-        floor=np.ascontiguousarray((statement.floor - highest[:, None]) / unit[:, None]),
-        cap=np.ascontiguousarray(cap - np.clip(cap, 0.0, _CEILING_MARGIN)),
+        floor=(statement.floor - highest[:, None]) / unit[:, None],
+        cap=cap - np.clip(cap, 0.0, _CEILING_MARGIN),
         constant=_parts(constant),
-        influence=np.ascontiguousarray(influence * reach[:, None, :]),
+        influence=influence * reach[:, None, :],
         centre=_parts(limits.centre),
-        sine=np.ascontiguousarray(limits.half_angle_sin),
-        cosine=np.ascontiguousarray(limits.half_angle_cos),
+        sine=limits.half_angle_sin,
+        cosine=limits.half_angle_cos,
         sector=np.where(limits.free, 0.0, 1.0),
         mass=mass,
         budget=np.where(np.sum(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
     )
+    # for any other order in memory, and for what is read-only, all would be compiled once more
+    return Programs(*(np.require(values, requirements=["C", "W"]) for values in programs))
 
 
 def _parts(vectors: Complex) -> Real:

@@ -11,6 +11,7 @@ from optimizer.formulate import formulate
 from optimizer.program.batch import optima
 from optimizer.program.extended import EXTENDED, FIFTY_DIGITS
 from optimizer.program.fast import Fast, fast
+from optimizer.program.interior_point import solve
 from optimizer.program.optimum import Unreachable, optimum, yardstick
 from optimizer.program.solution import CEILING_TOLERANCE, CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
 from optimizer.program.solve import Solver
@@ -248,6 +249,23 @@ def test_limits_of_zero(limit: str) -> None:
     assert found.objective == pytest.approx(rest, rel=1e-15)
     assert np.all(found.objective - found.lower_bound <= 1e-12 * rest)
     assert np.all(found.mass == 0.0)
+
+
+@pytest.mark.parametrize("order", ["fortran", "read-only"])
+def test_no_order_in_memory_is_compiled_anew(order: str) -> None:
+    """Property: the same bits from what is already compiled, or a request would wait for a minute."""
+    problem = _pair()
+    expected, compiled = run(problem), list(solve.signatures)
+
+    def changed(values: np.ndarray) -> np.ndarray:
+        values = np.array(values, order="F")
+        values.flags.writeable = order == "fortran"
+        return values
+
+    limits = {field.name: changed(getattr(problem.limits, field.name)) for field in fields(problem.limits)}
+    found = run(replace(problem, limits=replace(problem.limits, **limits)))
+    assert all(same(expected, n, found, n) for n in range(expected.mass.size))
+    assert solve.signatures == compiled
 
 
 def test_a_web_in_two_halves_is_the_same_web() -> None:
