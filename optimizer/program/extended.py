@@ -56,17 +56,23 @@ FIFTY_DIGITS = Precision("interior point, 50 digits", 16, 1e-24, 1e-14, _fifty_d
 PRECISIONS = (EXTENDED, FIFTY_DIGITS)
 
 
-@cache
-def solve_in(precision: Precision) -> Callable[..., Any]:
-    """:func:`optimizer.program.interior_point.solve` in other numbers; its arrays come back as they are."""
-    from optimizer.program import cones, interior_point, newton
+def interpreted(numbers: SimpleNamespace) -> dict[str, Any]:
+    """Everything of the interior point before compilation, by name, with other numbers in place of numpy."""
+    from optimizer.program import cones, interior_point, lanes, newton, webs
 
-    names = {**vars(cones), **vars(newton), **vars(interior_point)}
-    space: dict[str, Any] = {**names, "np": precision.numbers()}
+    names = {name: value for part in (cones, lanes, webs, newton, interior_point) for name, value in vars(part).items()}
+    space: dict[str, Any] = {**names, "np": numbers}
     for name, value in names.items():
         if hasattr(value, "py_func"):
             source = value.py_func
             space[name] = FunctionType(source.__code__, space, name, source.__defaults__)
+    return space
+
+
+@cache
+def solve_in(precision: Precision) -> Callable[..., Any]:
+    """:func:`optimizer.program.interior_point.solve` in other numbers; its arrays come back as they are."""
+    space = interpreted(precision.numbers())
     solve, zeros = space["solve"], space["np"].zeros
     # the data in those numbers as well, or their products are rounded before anything is added to them
     return lambda data, *rest: solve(data._make(a if a.dtype == np.int64 else a + zeros(a.shape) for a in data), *rest)

@@ -15,14 +15,12 @@ from typing import NamedTuple
 import numpy as np
 from numba import njit
 
+from optimizer.program.lanes import Lanes, new_work, state_size, views
 from optimizer.program.newton import (
-    Lanes,
-    State,
     direction,
     factor,
     first_order,
     longest_step,
-    new_work,
     residuals,
     second_order,
     take_step,
@@ -66,29 +64,6 @@ class Task(NamedTuple):
     way: Real  # (N, S) the state there; where the second stage starts
     best: Real  # (N, S) the state with the smallest gap and residual
     reached: Real  # (N,) its gap and residual
-
-
-@njit(cache=True, error_model="numpy")
-def state_size(webs, cones, rows):  # type: ignore[no-untyped-def]
-    return 15 * webs + 6 * cones + 2 * rows + 3
-
-
-@njit(cache=True, error_model="numpy")
-def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
-    """A packed state (S, L) as its parts."""
-    lanes, every = packed.shape[1], webs + cones
-    at_s = 9 * webs
-    at_rho = at_s + 6 * every
-    return State(
-        packed[: 3 * webs].reshape((3, webs * lanes)),
-        packed[3 * webs : 6 * webs].reshape((3, webs * lanes)),
-        packed[6 * webs : at_s].reshape((3, webs * lanes)),
-        packed[at_s : at_s + 3 * every].reshape((3, every * lanes)),
-        packed[at_s + 3 * every : at_rho].reshape((3, every * lanes)),
-        packed[at_rho : at_rho + rows],
-        packed[at_rho + rows : at_rho + 2 * rows],
-        packed[at_rho + 2 * rows :],
-    )
 
 
 @njit(cache=True, error_model="numpy")

@@ -2,12 +2,12 @@
 
 import operator
 from collections.abc import Callable, Sequence
-from types import FunctionType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
 
-from optimizer.program import cones, interior_point, newton
+from optimizer.program.extended import interpreted
 
 Operate = Callable[[Any, Any], Any]
 
@@ -73,7 +73,9 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
     ----------
     calls : arguments of :func:`optimizer.program.interior_point.solve`.
     """
-    space, iterations = _interpreted(), 0
+    space, iterations = interpreted(_numbers()), 0
+    # one lane, so that the rounds of the loop are the iterations of a program
+    space["_LANES"] = 1
     scaling = space["scaling"]
 
     def one_more(*arguments: Any) -> None:
@@ -88,17 +90,6 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
             space["solve"](data._make(map(_counted, data)), *rest)
             programs += len(data.constant)
     return Counted.done / programs, iterations / programs
-
-
-def _interpreted() -> dict[str, Any]:
-    """The compiled functions before compilation, on numbers that count."""
-    names = {**vars(cones), **vars(newton), **vars(interior_point)}
-    # one lane, so that the rounds of the loop are the iterations of a program
-    space: dict[str, Any] = {**names, "np": _numbers(), "_LANES": 1}
-    for name, value in names.items():
-        if hasattr(value, "py_func"):
-            space[name] = FunctionType(value.py_func.__code__, space, name, value.py_func.__defaults__)
-    return space
 
 
 def _counted(values: Any) -> Any:
