@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.formulate import ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import outputs
-from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.optimum import Unreachable, optimum, yardstick
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import Solution
 from optimizer.program.solve import Solver
@@ -93,7 +93,8 @@ def _certified(
     mass_gap = None if mass_bound is None else ((mass - mass_bound) / mass if mass > 0 else 0.0)
     certified = (
         solution.keeps_ceilings
-        and relative_gap <= request.accuracy.relative_gap
+        # where nothing is unbalanced, a gap is measured by what the counterweights could unbalance
+        and gap <= request.accuracy.relative_gap * float(yardstick(statement))
         and (mass_gap is None or mass_gap <= MASS_GAP)
     )
     touched = _touched(request, scene, u, mass)
