@@ -46,14 +46,18 @@ class _Unpacked(Future[Piece]):
 
     def __init__(self, packed: "Future[bytes | Path]") -> None:
         super().__init__()
-        self._packed = packed
+        self._packed: Future[bytes | Path] | None = packed
         packed.add_done_callback(self._take)
 
     def cancel(self) -> bool:
-        self._packed.cancel()
+        packed = self._packed
+        if packed is not None:
+            packed.cancel()
         return super().cancel()
 
     def _take(self, packed: "Future[bytes | Path]") -> None:
+        # each holds the other, and with it megabytes until the next collection of garbage
+        self._packed = None
         # the future may have been cancelled while the message was on its way
         with suppress(InvalidStateError):
             if packed.cancelled():
