@@ -15,7 +15,10 @@ from schemas.sweep import SweepRequest
 from tests.jobs.process import Service, service
 from tests.jobs.sweeps import analyses
 
-ROUND = analyses(40, 100)
+ROUND = analyses(200, 400)
+ROUND_ROWS = 200 * 400
+#: how long a chunk takes at least [s]: a sweep has to outlive the kills
+CHUNK_S = 0.4
 
 
 def kill(folder: Path, kills: int, seed: int, longest_s: float = 2.5, kills_of_one: int = 10) -> tuple[int, int]:
@@ -32,7 +35,7 @@ def kill(folder: Path, kills: int, seed: int, longest_s: float = 2.5, kills_of_o
     accepted: dict[str, str] = {}
     midway = 0
     for number in range(kills):
-        found = Service(folder)
+        found = Service(folder, delay_s=CHUNK_S)
         found.wait()
         # asked again after each kill with the same key: one sweep, whether the answer got through or not
         key = f"round-{number // kills_of_one}"
@@ -74,7 +77,7 @@ def main() -> None:
         "kills": asked.kills,
         "midway": midway,
         "sweeps": sweeps,
-        "rows_each": 4000,
+        "rows_each": ROUND_ROWS,
         "wrong": 0,
         "s": time.monotonic() - began,
     }
