@@ -84,6 +84,7 @@ class Work(NamedTuple):
     keep: Real  # (L,) share of the residuals that the step removes
     step: Real  # (L,)
     where: np.ndarray  # (Q,) first unknown of every vector
+    always: Real  # (L,) 1: limits that are there without any web
 
 
 @njit(cache=True, error_model="numpy")
@@ -133,6 +134,7 @@ def new_work(webs, cones, terms, rows, lanes):  # type: ignore[no-untyped-def]
         np.zeros(lanes),
         np.zeros(lanes),
         where,
+        np.ones(lanes),
     )
 
 

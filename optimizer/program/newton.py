@@ -334,7 +334,7 @@ def longest_step(one, state, work, longest):  # type: ignore[no-untyped-def]
         _until_zero(one.present[c], state.zq[c], work.dzq[c], webs)
         lower(webs, step)
     lane = each[: step.size]
-    always = one.present[0]
+    always = work.always
     for r in range(state.rho.shape[0]):
         _until_zero(always, state.rho[r], work.d_rho[r], lane)
         lower(lane, step)

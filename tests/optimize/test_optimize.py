@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Callable
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -373,3 +374,27 @@ def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
     assert found.status == "inaccurate"
     assert found.certificate.lower_bound <= found.certificate.objective
     assert found.certificate.relative_gap > 1e-6
+
+
+def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The relative gap is 0 by definition where the objective is 0 without counterweights; the status is not."""
+    from optimizer import optimize as whole
+
+    opposed = [throw(-0.2, 0.0, [], rotating=10.0), throw(0.2, 180.0, [], rotating=10.0)]
+    body = machine(opposed, [web("one", 0.3)])
+    rest = answer(body).residual.before.moment.peak_Nm
+    asked = {"moment_weight": 0.0, "moment_ceiling_Nm": 0.9 * rest}
+    found = answer(body, **asked)
+    # analytic: the force cancels at rest, and one web that lowers the couple makes one
+    assert found.certificate.objective_without_counterweights == pytest.approx(0.0, abs=1e-9)
+    assert found.certificate.objective == pytest.approx(0.1 * rest / 0.3, rel=1e-6)
+    assert (found.status, found.certificate.relative_gap) == ("optimal", 0.0)
+
+    honest = whole.optimum
+
+    def modest(*arguments: Any) -> Any:
+        best = honest(*arguments)
+        return replace(best, lower_bound=0.5 * best.lower_bound)
+
+    monkeypatch.setattr(whole, "optimum", modest)
+    assert answer(body, **asked).status == "inaccurate"
