@@ -5,7 +5,7 @@ PORT ?= 8000
 export PORT
 
 bin := .venv/bin
-kernels := optimizer/program/__pycache__/kernels
+kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
 .PHONY: install run test chromium lint bench hard lock settings image smoke sbom licences audit clean
@@ -21,7 +21,7 @@ test: lint chromium $(kernels)
 
 # compiled once, in a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
-$(kernels): $(wildcard optimizer/program/*.py) .venv/runtime
+$(kernels): $(wildcard optimizer/program/kernel/*.py) .venv/runtime
 	rm -f $(@D)/*.nb[ic]
 	$(bin)/python -c "from optimizer.warm_up import warm_up; warm_up()"
 	mkdir -p $(@D) && touch $@

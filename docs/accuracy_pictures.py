@@ -10,7 +10,7 @@ from optimizer.accuracy.measure import accuracy
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
 from service.accuracy_picture import draw
 from service.accuracy_tables import method_name, scientific
-from service.examples import load
+from service.documents.examples import load
 
 DOCS = Path(__file__).parent
 DOCUMENT = DOCS / "accuracy.md"

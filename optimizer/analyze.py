@@ -4,8 +4,8 @@ import time
 
 import numpy as np
 
+from optimizer.figures.counterweights import counterweights, unbalance
 from optimizer.outputs import outputs
-from optimizer.report.counterweights import counterweights, unbalance
 from optimizer.scene import prepare
 from schemas.answers import AnalyzeAnswer, Timing
 from schemas.requests import AnalyzeRequest

@@ -7,11 +7,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from optimizer.arrays import SMALLEST, Reals
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement, statement, weighted_peak
-from optimizer.response import SMALLEST, Reals, Response
+from optimizer.response import Response
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Objective
 

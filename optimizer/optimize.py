@@ -4,17 +4,17 @@ import time
 
 import numpy as np
 
+from optimizer.arrays import Complex
+from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.figures.first_order import first_order
+from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import outputs
 from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import Solution
-from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
-from optimizer.report.counterweights import counterweights, masses_and_angles, unbalance
-from optimizer.report.first_order import first_order
-from optimizer.report.shadow_prices import shadow_prices as priced
-from optimizer.response import Complex
 from optimizer.scene import Prepared, prepare
 from schemas.answers import (
     Certificate,

@@ -3,13 +3,13 @@
 from collections.abc import Callable
 from typing import Any
 
+from optimizer.arrays import Complex
+from optimizer.figures import dynamics
+from optimizer.figures.bearings import main_bearings
+from optimizer.figures.first_order import first_order, floor, hodograph
+from optimizer.figures.orders import order
+from optimizer.figures.stages import stages
 from optimizer.mechanics.inertia import Wrench
-from optimizer.report import dynamics
-from optimizer.report.bearings import main_bearings
-from optimizer.report.first_order import first_order, floor, hodograph
-from optimizer.report.orders import order
-from optimizer.report.stages import stages
-from optimizer.response import Complex
 from optimizer.scene import Prepared
 from schemas.answers import Residual
 from schemas.outputs import Hodographs, Order, OrdersComparison

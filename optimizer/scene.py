@@ -5,10 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import Simulated, require_inputs, simulate
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses
 from optimizer.mechanics.layout import Layout, layout
-from optimizer.response import Complex, Real, Response
+from optimizer.response import Response
 from schemas.requests import Scene
 
 

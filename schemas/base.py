@@ -51,7 +51,7 @@ def raise_problems(problems: Iterable[FieldProblem]) -> None:
     """Raise one error that carries every problem found by a cross-field check.
 
     pydantic places an error raised by a model validator at the model; the paths in the context
-    let the door (``service.errors``, the command line) point at the very field.
+    let the door (``service.http.errors``, the command line) point at the very field.
 
     Raises
     ------

@@ -11,16 +11,15 @@ from starlette.middleware import Middleware
 from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from service import docs, errors
-from service.access import Access
-from service.computing import Computing
+from service.documents import reference_page
+from service.guard.access import Access
+from service.guard.keys import keys
+from service.guard.rates import RateLimits
+from service.http import errors
+from service.http.computing import Computing
+from service.http.openapi import Documented
+from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
-from service.keys import keys
-from service.metrics import Metrics
-from service.openapi import Documented
-from service.rate_limits import RateLimits
-from service.readiness import Readiness
-from service.request_log import RequestLog
 from service.routes import (
     accuracy,
     analyze,
@@ -36,9 +35,11 @@ from service.routes import (
     sweeps,
 )
 from service.routes import metrics as metrics_route
-from service.security_headers import SecurityHeaders
 from service.settings import Settings
-from service.tracing import tracing
+from service.watch.metrics import Metrics
+from service.watch.readiness import Readiness
+from service.watch.request_log import RequestLog
+from service.watch.tracing import tracing
 from service.workers.pool import Pool
 
 _RESOURCES = (
@@ -152,7 +153,7 @@ def create_app(
     errors.install(app)
     for resource in _RESOURCES:
         app.include_router(resource.router)
-    docs.install(app)
+    reference_page.install(app)
     return app
 
 

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 
 from optimizer.accuracy.ladder import median_ms
+from optimizer.arrays import Real
 from optimizer.effects.inertia import rod_problems
 from optimizer.effects.registry import simulate
 from optimizer.mechanics.cylinders import delivery_problems, gas_problems
@@ -22,7 +23,6 @@ from optimizer.mechanics.kinematics import motion, own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.rod import rod_forces
 from optimizer.mechanics.turn import fluctuation, mean, panels
-from optimizer.response import Real
 from schemas.accuracy import EffectRow
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Fidelity

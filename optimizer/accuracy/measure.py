@@ -11,11 +11,11 @@ import numpy as np
 from optimizer.accuracy.effects import effects_ladder
 from optimizer.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
 from optimizer.accuracy.methods import POSITIONS, Task, methods
+from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import ceilings, formulate, weights
 from optimizer.program.optimum import Unreachable, optimum
-from optimizer.program.sampled import OverTheTurn, WeightedResponse
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_TOLERANCE
-from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
 from optimizer.scene import Prepared, prepare
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference

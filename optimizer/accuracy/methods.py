@@ -6,18 +6,18 @@ from functools import partial
 
 import numpy as np
 
-from optimizer.program import conic
+from optimizer.accuracy.rivals import matrices
+from optimizer.accuracy.rivals.polygonal import polygonal
+from optimizer.accuracy.rivals.sampled import OverTheTurn, sampled
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.cone import CompiledPrograms
-from optimizer.program.extended import PRECISIONS, Precision
 from optimizer.program.fast import Fast, fast
+from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.polish import objective_multipliers
-from optimizer.program.polygonal import polygonal
-from optimizer.program.sampled import OverTheTurn, sampled
-from optimizer.program.solve import Solver
+from optimizer.program.reference.modelling import CompiledPrograms
+from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 
 ANGLES = (6, 12, 36, 72, 360, 720)
 SIDES = (4, 8, 16, 32, 64, 128, 256)
@@ -174,19 +174,19 @@ def _cone_program(tolerance: float) -> Run:
 
     def run(task: Task, position: float, time_limit_s: float) -> Found | str:
         statement = task.statement
-        data, scaling = conic.scaled(statement, tolerance)
+        data, scaling = matrices.scaled(statement, tolerance)
         with programs.lend(data.shape) as program:
             solution = program.solve(data, tolerance)
         if solution is None:
             return "the solver has no point to offer"
         unbalance = statement.limits.into(scaling.unbalance(statement, solution))
-        return _proving(task, conic.Point(unbalance, scaling.multipliers(statement, solution), None))
+        return _proving(task, matrices.Point(unbalance, scaling.multipliers(statement, solution), None))
 
     return run
 
 
 def _matrices(tolerance: float) -> Run:
-    return lambda task, position, limit: _proving(task, conic.exact(task.statement, tolerance, limit))
+    return lambda task, position, limit: _proving(task, matrices.exact(task.statement, tolerance, limit))
 
 
 def _sampled(angles: int) -> Run:
@@ -197,8 +197,8 @@ def _polygonal(sides: int) -> Run:
     return lambda task, position, limit: _proving(task, polygonal(task.statement, sides, position, limit))
 
 
-def _proving(task: Task, point: conic.Point | conic.NoPoint) -> Found | str:
-    if isinstance(point, conic.NoPoint):
+def _proving(task: Task, point: matrices.Point | matrices.NoPoint) -> Found | str:
+    if isinstance(point, matrices.NoPoint):
         return point.reason
 
     def prove() -> float:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import RODS, rod_problems
 from optimizer.mechanics.cylinders import chambers, delivery_problems, gas_problems
@@ -14,7 +15,6 @@ from optimizer.mechanics.kinematics import Motion, motion, own_angle, steep_angl
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.turn import fluctuation, mean, panels
-from optimizer.response import Complex, Real
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
 

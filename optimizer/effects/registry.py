@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Real
 from optimizer.effects.dynamics import DYNAMICS
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import INERTIA
@@ -14,7 +15,6 @@ from optimizer.effects.scroll import SCROLL
 from optimizer.errors import MissingInput
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
-from optimizer.response import Real
 from schemas.answers import EffectUse
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine

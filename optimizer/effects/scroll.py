@@ -6,7 +6,7 @@ from pydantic import ValidationError
 
 from optimizer.effects.effect import Context, Effect
 from optimizer.errors import MissingInput
-from optimizer.pin_loads import pin_loads
+from optimizer.pins.answer import pin_loads
 from schemas.base import FieldProblem
 from schemas.machine import CrankPins, Machine, ScrollMachine
 from schemas.requests import Angles

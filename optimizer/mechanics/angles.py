@@ -3,7 +3,7 @@
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.response import Complex, Real
+from optimizer.arrays import Complex, Real
 
 
 def direction(angle_deg: Real) -> Complex:

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, switching_travels
 from optimizer.mechanics.layout import Layout, stacked
-from optimizer.response import Real
 from schemas.base import FieldProblem
 from schemas.cylinder import Cylinder
 from schemas.machine import ReciprocatingMachine

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
+from optimizer.arrays import Real
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
-from optimizer.response import Real
 
 #: sign of a chamber's force, head and crank side
 _SIGN = np.array([-1.0, 1.0])

@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real, total
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.response import Complex, Phasors, Real, Response, total
+from optimizer.response import Phasors, Response
 
 
 class Wrench(NamedTuple):

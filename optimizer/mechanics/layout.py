@@ -10,8 +10,8 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import direction
-from optimizer.response import Complex, Real
 from schemas.machine import ReciprocatingMachine, Rotor, ScrollMachine
 
 

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.mechanics.kinematics import Motion
 from optimizer.mechanics.layout import Layout
-from optimizer.response import Complex, Real
 
 
 @dataclass(frozen=True)

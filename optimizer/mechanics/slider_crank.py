@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 from scipy.special import binom, hyp2f1
 
-from optimizer.response import Real
+from optimizer.arrays import Real
 
 
 def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:

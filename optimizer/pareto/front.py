@@ -10,12 +10,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.optimize import MASS_GAP
 from optimizer.pareto.trade import Trade
 from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
-from optimizer.program.solve import Solver
-from optimizer.response import SMALLEST, Complex, Real
 
 #: a smallest peak by itself is sought to this share of its size
 _SHARPNESS = 1e-9

@@ -6,15 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Real
+from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.figures.first_order import first_order, floor
 from optimizer.formulate import ceilings
 from optimizer.optimize import MASS_GAP, optimize
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
 from optimizer.program.optimum import Unreachable
-from optimizer.program.solve import Solver
-from optimizer.report.counterweights import counterweights, masses_and_angles, unbalance
-from optimizer.report.first_order import first_order, floor
-from optimizer.response import Real
+from optimizer.program.reference.solver import Solver
 from optimizer.scene import Prepared, prepare
 from schemas.answers import MachineLimit, Timing
 from schemas.machine import Machine

@@ -5,9 +5,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.formulate import ceilings, limits
 from optimizer.program.statement import Norms, Statement, statement, weighted_peak
-from optimizer.response import Complex, Real, Response
+from optimizer.response import Response
 from schemas.machine import Machine
 from schemas.requests import Objective
 

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.program.fast import fast
 from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
-from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 
 #: allowance for rounding in a bound, in units of the sum of the magnitudes that enter it
 _ROUNDING = 32 * np.finfo(float).eps

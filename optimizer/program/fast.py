@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
-from optimizer.program.extended import Precision, solve_in
+from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.polish import resting_multipliers
 from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import CEILING_TOLERANCE, NEGLIGIBLE
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 
 if TYPE_CHECKING:
-    from optimizer.program.interior_point import Programs
+    from optimizer.program.kernel.interior_point import Programs
 
 #: multiple of the natural reach beyond which limits are ignored
 _REACH = 10.0
@@ -106,7 +106,7 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
 def _solve(statement: Statement, share: Real, least_mass: bool, precision: Precision | None):  # type: ignore[no-untyped-def]
     """Points of both stages, the multipliers of either, and the unit of mass."""
     # the compiler is loaded when it is first needed
-    from optimizer.program.interior_point import solve
+    from optimizer.program.kernel.interior_point import solve
 
     tolerances, method = _DOUBLE, solve
     if precision is not None:
@@ -164,7 +164,7 @@ def _excess(statement: Statement, u: Complex) -> Real:
 
 
 def _programs(statement: Statement, reach: Real, unit: Real) -> "Programs":
-    from optimizer.program.interior_point import Programs
+    from optimizer.program.kernel.interior_point import Programs
 
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     constant = np.concatenate([norms.constant / unit[:, None], ceilings.norms.constant / ceilings.size], axis=-1)

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.response import Complex, Real
+from optimizer.arrays import Complex, Real
 
 
 @dataclass(frozen=True)

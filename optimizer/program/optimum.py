@@ -5,13 +5,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.program.extended import PRECISIONS, Precision
+from optimizer.arrays import Complex, Real
 from optimizer.program.fast import fast
+from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
+from optimizer.program.reference.solver import Solver
 from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
-from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 
 #: the smallest objective is sought this much more sharply than optima are told apart
 _SHARPNESS = 1e-4

@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement
-from optimizer.response import Complex
 
 #: a limit is touched when it is nearer than this share of itself
 TOUCHED = 1e-6

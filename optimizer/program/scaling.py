@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
-from optimizer.program.cone import ScaledData, ScaledSolution, Shape, Stage
+from optimizer.program.reference.modelling import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Norms, Statement
-from optimizer.response import Complex, Real
 
 #: a term whose influence is this close to those before it is not cancelled on its own
 _DEPENDENT = 1e-13

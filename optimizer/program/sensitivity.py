@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 
 
 @dataclass(frozen=True)

@@ -4,9 +4,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement
-from optimizer.response import Complex
 
 #: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
 CEILING_TOLERANCE = 1e-9

@@ -9,8 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import SMALLEST, Complex, Real, Reals, total
 from optimizer.program.limits import Limits
-from optimizer.response import SMALLEST, Complex, Real, Reals, Response, total
+from optimizer.response import Response
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 _ROUNDING = 4 * np.finfo(float).eps

@@ -4,11 +4,11 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Complex
+from optimizer.figures.counterweights import unbalance
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
-from optimizer.report.counterweights import unbalance
-from optimizer.response import Complex
 from optimizer.sweep.optimized import first_order_peaks
 from schemas.requests import AnalyzeRequest
 

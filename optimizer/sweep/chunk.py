@@ -5,7 +5,7 @@ from functools import lru_cache
 
 import pyarrow as pa
 
-from optimizer.program.solve import Solver
+from optimizer.program.reference.solver import Solver
 from optimizer.sweep.plan import block_rows
 from optimizer.sweep.rows import rows
 from optimizer.sweep.table import result_schema, result_table

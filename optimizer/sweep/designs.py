@@ -10,7 +10,7 @@ import numpy as np
 from numpy.random import Philox
 from numpy.typing import NDArray
 
-from optimizer.response import Real
+from optimizer.arrays import Real
 from schemas.sweep import Axis, SweepRequest, Target
 
 Indices = NDArray[np.int64]

@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
+from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.formulate import limits as limits_of
 from optimizer.formulate import weights as weights_of
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses, reciprocating, rotating
@@ -13,11 +15,10 @@ from optimizer.mechanics.layout import layout as layout_of
 from optimizer.optimize import MASS_GAP
 from optimizer.program.batch import Optima, optima
 from optimizer.program.limits import Limits
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_TOLERANCE, CLOSED_FORM, CONE_PROGRAM
-from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement, statement, weighted_peak
-from optimizer.report.counterweights import masses_and_angles, unbalance
-from optimizer.response import Complex, Phasors, Real, Response
+from optimizer.response import Phasors, Response
 from schemas.requests import OptimizeRequest
 
 Columns = dict[str, Any]

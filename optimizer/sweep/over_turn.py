@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import OUTPUTS, effects_of
 from optimizer.mechanics.bearings import continuous_beam, simple_spans
 from optimizer.mechanics.cylinders import chambers as chambers_of
@@ -19,7 +20,6 @@ from optimizer.mechanics.kinematics import Motion, motion, own_angle, steep_angl
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.turn import fluctuation, mean, panels
-from optimizer.response import Complex, Real
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 

@@ -5,9 +5,9 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Real
 from optimizer.mechanics.layout import stacked
-from optimizer.mechanics.scroll_pins import LoadShapes, PeriodicTable, gas_torques, peaks
-from optimizer.response import Real
+from optimizer.pins.loads import LoadShapes, PeriodicTable, gas_torques, peaks
 from schemas.machine import CrankPins, ScrollMachine
 from schemas.over_turn import ForceTable, TorqueTable
 

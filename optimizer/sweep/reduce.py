@@ -12,7 +12,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 from numpy.typing import NDArray
 
-from optimizer.response import Real
+from optimizer.arrays import Real
 from optimizer.sweep.table import result_schema
 from schemas.sweep import SweepRequest, TopFilter
 

@@ -6,9 +6,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optimizer.arrays import Complex, Real
 from optimizer.mechanics.layout import layout
-from optimizer.program.solve import Solver
-from optimizer.response import Complex, Real
+from optimizer.program.reference.solver import Solver
 from optimizer.sweep.analyzed import analyzed
 from optimizer.sweep.designs import axis_values
 from optimizer.sweep.optimized import optimized, shape_keys

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from optimizer.arrays import Real
 from optimizer.effects.registry import EFFECTS, OUTPUTS, closure
 from optimizer.mechanics.cylinders import chambers, gas_problems
 from optimizer.mechanics.gas import switching_travels
 from optimizer.mechanics.layout import layout, stacked
-from optimizer.response import Real
 from optimizer.sweep.variation import field_at
 from schemas.cylinder import Cylinder
 from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine

@@ -24,7 +24,7 @@ def examples(
     as_json: AsJson = False,
 ) -> None:
     """List the examples, or print one of them."""
-    from service.examples import UnknownExample, catalogue, load
+    from service.documents.examples import UnknownExample, catalogue, load
 
     if name is not None:
         try:
@@ -45,7 +45,7 @@ def schema(
     """List the documents that go in and come out, or print the JSON schema of one of them."""
     import json
 
-    from service.documents import DOCUMENTS
+    from service.documents.catalogue import DOCUMENTS
 
     if name is None:
         from service.tables import names_report

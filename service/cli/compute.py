@@ -38,7 +38,7 @@ def analyze(file: File, as_json: AsJson = False, output: Outputs = None) -> None
 
 def pin_loads(file: File, as_json: AsJson = False) -> None:
     """Say what the anti-rotation pins of a scroll carry over a turn."""
-    from optimizer.pin_loads import pin_loads as compute
+    from optimizer.pins.answer import pin_loads as compute
     from schemas.scroll import PinLoadsRequest
 
     found = answer(compute, question(PinLoadsRequest, file))

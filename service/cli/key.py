@@ -11,7 +11,7 @@ import typer
 from service.cli.terminal import fail, put, show
 
 if TYPE_CHECKING:
-    from service.keys import KeyRecord
+    from service.guard.keys import KeyRecord
 
 _DAY_S = 86_400
 
@@ -34,8 +34,8 @@ def create(
     """Make a key and print it; only its hash is kept, so it cannot be printed again."""
     from pydantic import ValidationError
 
-    from service import keys
-    from service.rate_limits import parsed
+    from service.guard import keys
+    from service.guard.rates import parsed
 
     where = _file(file)
     known = _read(where) if where.exists() else []
@@ -87,7 +87,7 @@ def _file(given: Path | None) -> Path:
 
 
 def _read(file: Path) -> "list[KeyRecord]":
-    from service.keys import BadKeyFile, read
+    from service.guard.keys import BadKeyFile, read
 
     try:
         return read(file)
@@ -96,7 +96,7 @@ def _read(file: Path) -> "list[KeyRecord]":
 
 
 def _write(file: Path, records: "list[KeyRecord]") -> None:
-    from service.keys import write
+    from service.guard.keys import write
 
     try:
         write(file, records)

@@ -45,7 +45,7 @@ def pareto(file: File, points: Points = None, budget: Budgets = None, as_json: A
 def _with(request: "ParetoRequest", given: "Mapping[str, object]") -> "ParetoRequest":
     """The request with some fields given on the command line, checked like those of the file."""
     from schemas.pareto import ParetoRequest
-    from service.validation import InvalidRequest, check
+    from service.http.validation import InvalidRequest, check
 
     fields = {name: getattr(request, name) for name in request.model_fields_set}
     try:

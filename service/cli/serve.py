@@ -18,10 +18,10 @@ def serve(
     """Run the REST service until it is interrupted."""
     from pydantic import ValidationError
 
-    from service import logs
     from service.app import create_app
-    from service.server import listen, run, url
+    from service.http.server import listen, run, url
     from service.settings import Settings
+    from service.watch import logs
 
     options = {"host": host, "port": port, "engine": engine}
     given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}

@@ -28,7 +28,7 @@ Outputs = Annotated[
 
 def question(model: "type[Question]", file: str, outputs: Sequence[str] | None = None) -> "Question":
     """The request in a file, with other outputs if they were given."""
-    from service.validation import InvalidRequest, UnreadableJson, check, read_json
+    from service.http.validation import InvalidRequest, UnreadableJson, check, read_json
 
     source = "standard input" if file == "-" else file
     try:
@@ -63,7 +63,7 @@ def answer(compute: "Callable[[Question], Answer]", question: "Question") -> "An
 
 
 def fail_fields(problems: "Sequence[FieldProblem]", more: bool = False) -> NoReturn:
-    from service.validation import pointer
+    from service.http.validation import pointer
 
     lines = [f"{pointer(problem.path) or 'the request'}: {problem.message}" for problem in problems]
     fail(*lines, *(["... and more"] if more else []))

@@ -5,9 +5,9 @@ import re
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.guard.keys import caller_of
 from service.jobs.desk import Desk
 from service.jobs.job import Job
-from service.keys import caller_of
 
 _KEY = re.compile(r"[\x21-\x7e]{1,255}")
 _PREFERS = re.compile(r"(?:^|[,;])\s*respond-async\s*(?:$|[,;])", re.IGNORECASE)

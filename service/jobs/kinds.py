@@ -98,7 +98,7 @@ def _piece(table: "pa.Table") -> Piece:
 def _answer(model: str, compute: str) -> Callable[[bytes, int, int, Proceed], Piece]:
     def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
         from optimizer.errors import MissingInput
-        from service.validation import check, pointer, read_json
+        from service.http.validation import check, pointer, read_json
 
         try:
             found = resolve_name(compute)(check(resolve_name(model), read_json(request)))

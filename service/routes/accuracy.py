@@ -6,8 +6,8 @@ from starlette.responses import Response
 
 from optimizer.accuracy.measure import accuracy
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
-from service.computing import Computes
-from service.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.computing import Computes
+from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 
 router = APIRouter(tags=["counterweights"])
 

@@ -7,8 +7,8 @@ from starlette.responses import Response
 from optimizer.analyze import analyze
 from schemas.answers import AnalyzeAnswer
 from schemas.requests import AnalyzeRequest
-from service.computing import Computes
-from service.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.computing import Computes
+from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 
 router = APIRouter(tags=["counterweights"])
 

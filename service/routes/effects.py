@@ -4,7 +4,7 @@ from fastapi import APIRouter
 
 from optimizer.effects.catalogue import catalogue
 from schemas.effects import EffectCatalogue
-from service.openapi import problems
+from service.http.openapi import problems
 
 router = APIRouter(tags=["counterweights"])
 

@@ -5,8 +5,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from schemas.requests import OptimizeRequest
-from service.examples import Examples, catalogue, load
-from service.openapi import example_body, problems
+from service.documents.examples import Examples, catalogue, load
+from service.http.openapi import example_body, problems
 
 router = APIRouter(tags=["examples"])
 

@@ -7,7 +7,7 @@ from pydantic import Field
 from starlette.requests import Request
 
 from schemas.base import Model
-from service.openapi import problems
+from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])
 

@@ -6,7 +6,7 @@ from prometheus_client import CONTENT_TYPE_LATEST
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.openapi import problems
+from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])
 

@@ -4,10 +4,10 @@ from fastapi import APIRouter
 from starlette.requests import Request
 from starlette.responses import Response
 
-from optimizer.pin_loads import pin_loads
+from optimizer.pins.answer import pin_loads
 from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
-from service.computing import Computes
-from service.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.computing import Computes
+from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 
 router = APIRouter(tags=["scroll"])
 

@@ -7,8 +7,8 @@ from starlette.responses import Response
 from optimizer.rating.rate import rate
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingAnswer
-from service.computing import Computes
-from service.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.computing import Computes
+from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 
 router = APIRouter(tags=["rating"])
 

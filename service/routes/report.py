@@ -5,8 +5,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from schemas.requests import OptimizeRequest
-from service.computing import Computes
-from service.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.computing import Computes
+from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.report.formats import FORMATS, negotiated, report_html, report_pdf
 
 router = APIRouter(tags=["counterweights"])

@@ -12,7 +12,8 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 
 from optimizer.sweep.plan import plan
 from schemas.sweep import SweepEstimate, SweepRequest, SweepState
-from service.computing import Computes
+from service.http.computing import Computes
+from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
 from service.jobs.desk import Desk
 from service.jobs.events import events
@@ -20,7 +21,6 @@ from service.jobs.formats import FORMATS, Name, negotiated
 from service.jobs.job import Job
 from service.jobs.page import SweepPage
 from service.jobs.results import chosen, description, fitted
-from service.openapi import COMPUTE_PROBLEMS, problems, request_body
 
 router = APIRouter(tags=["sweeps"])
 

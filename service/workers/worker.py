@@ -15,8 +15,8 @@ from pathlib import Path
 from optimizer.errors import MissingInput
 from optimizer.rating.errors import OutOfRange
 from schemas.base import Model
-from service.size_limits import SizeLimits
-from service.validation import InvalidRequest, UnreadableJson, check, read_json
+from service.guard.sizes import SizeLimits
+from service.http.validation import InvalidRequest, UnreadableJson, check, read_json
 
 #: below the event loop, above the workers of sweeps
 _NICENESS = 5

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from optimizer.accuracy.methods import Task
+from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.program.limits import Limits
-from optimizer.program.sampled import OverTheTurn, WeightedResponse
 from optimizer.program.statement import statement, weighted_peak
 from optimizer.response import Phasors, Response
 from schemas.accuracy import AccuracyRequest
-from service.examples import load
+from service.documents.examples import load
 from tests.program.cases import random_limits, random_point, random_responses
 
 

@@ -19,14 +19,14 @@ from optimizer.accuracy.methods import (
     _lighter,
     methods,
 )
-from optimizer.program import conic
+from optimizer.accuracy.rivals import matrices
+from optimizer.accuracy.rivals.polygonal import polygonal
+from optimizer.accuracy.rivals.sampled import OverTheTurn, half_turn, sampled
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.extended import PRECISIONS
+from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.optimum import Unreachable, optimum
-from optimizer.program.polygonal import polygonal
-from optimizer.program.sampled import OverTheTurn, half_turn, sampled
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
-from optimizer.program.solve import Solver
 from optimizer.program.statement import statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.accuracy.problems import free_limits, random_task, single
@@ -45,8 +45,8 @@ def rest(task: Task) -> float:
     return float(task.statement.objective(np.zeros(task.statement.limits.radius.shape, complex)))
 
 
-def solved(outcome: conic.Point | conic.NoPoint) -> conic.Point:
-    assert isinstance(outcome, conic.Point), outcome
+def solved(outcome: matrices.Point | matrices.NoPoint) -> matrices.Point:
+    assert isinstance(outcome, matrices.Point), outcome
     return outcome
 
 
@@ -120,7 +120,7 @@ def test_points_of_polygons_keep_limits_and_ceilings(sides: int, seed: int) -> N
     """The polygons lie within the discs: what is feasible for the linear program is feasible."""
     task = random_task(seed, "sum", (1.0, 1.0), True, True, True)
     found = polygonal(task.statement, sides, 0.25, 5.0)
-    if isinstance(found, conic.NoPoint):
+    if isinstance(found, matrices.NoPoint):
         assert sides == 4  # a square of the ceilings may hold no point where the circle does
         return
     limits, size = task.statement.limits, np.abs(found.unbalance)
@@ -135,7 +135,7 @@ def test_the_exact_program_is_within_its_tolerance(tolerance: float, seed: int) 
     """Independent: the reference solver with its certificate; errors stay below some times the tolerance."""
     task = random_task(seed, "max", (1.0, 0.3), True, True, False)
     best = reference(task)
-    found = solved(conic.exact(task.statement, tolerance, 5.0))
+    found = solved(matrices.exact(task.statement, tolerance, 5.0))
     error = (float(task.statement.objective(found.unbalance)) - best.lower_bound) / rest(task)
     assert -1e-12 <= error <= 20.0 * tolerance + 1e-9
 
@@ -178,10 +178,10 @@ def test_a_program_that_cannot_keep_its_ceilings_says_so() -> None:
     assert isinstance(optimum(hopeless, 1e-9, False, SOLVER), Unreachable)
     for outcome in (
         polygonal(hopeless, 32, 0.0, 5.0),
-        conic.exact(hopeless, 1e-8, 5.0),
+        matrices.exact(hopeless, 1e-8, 5.0),
         sampled(hopeless, turn, 72, 0.0, 5.0),
     ):
-        assert isinstance(outcome, conic.NoPoint)
+        assert isinstance(outcome, matrices.NoPoint)
         assert outcome.reason == "no counterweights keep the ceilings of this program"
 
 
@@ -191,9 +191,9 @@ def test_a_limit_of_time_is_kept() -> None:
     for outcome in (
         sampled(task.statement, task.turn, 720, 0.0, 1e-9),
         polygonal(task.statement, 256, 0.0, 1e-9),
-        conic.exact(task.statement, 1e-8, 1e-9),
+        matrices.exact(task.statement, 1e-8, 1e-9),
     ):
-        assert isinstance(outcome, conic.NoPoint)
+        assert isinstance(outcome, matrices.NoPoint)
         assert "not solved within" in outcome.reason
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.program.extended import interpreted
+from optimizer.program.kernel.finer_numbers import interpreted
 
 Operate = Callable[[Any, Any], Any]
 
@@ -71,7 +71,7 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
 
     Parameters
     ----------
-    calls : arguments of :func:`optimizer.program.interior_point.solve`.
+    calls : arguments of :func:`optimizer.program.kernel.interior_point.solve`.
     """
     space, iterations = interpreted(_numbers()), 0
     # one lane, so that the rounds of the loop are the iterations of a program

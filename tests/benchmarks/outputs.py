@@ -15,8 +15,8 @@ from optimizer.effects.registry import OUTPUTS
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
-from optimizer.mechanics.scroll_pins import even_pin_loads
-from optimizer.pin_loads import pin_loads
+from optimizer.pins.answer import pin_loads
+from optimizer.pins.loads import even_pin_loads
 from schemas.requests import AnalyzeRequest
 from schemas.scroll import PinLoadsRequest
 from tests.benchmarks.cases import EXAMPLES

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from optimizer.arrays import Complex, Real
 from optimizer.formulate import formulate
 from optimizer.program.statement import Statement
-from optimizer.response import Complex, Real
 from optimizer.scene import prepare
 from optimizer.sweep.designs import axis_values
 from optimizer.sweep.rows import Group

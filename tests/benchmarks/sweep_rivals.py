@@ -12,8 +12,8 @@ import cvxpy as cp
 import numpy as np
 from scipy import sparse
 
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
-from optimizer.response import Complex, Real
 from tests.benchmarks.sweep_case import Program
 
 #: share of what optima may differ by that the second stage may use: solvers are exact to a tolerance only

@@ -11,7 +11,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.program import interior_point
+from optimizer.program.kernel import interior_point
 from schemas.sweep import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks.operations import operations_per_program
@@ -27,7 +27,7 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.sweep.optimized:reciprocating",
         "optimizer.sweep.optimized:_statement",
     ),
-    _STAGES: ("optimizer.program.interior_point:solve",),
+    _STAGES: ("optimizer.program.kernel.interior_point:solve",),
     "scaling, choice of the point": ("optimizer.program.batch:fast", "optimizer.program.batch:yardstick"),
     "certificate": ("optimizer.program.fast:objective_lower_bound", "optimizer.program.fast:mass_lower_bound"),
     "reference solver": ("optimizer.program.batch:optimum",),

@@ -7,7 +7,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from service.examples import load
+from service.documents.examples import load
 from service.report.formats import NotAcceptable, negotiated
 
 _HTML, _PDF = "text/html; charset=utf-8", "application/pdf"

@@ -14,8 +14,8 @@ from typing import Any
 import pytest
 import uvicorn
 
-from service import keys
 from service.app import create_app
+from service.guard import keys
 from service.settings import Settings
 from tests.deploy.files import DEPLOY
 

@@ -11,15 +11,16 @@ from optimizer.analyze import analyze
 from optimizer.effects.catalogue import catalogue
 from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
-from optimizer.program import extended, solution
+from optimizer.program import solution
+from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
 from schemas.pareto import ParetoRequest
 from schemas.rating import RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
 from service.app import create_app
-from service.errors import FAULTS, problem
-from service.examples import bodies
-from service.keys import SCOPES
+from service.documents.examples import bodies
+from service.guard.keys import SCOPES
+from service.http.errors import FAULTS, problem
 from service.settings import Settings
 from tests.docs.reading import ROOT, agrees, blocks, section
 
@@ -75,7 +76,7 @@ def test_the_methods_of_the_certificate() -> None:
     listed = re.findall(
         r"`((?:interior point|cone program|closed form), [^`]+)` ?[|,]", section(API, "POST /v1/optimize")
     )
-    finer = [precision.name for precision in extended.PRECISIONS]
+    finer = [precision.name for precision in finer_numbers.PRECISIONS]
     assert listed == [solution.INTERIOR_POINT, solution.CONE_PROGRAM, *finer, solution.CLOSED_FORM]
 
 

@@ -12,7 +12,7 @@ from optimizer.pareto.pareto import pareto
 from schemas.pareto import ParetoRequest
 from schemas.requests import OptimizeRequest
 from service.cli import app
-from service.examples import bodies
+from service.documents.examples import bodies
 from tests.docs.reading import ROOT, agrees, blocks
 
 DOCUMENTS = ["README.md", *sorted(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))]

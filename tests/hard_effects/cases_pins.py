@@ -8,7 +8,7 @@ The demand grows with that condition, and with nothing else.
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from optimizer.pin_loads import pin_loads
+from optimizer.pins.answer import pin_loads
 from schemas.scroll import PinLoadsRequest
 from tests.hard_effects.case import ALGEBRAIC, EPS, Case, Finding, error
 from tests.hard_effects.exact import mp

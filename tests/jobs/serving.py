@@ -23,9 +23,9 @@ def serve(**given: Any) -> None:
     # workers import this module as well, and need none of these
     from optimizer.sweep import plan
     from service.app import create_app
+    from service.http.server import listen, run, url
     from service.jobs.coordinator import Pace
     from service.jobs.desk import Desk
-    from service.server import listen, run, url
     from service.settings import Settings
 
     # a sweep of some thousand designs in hundreds of chunks instead of 16

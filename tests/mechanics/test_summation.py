@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.response import total
+from optimizer.arrays import total
 
 
 def test_cancelling_terms_are_zero() -> None:

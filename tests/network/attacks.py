@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from itertools import islice
 from typing import Any
 
-from service.examples import bodies
+from service.documents.examples import bodies
 from tests.network.serving import Reply, Service, request, service
 
 #: most that the service, and one of its workers, may hold [MB]

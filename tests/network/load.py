@@ -12,7 +12,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from random import Random
 
-from service.examples import bodies
+from service.documents.examples import bodies
 from tests.network.serving import Service, read, request, service
 
 MACHINES = bodies()

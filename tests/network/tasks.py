@@ -8,9 +8,9 @@ from pathlib import Path
 
 from schemas.problem import Problem
 from schemas.requests import OptimizeRequest
-from service.examples import load
+from service.documents.examples import load
+from service.guard.sizes import SizeLimits
 from service.settings import Settings
-from service.size_limits import SizeLimits
 from service.workers.worker import Task
 
 _DONE = Problem(type="t", title="t", status=200, detail="d", instance="", errors=())

@@ -9,10 +9,10 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from service import keys
 from service.app import create_app
-from service.examples import bodies
-from service.keys import BadKeyFile, KeyRecord, Scope
+from service.documents.examples import bodies
+from service.guard import keys
+from service.guard.keys import BadKeyFile, KeyRecord, Scope
 from service.settings import Settings
 
 KEYS: dict[str, tuple[str, tuple[Scope, ...], dict[str, Any]]] = {

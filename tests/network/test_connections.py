@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from service.examples import load
+from service.documents.examples import load
 from tests.network.serving import Service, read, request, service
 
 

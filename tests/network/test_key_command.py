@@ -7,7 +7,7 @@ from click.testing import Result
 from typer.testing import CliRunner
 
 from service.cli import app
-from service.keys import Keys
+from service.guard.keys import Keys
 
 
 def run(*arguments: str) -> Result:

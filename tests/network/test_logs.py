@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from service import logs
 from service.app import create_app
-from service.examples import load
+from service.documents.examples import load
 from service.settings import Settings
+from service.watch import logs
 from tests.network.serving import Service, service
 
 SECRET = "secret-7021962"

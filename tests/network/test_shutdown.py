@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import psutil
 import pytest
 
-from service.examples import load
+from service.documents.examples import load
 from tests.network.load import killed, start_sweep
 from tests.network.serving import Reply, Service, read, request, service
 

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from starlette.testclient import TestClient
 
 from service.app import create_app
-from service.examples import load
+from service.documents.examples import load
 from service.settings import Settings
 
 BODY: dict[str, Any] = json.loads(load("2d12"))

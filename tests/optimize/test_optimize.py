@@ -11,9 +11,11 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from optimizer.program import fast, interior_point, solve
-from optimizer.program.cone import ConeProgram
-from optimizer.program.extended import PRECISIONS
+from optimizer.program import fast
+from optimizer.program.kernel import interior_point
+from optimizer.program.kernel.finer_numbers import PRECISIONS
+from optimizer.program.reference import solver as solve
+from optimizer.program.reference.modelling import ConeProgram
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web

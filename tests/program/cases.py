@@ -7,10 +7,11 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement, statement, weighted_peak
-from optimizer.response import Complex, Phasors, Response
+from optimizer.response import Phasors, Response
 
 DIRECTION_WEIGHTS = ((1.0, 1.0), (1.0, 0.3), (0.0, 1.0))
 COMBINATIONS = tuple(

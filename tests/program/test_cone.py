@@ -4,8 +4,8 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from optimizer.program.cone import CompiledPrograms, ConeProgram, Shape
-from optimizer.program.solve import Solver
+from optimizer.program.reference.modelling import CompiledPrograms, ConeProgram, Shape
+from optimizer.program.reference.solver import Solver
 from tests.program.cases import random_statement
 
 SHAPE = Shape("objective", webs=2, rows=(0, 0), ceilings=0, sectors=False, budget=False)

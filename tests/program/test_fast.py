@@ -9,12 +9,12 @@ from hypothesis import strategies as st
 
 from optimizer.formulate import formulate
 from optimizer.program.batch import optima
-from optimizer.program.extended import EXTENDED, FIFTY_DIGITS
 from optimizer.program.fast import Fast, fast
-from optimizer.program.interior_point import solve
+from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS
+from optimizer.program.kernel.interior_point import solve
 from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_TOLERANCE, CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
-from optimizer.program.solve import Solver
 from optimizer.program.statement import Statement
 from optimizer.scene import prepare
 from schemas.requests import OptimizeRequest

@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
+from optimizer.arrays import Real
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.rod import rod_forces
-from optimizer.response import Real
 from schemas.requests import AnalyzeRequest
 from tests.reference import compressor
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from schemas.requests import OptimizeRequest
-from service.examples import load
+from service.documents.examples import load
 from service.report.blocks import Document
 from service.report.document import report
 

@@ -8,7 +8,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from service.cli import app
-from service.examples import load
+from service.documents.examples import load
 
 
 @pytest.fixture

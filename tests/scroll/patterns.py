@@ -7,10 +7,10 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
+from optimizer.arrays import Real
 from optimizer.mechanics.angles import direction
-from optimizer.mechanics.scroll_pins import Pins
-from optimizer.pin_loads import pin_loads
-from optimizer.response import Real
+from optimizer.pins.answer import pin_loads
+from optimizer.pins.loads import Pins
 from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
 
 CHECKS = {check["id"]: check for check in json.loads((Path(__file__).parent / "seed_pins.json").read_text())["checks"]}

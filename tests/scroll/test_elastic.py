@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.mechanics.scroll_pins import (
+from optimizer.arrays import Real
+from optimizer.pins.loads import (
     LoadShapes,
     PeriodicTable,
     Pins,
@@ -18,7 +19,6 @@ from optimizer.mechanics.scroll_pins import (
     levers,
     peaks,
 )
-from optimizer.response import Real
 from tests.scroll.patterns import TABLE, TORQUE, ask, even, even_pins, given_pins, loads, random_pins, seeds
 
 TURN = np.arange(360.0)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.mechanics.scroll_pins import PeriodicTable, gas_torques
+from optimizer.pins.loads import PeriodicTable, gas_torques
 from schemas.scroll import MAX_PINS, PinLoadsAnswer, PinLoadsRequest
 from tests.scroll.patterns import TABLE, TORQUE, ask, even, given_pins, loads
 

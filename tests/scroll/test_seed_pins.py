@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optimizer.mechanics.scroll_pins import degrees_of_freedom, even_pin_loads, levers
+from optimizer.pins.loads import degrees_of_freedom, even_pin_loads, levers
 from tests.scroll.patterns import CHECKS, TABLE, TORQUE, even, even_pins, loads
 
 

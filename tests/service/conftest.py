@@ -9,7 +9,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from service.app import create_app
-from service.examples import load
+from service.documents.examples import load
 from service.settings import Settings
 
 MAX_BODY_BYTES = 1_000_000

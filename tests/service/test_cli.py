@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from service.cli import app
-from service.examples import catalogue, directory, load, names
+from service.documents.examples import catalogue, directory, load, names
 
 ROOT = Path(__file__).parents[2]
 

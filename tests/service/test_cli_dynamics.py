@@ -7,7 +7,7 @@ import pytest
 
 from schemas.effects import EffectCatalogue
 from schemas.rating_answer import RatingAnswer
-from service.examples import bodies, directory, names
+from service.documents.examples import bodies, directory, names
 from tests.service.test_cli import refused, run
 from tests.service.test_dynamics import OVER_THE_TURN
 

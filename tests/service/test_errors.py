@@ -10,7 +10,7 @@ from starlette.testclient import TestClient
 
 from schemas.problem import Problem
 from service.app import create_app
-from service.errors import FAULTS
+from service.http.errors import FAULTS
 from service.settings import Settings
 from tests.service.conftest import MAX_BODY_BYTES
 

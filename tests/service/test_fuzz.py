@@ -14,7 +14,7 @@ from schemas.base import Model
 from schemas.problem import Problem
 from schemas.rating_answer import RatingAnswer
 from schemas.requests import Output
-from service.examples import bodies
+from service.documents.examples import bodies
 from tests.service.test_dynamics import OVER_THE_TURN
 
 MACHINES = bodies()

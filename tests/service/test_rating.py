@@ -9,7 +9,7 @@ import pytest
 from optimizer.rating.rate import rate
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingAnswer
-from service.examples import bodies
+from service.documents.examples import bodies
 from tests.rating.design import SEED
 from tests.service.test_dynamics import MISSING, change, pointers
 

@@ -9,7 +9,7 @@ from starlette.testclient import TestClient
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.requests import OptimizeRequest
-from service.examples import UnknownExample, directory, load, names
+from service.documents.examples import UnknownExample, directory, load, names
 
 Post = Callable[..., Any]
 

@@ -15,7 +15,7 @@ from urllib.parse import urlsplit
 
 import pytest
 
-from service.examples import load
+from service.documents.examples import load
 
 ROOT = Path(__file__).parents[2]
 

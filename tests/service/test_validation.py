@@ -7,7 +7,7 @@ from typing import Any, get_args
 import pytest
 
 from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
-from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
+from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
 
 
 def complaints(body: object, model: Any = OptimizeRequest) -> dict[str, str]:

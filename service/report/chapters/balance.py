@@ -7,6 +7,7 @@ from schemas.answers import Counterweight, FirstOrder, OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.outputs import OrdersComparison, Stage
 from schemas.requests import OptimizeRequest
+from service.http.validation import pointer
 from service.report import charts
 from service.report.blocks import (
     Block,
@@ -20,7 +21,6 @@ from service.report.blocks import (
 from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
-from service.validation import pointer
 
 _FIRST_ORDER = (
     ("peak force, N", "force", "peak_N"),

@@ -1,0 +1,1 @@
+"""Other ways to solve the program, for the accuracy ladder only: matrices, sampled angles, polygons."""

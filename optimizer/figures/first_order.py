@@ -1,0 +1,45 @@
+"""First-order force and moment as ellipses, their floor, and their hodographs."""
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.mechanics.inertia import Wrench
+from optimizer.response import Phasors
+from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse
+from schemas.outputs import Hodograph
+
+
+def first_order(wrench: Wrench) -> FirstOrder:
+    """Ellipses of force [N] and moment [N m] of one machine."""
+    force = {f"{name}_N" if name != "major_axis_deg" else name: value for name, value in _ellipse(wrench.force)}
+    moment = {f"{name}_Nm" if name != "major_axis_deg" else name: value for name, value in _ellipse(wrench.moment)}
+    return FirstOrder(force=ForceEllipse(**force), moment=MomentEllipse(**moment))
+
+
+def floor(wrench: Wrench) -> Floor:
+    """What counterweights on the shaft cannot remove: the counter-rotating phasors."""
+    return Floor(force_N=float(np.abs(wrench.force.counter)), moment_Nm=float(np.abs(wrench.moment.counter)))
+
+
+def hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
+    """Force [N] and moment [N m] at the shaft angles s*theta (n,)."""
+    force, moment = wrench.force.at(angle_rad), wrench.moment.at(angle_rad)
+    return Hodograph(
+        force_x_N=tuple(force.real.tolist()),
+        force_y_N=tuple(force.imag.tolist()),
+        moment_x_Nm=tuple(moment.real.tolist()),
+        moment_y_Nm=tuple(moment.imag.tolist()),
+    )
+
+
+def _ellipse(pair: Phasors) -> tuple[tuple[str, float], ...]:
+    values = {
+        "peak": pair.peak,
+        "minor": pair.minor,
+        "major_axis_deg": pair.major_axis_deg,
+        "peak_x": pair.peak_along(np.asarray(1.0 + 0j)),
+        "peak_y": pair.peak_along(np.asarray(1j)),
+        "co_rotating": np.abs(pair.co),
+        "counter_rotating": np.abs(pair.counter),
+    }
+    return tuple((name, float(value)) for name, value in values.items())

@@ -1,0 +1,245 @@
+"""The eight balancing stages of seed 002 (lines 104-132), for any layout.
+
+What turns with the shaft can be balanced on the shaft, nothing else can. In every stage ``value`` is what the
+machine has without counterweights and ``remaining`` is what the counterweights leave of it.
+
+Superposition (stage VII of the seed) splits the phasor c of the counterweights, force and moment each for itself:
+- the rotating masses R come first: they take the part of c that is opposed to R, at most -R;
+- the rest serves the first-order reciprocating masses (A1, B1).
+With c = -q R/|R| + c', where q is Re(-c conj(R))/|R| held within [0, |R|], stages I and II keep (|R| - q) R/|R|,
+stages III and IV keep (A1 + c', B1). Their sum is the first-order residual, whatever the split; without
+counterweights every ``remaining`` equals its ``value``. Where there are webs in two planes, iron shared out in
+this way exists.
+"""
+
+from dataclasses import replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.figures.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
+from optimizer.mechanics.angles import angle_deg
+from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
+from optimizer.mechanics.layout import Layout
+from optimizer.response import Phasors
+from schemas.outputs import RuleOfThumb, Stage
+
+Balanceable = Literal["fully", "partly", "no"]
+
+#: what is smaller than this share of the machine's scale is not worth a word in the summary
+_NEGLIGIBLE = 1e-5
+
+
+class _Heading(NamedTuple):
+    stage: Literal["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
+    title: str
+    quantity: str
+    formula: str
+    unit: str
+
+
+_ARMS = "every term times (z - z_ref)"
+_I = _Heading(
+    "I", "forces of rotating masses", "constant force that turns with the shaft", "omega^2 |sum m_r r e^{jd}|", "N"
+)
+_II = _Heading(
+    "II",
+    "moments of rotating masses",
+    "constant moment whose plane turns with the shaft",
+    f"as stage I, {_ARMS}",
+    "N m",
+)
+_III = _Heading(
+    "III",
+    "first-order forces of reciprocating masses",
+    "peak force over a turn",
+    "|A1| + |B1|, A1 = omega^2/2 sum m r e^{jd}, B1 = omega^2/2 sum m r e^{j(2g - d)}",
+    "N",
+)
+_IV = _Heading("IV", "moments of first-order forces", "peak moment over a turn", f"as stage III, {_ARMS}", "N m")
+_V = _Heading(
+    "V",
+    "second-order forces of reciprocating masses",
+    "peak force over a turn",
+    "|A2| + |B2|, A2 = omega^2/2 sum m r a2 e^{j(2d - g)}, B2 = omega^2/2 sum m r a2 e^{j(3g - 2d)}, "
+    "a2 the second harmonic of the acceleration, r/l in the shortest series",
+    "N",
+)
+_VI = _Heading("VI", "moments of second-order forces", "peak moment over a turn", f"as stage V, {_ARMS}", "N m")
+_VII = _Heading(
+    "VII",
+    "counterweights by superposition",
+    "total mass times radius, in the two outermost planes, that removes all that turns with the shaft "
+    "(rotating masses and co-rotating half of the reciprocating masses); remaining is what is still missing",
+    "|u1| + |u2|, u1 + u2 = -f, z1 u1 + z2 u2 = -c, f and c the co-rotating force and moment over omega^2",
+    "kg m",
+)
+_VIII = _Heading(
+    "VIII",
+    "summary of what is left unbalanced",
+    "sum of the peak forces of orders 1 and 2, which their force never exceeds; the plane names every force and "
+    "moment that is left",
+    "|R + A1| + |B1| + |A2| + |B2|",
+    "N",
+)
+
+
+def stages(
+    layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None
+) -> tuple[Stage, ...]:
+    """Stages I to VIII of one machine.
+
+    Parameters
+    ----------
+    layout : a machine without leading axes.
+    turning, first, second : force and moment of its rotating masses, and of the first and second order of
+        its reciprocating masses, over omega^2.
+    unbalance : (webs,) mass-radius products m R e^{ja} of the counterweights, kg m; None where there are
+        none to show (infeasible), which leaves ``remaining`` null.
+    """
+    square, speed = layout.omega**2, float(layout.omega)
+    unscaled = first
+    turning, first, second = (part.times(square) for part in (turning, first, second))
+    fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
+    left_turning, left_first = (None, None) if fitted is None else _superpose(turning, first, fitted)
+    left_second = None if fitted is None else second
+    planes = layout.webs.position
+    span = float(np.ptp(planes)) if planes.size else 0.0
+
+    def stage(
+        heading: _Heading, order: int, before: Wrench, after: Wrench | None, rules: tuple[RuleOfThumb, ...] = ()
+    ) -> Stage:
+        pair = before.force if heading.unit == "N" else before.moment
+        left = None if after is None else (after.force if heading.unit == "N" else after.moment)
+        return Stage(
+            **heading._asdict(),
+            value=float(pair.peak),
+            plane=_plane(pair),
+            frequency=_frequency(order, speed),
+            balanceable=_balanceable(pair, order),
+            remaining=None if left is None else float(left.peak),
+            rules_of_thumb=rules,
+        )
+
+    return (
+        stage(_I, 1, turning, left_turning),
+        stage(_II, 1, turning, left_turning),
+        stage(_III, 1, first, left_first, force_rules(unscaled.force, float(square))),
+        stage(_IV, 1, first, left_first, moment_rules(unscaled.moment, float(square), span)),
+        stage(_V, 2, second, left_second),
+        stage(_VI, 2, second, left_second),
+        _iron(layout, unbalance),
+        _summary(layout, turning.plus(first), second, fitted),
+    )
+
+
+def _superpose(turning: Wrench, first: Wrench, fitted: Wrench) -> tuple[Wrench, Wrench]:
+    """What is left of rotating and of first-order reciprocating masses."""
+    force = _split(turning.force, first.force, fitted.force)
+    moment = _split(turning.moment, first.moment, fitted.moment)
+    return Wrench(force[0], moment[0]), Wrench(force[1], moment[1])
+
+
+def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, Phasors]:
+    size = np.abs(turning.co)
+    # a denormal number has no direction that could be divided out
+    outward = turning.co / size if size > np.finfo(float).tiny else np.zeros_like(turning.co)
+    opposed = np.clip(-(fitted.co * np.conj(outward)).real, 0.0, size)
+    return (
+        Phasors((size - opposed) * outward, turning.counter),
+        Phasors(first.co + fitted.co + opposed * outward, first.counter),
+    )
+
+
+def _iron(layout: Layout, unbalance: Complex | None) -> Stage:
+    """Stage VII: u1 and u2 of two planes that cancel all that turns with the shaft, before and after."""
+    # couples about the centre: a far reference plane would cost digits
+    centred = replace(layout, reference_plane=layout.centre_plane)
+    before = rotating(centred).plus(reciprocating(centred, 1))
+    after = None if unbalance is None else before.plus(counterweights(centred, unbalance))
+    planes = layout.webs.position
+    low, high = (float(planes.min()), float(planes.max())) if planes.size else (0.0, 0.0)
+    if high - low > ONE_PLANE_M:
+        where = f"planes z = {low:.6g} m and z = {high:.6g} m"
+    else:
+        where = f"plane z = {low:.6g} m, force only" if planes.size else "no webs, force only"
+
+    def missing(wrench: Wrench) -> float:
+        force, couple = wrench.force.co, wrench.moment.co
+        if high - low <= ONE_PLANE_M:
+            return float(np.abs(force))
+        centre = float(layout.centre_plane)
+        first = couple - (high - centre) * force
+        second = couple - (low - centre) * force
+        return float((np.abs(first) + np.abs(second)) / (high - low))
+
+    return Stage(
+        **_VII._asdict(),
+        value=missing(before),
+        plane=where,
+        frequency=_frequency(1, float(layout.omega)),
+        balanceable="fully",
+        remaining=None if after is None else missing(after),
+    )
+
+
+def _summary(layout: Layout, first: Wrench, second: Wrench, fitted: Wrench | None) -> Stage:
+    """Stage VIII: every force and moment of orders 1 and 2 together."""
+    after = first if fitted is None else first.plus(fitted)
+    names = ("first-order force", "first-order moment", "second-order force", "second-order moment")
+    parts = list(zip(names, (1, 1, 2, 2), (*first, *second), (*after, *second), strict=True))
+    force, moment = _scale(layout)
+    sizes = (force, moment, force, moment)
+    left = [part for part, size in zip(parts, sizes, strict=True) if part[3].peak > _NEGLIGIBLE * size]
+    words = [f"{name} {pair.peak:.5g} {'N' if 'force' in name else 'N m'}, {_plane(pair)}" for name, _, _, pair in left]
+    orders = sorted({order for _, order, _, _ in left})
+    verdicts = {_balanceable(was, order) for _, order, was, _ in parts if was.peak > 0} or {"fully"}
+    return Stage(
+        **_VIII._asdict(),
+        value=float(first.force.peak + second.force.peak),
+        plane="; ".join(words) or "none",
+        frequency=", ".join(_frequency(order, float(layout.omega)) for order in orders) or "none",
+        balanceable=verdicts.pop() if len(verdicts) == 1 else "partly",
+        remaining=None if fitted is None else float(after.force.peak + second.force.peak),
+    )
+
+
+def _scale(layout: Layout) -> tuple[float, float]:
+    """Force in N if all masses pushed the same way, and moment in N m if they did so at opposite ends."""
+    turning, moving = layout.rotating, layout.reciprocating
+    product = np.sum(turning.mass * turning.radius) + np.sum(moving.mass * moving.crank_radius)
+    planes = np.concatenate((turning.position, moving.position, layout.webs.position, [layout.reference_plane]))
+    force = float(product * layout.omega**2)
+    return force, force * float(np.ptp(planes))
+
+
+def _balanceable(pair: Phasors, order: int) -> Balanceable:
+    """Whether counterweights on the shaft can balance a pair: only the co-rotating phasor of the first order."""
+    co, counter = np.abs(pair.co), np.abs(pair.counter)
+    if pair.peak == 0 or (order == 1 and counter <= SHAPE_TOLERANCE * co):
+        return "fully"
+    return "no" if order > 1 or co <= SHAPE_TOLERANCE * counter else "partly"
+
+
+def _plane(pair: Phasors) -> str:
+    """Direction of a force, or the direction that spans the plane of a couple together with the shaft."""
+    co, counter = np.abs(pair.co), np.abs(pair.counter)
+    if pair.peak == 0:
+        return "none"
+    if counter <= SHAPE_TOLERANCE * co:
+        return f"rotates with the shaft, at {_degrees(angle_deg(pair.co), 360)} deg at shaft angle 0"
+    if co <= SHAPE_TOLERANCE * counter:
+        return f"rotates against the shaft, at {_degrees(angle_deg(pair.counter), 360)} deg at shaft angle 0"
+    axis = _degrees(pair.major_axis_deg, 180)
+    if pair.minor <= SHAPE_TOLERANCE * pair.peak:
+        return f"along {axis} deg (fixed direction)"
+    return f"ellipse, major axis {axis} deg"
+
+
+def _degrees(angle: Real, period: int) -> str:
+    return f"{round(float(angle), 1) % period:.1f}"
+
+
+def _frequency(order: int, speed: float) -> str:
+    return f"{'n' if order == 1 else f'{order}n'} = {order * speed / (2.0 * np.pi):.3f} Hz"

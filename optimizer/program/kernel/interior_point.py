@@ -1,0 +1,374 @@
+"""A primal-dual interior point for many scaled programs of one shape, compiled.
+
+The program is that of :mod:`optimizer.program.reference.modelling`; about a dozen steps of Mehrotra's predictor and
+corrector for each stage (:mod:`optimizer.program.kernel.newton`).
+
+Several programs are solved side by side, one in each lane of the arrays, so that every loop runs over programs and
+becomes vector instructions. A lane whose program is done takes the next one; no program knows its neighbours.
+
+The least mass starts from the point of the first stage that lies in the middle of the optima: the
+analytic centre of {P <= target} is on the path of the first stage, with multipliers in proportion.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from optimizer.arrays import Real
+from optimizer.program.kernel.lanes import Lanes, new_work, state_size, views
+from optimizer.program.kernel.newton import (
+    direction,
+    factor,
+    first_order,
+    longest_step,
+    residuals,
+    second_order,
+    take_step,
+)
+
+#: share of the way to the boundary that a step goes
+_STEP = 0.99
+_MOST_STEPS = 60
+#: of the share above the optimum, and of the gap of the first stage, what the least mass does not use
+_KEPT_BACK, _OPEN = 1e-5, 4.0
+#: product of slack and multiplier, in units of the mass, at which the least mass starts
+_CENTRALITY = 5e-3
+#: programs side by side, and programs whose states are kept between the stages
+_LANES, _BLOCK = 64, 1024
+
+
+class Programs(NamedTuple):
+    """N scaled programs of one shape: Q cones (J terms, then ceilings), R rows, K webs."""
+
+    row: np.ndarray  # (J,) row of each term
+    floor: Real  # (N, R)
+    cap: Real  # (N, Q - J)
+    constant: Real  # (N, Q, 2)
+    influence: Real  # (N, Q, K)
+    centre: Real  # (N, K, 2)
+    sine: Real  # (N, K)
+    cosine: Real  # (N, K)
+    sector: Real  # (N, K) 1 where the web has a sector, else 0
+    mass: Real  # (N, K) mass at full reach
+    budget: Real  # (N, K) the same relative to the budget; 0 without one
+
+
+class Task(NamedTuple):
+    """A stage of some programs; S numbers make a state."""
+
+    target: Real  # (N,) least mass: largest value of a row
+    cost: Real  # (N, K) mass at full reach, in a unit; 0 in the first stage
+    tolerance: Real  # (N,) gap at which the stage ends
+    middle: Real  # (N,) first stage: gap at which the state is kept on the way; 0 for nowhere
+    way: Real  # (N, S) the state there; where the second stage starts
+    best: Real  # (N, S) the state with the smallest gap and residual
+    reached: Real  # (N,) its gap and residual
+
+
+@njit(cache=True, error_model="numpy")
+def _to_lane(row, packed, t):  # type: ignore[no-untyped-def]
+    for i in range(row.size):
+        packed[i, t] = row[i]
+
+
+@njit(cache=True, error_model="numpy")
+def _from_lane(packed, t, row):  # type: ignore[no-untyped-def]
+    for i in range(row.size):
+        row[i] = packed[i, t]
+
+
+@njit(cache=True, error_model="numpy")
+def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
+    """Program n into lane t."""
+    cones, webs = programs.influence.shape[1:]
+    lanes = one.target.size
+    for r in range(programs.floor.shape[1]):
+        one.floor[r, t] = programs.floor[n, r]
+    for i in range(programs.cap.shape[1]):
+        one.cap[i, t] = programs.cap[n, i]
+    one.target[t] = task.target[n]
+    for i in range(cones):
+        for c in range(2):
+            one.constant[c, i * lanes + t] = programs.constant[n, i, c]
+        for k in range(webs):
+            one.influence[i, k * lanes + t] = programs.influence[n, i, k]
+    for k in range(webs):
+        at = k * lanes + t
+        for c in range(2):
+            one.centre[c, at] = programs.centre[n, k, c]
+        one.sine[at], one.cosine[at] = programs.sine[n, k], programs.cosine[n, k]
+        one.present[0, at] = 1.0
+        one.present[1, at] = one.present[2, at] = programs.sector[n, k]
+        one.mass[at], one.budget[at] = task.cost[n, k], programs.budget[n, k]
+
+
+@njit(cache=True, error_model="numpy")
+def start(one, state, t):  # type: ignore[no-untyped-def]
+    """Lane t to a point inside all limits, and above all norms; ceilings may be violated."""
+    rows, lanes = one.floor.shape
+    cones, terms, webs = one.influence.shape[0], one.row.size, one.sine.size // lanes
+    full = 0.0
+    for k in range(t, webs * lanes, lanes):
+        full += one.budget[k]
+    x = 0.5 if full <= 1.0 else 0.5 / full
+    for k in range(t, webs * lanes, lanes):
+        a = one.present[1, k] * 0.5 * x
+        state.v[0, k], state.v[1, k], state.v[2, k] = x, a, 0.0
+        state.s[0, k], state.s[1, k], state.s[2, k] = x, a, 0.0
+        state.z[0, k], state.z[1, k], state.z[2, k] = 1.0, 0.0, 0.0
+        state.q[0, k], state.zq[0, k] = 1.0 - x, 1.0
+        for c in range(1, 3):
+            state.q[c, k] = a if one.present[1, k] > 0.0 else 1.0
+            state.zq[c, k] = one.present[1, k]
+    state.rest[0, t], state.rest[1, t] = 1.0 - full * x, 1.0
+    for r in range(rows):
+        state.rho[r, t], state.z_rho[r, t] = one.floor[r, t], 1.0 / rows
+    for i in range(cones):
+        at, j = i * lanes + t, (webs + i) * lanes + t
+        ax, ay = one.constant[0, at], one.constant[1, at]
+        for k in range(t, webs * lanes, lanes):
+            ax += one.influence[i, k] * one.centre[0, k] * state.v[1, k]
+            ay += one.influence[i, k] * one.centre[1, k] * state.v[1, k]
+        size = np.sqrt(ax * ax + ay * ay) + 0.5
+        if i >= terms:
+            size = max(size, one.cap[i - terms, t])
+        else:
+            state.rho[one.row[i], t] += size
+        state.s[0, j], state.s[1, j], state.s[2, j] = size, ax, ay
+        state.z[0, j], state.z[1, j], state.z[2, j] = 1.0 / rows, 0.0, 0.0
+    level = state.rho[0, t]
+    for r in range(rows):
+        level = max(level, state.rho[r, t])
+    state.rest[2, t] = level + 0.5
+    for r in range(rows):
+        state.rho[r, t] = state.rest[2, t] - state.rho[r, t]
+
+
+@njit(cache=True, error_model="numpy")
+def restart(one, state, t):  # type: ignore[no-untyped-def]
+    """Lane t from a point of the first stage to the second: every multiplier at the price of the objective."""
+    s, z = state.s, state.z
+    lanes = one.target.size
+    price = _CENTRALITY / (s[0, t] * z[0, t] + s[1, t] * z[1, t] + s[2, t] * z[2, t])
+    for r in range(state.rho.shape[0]):
+        slack = one.target[t] - state.rest[2, t] + state.rho[r, t]
+        state.rho[r, t] = max(slack, 0.1 * state.rho[r, t])
+        state.z_rho[r, t] *= price
+    for c in range(3):
+        for j in range(t, z.shape[1], lanes):
+            z[c, j] *= price
+        for k in range(t, one.sine.size, lanes):
+            state.zq[c, k] *= price
+    state.rest[1, t] *= price
+
+
+@njit(cache=True, error_model="numpy")
+def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
+    """A stage of every program: steps until the gap is at most the tolerance, or no longer falls."""
+    number, cones, webs = programs.influence.shape
+    rows, terms = programs.floor.shape[1], programs.row.size
+    lanes, size = min(_LANES, number), state_size(webs, cones, rows)
+    one = Lanes(
+        programs.row,
+        np.zeros((rows, lanes)),
+        np.zeros((cones - terms, lanes)),
+        np.zeros((2, cones * lanes)),
+        np.zeros((cones, webs * lanes)),
+        np.zeros((2, webs * lanes)),
+        np.zeros(webs * lanes),
+        np.zeros(webs * lanes),
+        np.zeros((3, webs * lanes)),
+        np.zeros(webs * lanes),
+        np.zeros(webs * lanes),
+        np.zeros(lanes),
+    )
+    work = new_work(webs, cones, terms, rows, lanes)
+    packed, best = np.ones((size, lanes)), np.ones((size, lanes))
+    state = views(packed, webs, cones, rows)
+    barrier, costs, sigma, wanted = np.zeros(lanes), np.zeros(lanes), np.zeros(lanes), np.zeros(lanes)
+    reached, tolerance, middle, steps = np.zeros(lanes), np.zeros(lanes), np.zeros(lanes), np.zeros(lanes)
+    stalled = np.zeros(lanes)
+    # 1 or 0: the lane has to take a program, its state is the best so far, its last step was short
+    done, better, cautious = np.ones(lanes), np.zeros(lanes), np.zeros(lanes)
+    program = np.zeros(lanes, np.int64) - 1
+    waiting, solved = 0, 0
+    while True:
+        for t in range(lanes):
+            if done[t] > 0.0 and program[t] >= 0:
+                _from_lane(best, t, task.best[program[t]])
+                task.reached[program[t]] = reached[t]
+                solved += 1
+                program[t] = -1
+            if program[t] < 0 and waiting < number:
+                program[t] = n = waiting
+                waiting += 1
+                load(programs, task, n, one, t)
+                if least_mass:
+                    _to_lane(task.way[n], packed, t)
+                    restart(one, state, t)
+                else:
+                    start(one, state, t)
+                    _from_lane(packed, t, task.way[n])
+                barrier[t], costs[t] = 1.0 * webs * 2 + cones + rows + 1, 0.0
+                for k in range(t, webs * lanes, lanes):
+                    barrier[t] += 2.0 * one.present[1, k]
+                    costs[t] = max(costs[t], one.mass[k])
+                done[t], cautious[t], steps[t], stalled[t], reached[t] = 0.0, 0.0, 0.0, 0.0, np.inf
+                tolerance[t], middle[t] = task.tolerance[n], task.middle[n]
+        if solved == number:
+            return
+        residuals(least_mass, one, state, work)
+        gap = work.gap
+        for t in range(lanes):
+            scale = 1.0
+            if least_mass:
+                scale = 0.0
+                for k in range(t, webs * lanes, lanes):
+                    scale += one.mass[k] * state.v[0, k]
+                scale = max(scale, 1e-3)
+            merit = gap[t] / scale + work.primal[t]
+            better[t] = 0.0
+            # a gap means nothing before the multipliers have taken in the costs
+            if steps[t] == 0.0 or (merit < reached[t] and work.dual[t] <= 0.1 * costs[t] + 0.1):
+                stalled[t] = stalled[t] if merit > 0.9 * reached[t] else 0.0
+                reached[t] = merit if steps[t] > 0.0 else np.inf
+                better[t] = 1.0
+            stalled[t] += 1.0
+            if middle[t] > 0.0 and gap[t] <= middle[t] and program[t] >= 0:
+                middle[t] = 0.0
+                _from_lane(packed, t, task.way[program[t]])
+            patience = 3.0 if reached[t] < 1e-6 else 20.0
+            if reached[t] <= tolerance[t] or stalled[t] > patience or steps[t] >= _MOST_STEPS or not np.isfinite(merit):
+                done[t] = 1.0
+        for i in range(size):
+            for t in range(lanes):
+                best[i, t] = packed[i, t] if better[t] > 0.0 else best[i, t]
+
+        factor(least_mass, one, state, work)
+        # predictor
+        work.nu[:] = 0.0
+        work.keep[:] = 1.0
+        first_order(work)
+        direction(least_mass, one, state, work)
+        longest_step(one, state, work, 1.0 / _STEP)
+        for t in range(lanes):
+            sigma[t] = (1.0 - min(work.step[t], 1.0)) ** 3
+            if middle[t] > 0.0 and gap[t] * sigma[t] < 0.3 * middle[t]:
+                # not past the middle of the optima in one step
+                sigma[t] = 0.5 * middle[t] / gap[t]
+            # after a short step back to the middle: without the second-order part, towards the centre
+            wanted[t] = 1.0 - cautious[t]
+            if cautious[t] > 0.0:
+                sigma[t] = max(sigma[t], 0.5)
+            work.nu[t], work.keep[t] = gap[t] / barrier[t] * sigma[t], 1.0 - sigma[t]
+        # corrector
+        second_order(wanted, work)
+        direction(least_mass, one, state, work)
+        longest_step(one, state, work, 1.0 / _STEP)
+        for t in range(lanes):
+            work.step[t] *= _STEP
+            cautious[t] = 1.0 if work.step[t] < 0.1 else 0.0
+            total = 0.0
+            for i in range(work.right.shape[0]):
+                total += work.right[i, t]
+            if not (np.isfinite(total) and work.step[t] > 1e-8):
+                done[t], work.step[t] = 1.0, 0.0
+            steps[t] += 1.0
+        take_step(one, state, work)
+
+
+@njit(cache=True, error_model="numpy")
+def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
+    """Both stages of N programs.
+
+    Parameters
+    ----------
+    programs : Programs.
+    least_mass : whether the second stage is wanted.
+    share : (N,) how far above the smallest value an optimum may be, in units of the value.
+    tolerance : (N,) gap at which the first stage ends.
+    mass_tolerance : gap relative to the mass at which the second ends.
+
+    Returns
+    -------
+    (x, a, b) (2, N, 3, K), multipliers of the cones (2, N, Q, 2) and of the rows (2, N, R), for the first
+    and for the second stage; and the unit of mass of the second stage (N,), which is that of the first answer.
+    """
+    number, cones, webs = programs.influence.shape
+    rows = programs.floor.shape[1]
+    v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, cones, 2))
+    prices, mass_unit = np.zeros((2, number, rows)), np.ones(number)
+    size = state_size(webs, cones, rows)
+    for begin in range(0, number, _BLOCK):
+        end = min(begin + _BLOCK, number)
+        count = end - begin
+        block = Programs(
+            programs.row,
+            programs.floor[begin:end],
+            programs.cap[begin:end],
+            programs.constant[begin:end],
+            programs.influence[begin:end],
+            programs.centre[begin:end],
+            programs.sine[begin:end],
+            programs.cosine[begin:end],
+            programs.sector[begin:end],
+            programs.mass[begin:end],
+            programs.budget[begin:end],
+        )
+        task = Task(
+            np.zeros(count),
+            np.zeros((count, webs)),
+            tolerance[begin:end].copy(),
+            0.5 * share[begin:end] if least_mass else np.zeros(count),
+            np.zeros((count, size)),
+            np.zeros((count, size)),
+            np.zeros(count),
+        )
+        for stage in range(2 if least_mass else 1):
+            if stage > 0:
+                _aim(block, task, share[begin:end], mass_unit[begin:end])
+                task.tolerance[:] = mass_tolerance
+                task.middle[:] = 0.0
+            run(stage > 0, block, task)
+            _keep(task, v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
+    return v, p, prices, mass_unit
+
+
+@njit(cache=True, error_model="numpy")
+def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
+    """The unit of mass and the largest value of the second stage, from what the first one found."""
+    number, cones, webs = programs.influence.shape
+    rows, terms = programs.floor.shape[1], programs.row.size
+    for n in range(number):
+        best = views(task.best[n].copy().reshape((-1, 1)), webs, cones, rows)
+        total = 0.0
+        for k in range(webs):
+            total += programs.mass[n, k] * np.sqrt(best.s[1, k] ** 2 + best.s[2, k] ** 2)
+        mass_unit[n] = total if total > 0.0 else 1.0
+        for k in range(webs):
+            task.cost[n, k] = programs.mass[n, k] / mass_unit[n]
+        target = -np.inf
+        for r in range(rows):
+            value = programs.floor[n, r]
+            for i in range(terms):
+                if programs.row[i] == r:
+                    value += np.sqrt(best.s[1, webs + i] ** 2 + best.s[2, webs + i] ** 2)
+            target = max(target, value)
+        # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
+        task.target[n] = target + share[n] * (1.0 - _KEPT_BACK) - _OPEN * task.reached[n]
+
+
+@njit(cache=True, error_model="numpy")
+def _keep(task, v, p, price):  # type: ignore[no-untyped-def]
+    number, cones = p.shape[:2]
+    webs, rows = v.shape[2], price.shape[1]
+    for n in range(number):
+        best = views(task.best[n].copy().reshape((-1, 1)), webs, cones, rows)
+        for c in range(3):
+            for k in range(webs):
+                v[n, c, k] = best.v[c, k]
+        for i in range(cones):
+            p[n, i, 0], p[n, i, 1] = -best.z[1, webs + i], -best.z[2, webs + i]
+        for r in range(rows):
+            price[n, r] = best.z_rho[r, 0]

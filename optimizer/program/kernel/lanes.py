@@ -1,0 +1,206 @@
+"""Programs of one shape side by side, and where they stand: one in each lane of the arrays.
+
+The longest contiguous axis runs over lanes, so that loops become vector instructions. Sizes: L lanes, K webs, Q cones
+of the peaks (J terms, then ceilings), C = K + Q, R rows, n unknowns that are factored. Notation as in
+:mod:`optimizer.program.kernel.newton`.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numba import njit
+
+from optimizer.arrays import Real
+
+
+class Lanes(NamedTuple):
+    """Programs of one shape side by side; lane t of web k is at k L + t, and so for cones."""
+
+    row: np.ndarray  # (J,) row of each term
+    floor: Real  # (R, L)
+    cap: Real  # (Q - J, L)
+    constant: Real  # (2, Q L)
+    influence: Real  # (Q, K L)
+    centre: Real  # (2, K L)
+    sine: Real  # (K L,)
+    cosine: Real  # (K L,)
+    present: Real  # (3, K L) 1 where there is such a limit, else 0: full reach, which there always is, and the edges
+    mass: Real  # (K L,) cost of full reach: 0 in the first stage
+    budget: Real  # (K L,) mass at full reach relative to the budget; 0 without one
+    target: Real  # (L,) least mass: largest value of a row
+
+
+class State(NamedTuple):
+    """Where the programs stand; cones of the webs come first."""
+
+    v: Real  # (3, K L) x, a, b
+    q: Real  # (3, K L)
+    zq: Real  # (3, K L)
+    s: Real  # (3, C L)
+    z: Real  # (3, C L)
+    rho: Real  # (R, L) slack of the rows
+    z_rho: Real  # (R, L)
+    rest: Real  # (3, L) slack of the budget, its multiplier, and the level above all rows
+
+
+class Work(NamedTuple):
+    """Arrays that a step is computed in."""
+
+    a: Real  # (2, Q L) vectors of the peaks
+    u: Real  # (2, K L) vectors of the webs
+    rd: Real  # (3, K L) residual of the webs
+    rp: Real  # (3, Q L) of the cones of the peaks
+    rp_row: Real  # (R, L) of the rows
+    primal: Real  # (L,) largest of these two
+    dual: Real  # (L,) largest of the residuals of x
+    gap: Real  # (L,)
+    w: Real  # (3, C L)
+    eta: Real  # (C L,)
+    lam: Real  # (3, C L)
+    f: Real  # (3, C L)
+    ws: Real  # (3, C L)
+    d: Real  # (3, C L) second-order parts
+    ds: Real  # (3, C L)
+    dz: Real  # (3, C L)
+    each: Real  # (C L,) a value for every cone
+    e: Real  # (3, K L) right sides, then steps of the webs
+    kept: Real  # (3, K L)
+    edges: Real  # (2, K L)
+    fq: Real  # (3, K L)
+    cq: Real  # (3, K L) second-order parts
+    dq: Real  # (3, K L)
+    dzq: Real  # (3, K L)
+    block: Real  # (11, K L)
+    m: Real  # (n, n, L)
+    right: Real  # (n, L)
+    border: Real  # (n, L)
+    border_sum: Real  # (L,)
+    c_rho: Real  # (R, L) second-order parts
+    d_rho: Real  # (R, L)
+    dz_rho: Real  # (R, L)
+    c_rest: Real  # (1, L)
+    d_rest: Real  # (3, L)
+    nu: Real  # (L,) product of slack and multiplier that the step aims at
+    keep: Real  # (L,) share of the residuals that the step removes
+    step: Real  # (L,)
+    where: np.ndarray  # (Q,) first unknown of every vector
+    always: Real  # (L,) 1: limits that are there without any web
+
+
+@njit(cache=True, error_model="numpy")
+def new_work(webs, cones, terms, rows, lanes):  # type: ignore[no-untyped-def]
+    kl, ql, cl = webs * lanes, cones * lanes, (webs + cones) * lanes
+    # unknowns: (y_x, y_y) of terms, rows, (mu, y_x, y_y) of ceilings, budget
+    n = 2 * terms + rows + 3 * (cones - terms) + 1
+    where = np.empty(cones, np.int64)
+    for i in range(cones):
+        where[i] = 2 * i if i < terms else 2 * terms + rows + 3 * (i - terms) + 1
+    return Work(
+        np.zeros((2, ql)),
+        np.zeros((2, kl)),
+        np.zeros((3, kl)),
+        np.zeros((3, ql)),
+        np.zeros((rows, lanes)),
+        np.zeros(lanes),
+        np.zeros(lanes),
+        np.zeros(lanes),
+        np.zeros((3, cl)),
+        np.zeros(cl),
+        np.zeros((3, cl)),
+        np.zeros((3, cl)),
+        np.zeros((3, cl)),
+        np.zeros((3, cl)),
+        np.zeros((3, cl)),
+        np.zeros((3, cl)),
+        np.zeros(cl),
+        np.zeros((3, kl)),
+        np.zeros((3, kl)),
+        np.zeros((2, kl)),
+        np.zeros((3, kl)),
+        np.zeros((3, kl)),
+        np.zeros((3, kl)),
+        np.zeros((3, kl)),
+        np.zeros((11, kl)),
+        np.zeros((n, n, lanes)),
+        np.zeros((n, lanes)),
+        np.zeros((n, lanes)),
+        np.zeros(lanes),
+        np.zeros((rows, lanes)),
+        np.zeros((rows, lanes)),
+        np.zeros((rows, lanes)),
+        np.zeros((1, lanes)),
+        np.zeros((3, lanes)),
+        np.zeros(lanes),
+        np.zeros(lanes),
+        np.zeros(lanes),
+        where,
+        np.ones(lanes),
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def state_size(webs, cones, rows):  # type: ignore[no-untyped-def]
+    return 15 * webs + 6 * cones + 2 * rows + 3
+
+
+@njit(cache=True, error_model="numpy")
+def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
+    """A packed state (S, L) as its parts."""
+    lanes, every = packed.shape[1], webs + cones
+    at_s = 9 * webs
+    at_rho = at_s + 6 * every
+    return State(
+        packed[: 3 * webs].reshape((3, webs * lanes)),
+        packed[3 * webs : 6 * webs].reshape((3, webs * lanes)),
+        packed[6 * webs : at_s].reshape((3, webs * lanes)),
+        packed[at_s : at_s + 3 * every].reshape((3, every * lanes)),
+        packed[at_s + 3 * every : at_rho].reshape((3, every * lanes)),
+        packed[at_rho : at_rho + rows],
+        packed[at_rho + rows : at_rho + 2 * rows],
+        packed[at_rho + 2 * rows :],
+    )
+
+
+@njit(cache=True, error_model="numpy")
+def spread(values, every):  # type: ignore[no-untyped-def]
+    """The same values (L,) for every web or cone."""
+    lanes = values.size
+    for k in range(every.size // lanes):
+        for t in range(lanes):
+            every[k * lanes + t] = values[t]
+
+
+@njit(cache=True, error_model="numpy")
+def add_products(one, other, total):  # type: ignore[no-untyped-def]
+    lanes = total.size
+    for k in range(one.size // lanes):
+        for t in range(lanes):
+            total[t] += one[k * lanes + t] * other[k * lanes + t]
+
+
+@njit(cache=True, error_model="numpy")
+def raise_to_size(values, largest):  # type: ignore[no-untyped-def]
+    lanes = largest.size
+    for k in range(values.size // lanes):
+        for t in range(lanes):
+            largest[t] = max(largest[t], abs(values[k * lanes + t]))
+
+
+@njit(cache=True, error_model="numpy")
+def lower(values, lowest):  # type: ignore[no-untyped-def]
+    lanes = lowest.size
+    for k in range(values.size // lanes):
+        for t in range(lanes):
+            lowest[t] = min(lowest[t], values[k * lanes + t])
+
+
+@njit(cache=True, error_model="numpy")
+def move(step, change, value):  # type: ignore[no-untyped-def]
+    for k in range(value.size):
+        value[k] += step[k] * change[k]
+
+
+@njit(cache=True, error_model="numpy")
+def product(wanted, one, other, found):  # type: ignore[no-untyped-def]
+    for k in range(found.size):
+        found[k] = wanted[k] * one[k] * other[k]

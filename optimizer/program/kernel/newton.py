@@ -1,0 +1,365 @@
+"""The linear algebra of one interior-point step, compiled, for the programs in all lanes at once.
+
+The webs are eliminated one by one, so that what is factored has the size of the peaks only: two unknowns for
+every term, one for every row, three for every ceiling and one for the budget. The blocks of the webs are inverted
+as sums of squares, without cancellation, and the cones of the peaks stay in the system as they are: a norm may
+vanish at the optimum. Slacks are kept consistent with the webs to rounding; what a step loses in complementarity
+the next one repairs.
+
+Notation, for one web: x the fraction of its reach, (a, b) the unbalance along and across its sector,
+(x, a, s b) the slack of its cone; q the slacks 1 - x, a - c b and a + c b; s and c are sine and cosine
+of the half-angle. A multiplier has the name of its slack with a z, a step that of its unknown with a d.
+Sizes: L lanes, K webs, Q cones of the peaks (J terms, then ceilings), C = K + Q, R rows, n unknowns that are factored.
+"""
+
+from numba import njit
+
+from optimizer.program.kernel.cones import (
+    cholesky,
+    cone_steps,
+    corrector,
+    multiplier_steps,
+    scaling,
+    substitute,
+    targets,
+)
+from optimizer.program.kernel.lanes import add_products, lower, move, product, raise_to_size, spread
+from optimizer.program.kernel.webs import (
+    eliminate_webs,
+    peaks_of,
+    turned,
+    web_multipliers,
+    web_residuals,
+    web_right_sides,
+    web_slacks,
+    web_steps,
+    web_targets,
+    webs_of,
+    with_peaks,
+)
+
+
+@njit(cache=True, error_model="numpy")
+def residuals(least_mass, one, state, work):  # type: ignore[no-untyped-def]
+    """Residuals of the conditions of optimality, their sizes, and the gap, which is the sum of the products."""
+    rows, lanes = one.floor.shape
+    terms, at_cones = one.row.size, one.sine.size
+    s, z, rp, rp_row = state.s, state.z, work.rp, work.rp_row
+    cones = one.influence.shape[0]
+    level = one.target if least_mass else state.rest[2]
+    for i in range(work.a.shape[1]):
+        work.a[0, i], work.a[1, i] = z[1, at_cones + i], z[2, at_cones + i]
+    webs_of(one.influence, work.a, work.u)
+    spread(state.rest[1], work.each)
+    web_residuals(work.each, one.mass, one.budget, one.sine, one.cosine, one.centre, work.u, z, state.zq, work.rd)
+    work.dual[:] = 0.0
+    raise_to_size(work.rd[0], work.dual)
+    for i in range(work.a.shape[1]):
+        work.a[0, i], work.a[1, i] = one.constant[0, i], one.constant[1, i]
+    turned(state.v, one.sine, one.centre, work.u)
+    peaks_of(one.influence, work.u, work.a)
+    for r in range(rows):
+        for t in range(lanes):
+            rp_row[r, t] = state.rho[r, t] + one.floor[r, t] - level[t]
+    for i in range(work.a.shape[1]):
+        rp[0, i] = 0.0
+        rp[1, i], rp[2, i] = s[1, at_cones + i] - work.a[0, i], s[2, at_cones + i] - work.a[1, i]
+    for i in range(cones):
+        for t in range(lanes):
+            if i < terms:
+                rp_row[one.row[i], t] += s[0, at_cones + i * lanes + t]
+            else:
+                rp[0, i * lanes + t] = s[0, at_cones + i * lanes + t] - one.cap[i - terms, t]
+    work.primal[:] = 0.0
+    for c in range(3):
+        raise_to_size(rp[c], work.primal)
+    for r in range(rows):
+        raise_to_size(rp_row[r], work.primal)
+    for t in range(lanes):
+        work.gap[t] = state.rest[0, t] * state.rest[1, t]
+    for c in range(3):
+        add_products(s[c], z[c], work.gap)
+        add_products(state.q[c], state.zq[c], work.gap)
+    for r in range(rows):
+        add_products(state.rho[r], state.z_rho[r], work.gap)
+
+
+@njit(cache=True, error_model="numpy")
+def _add_cone(first, at, eta, w0, w1, w2, m):  # type: ignore[no-untyped-def]
+    """The block of a cone of a peak, eta^2 (2 w w' - J), with its size at ``first`` and its vector at ``at``."""
+    lanes = eta.size
+    # the lower triangle
+    low_x, high_x = max(first, at), min(first, at)
+    low_y, high_y = max(first, at + 1), min(first, at + 1)
+    for t in range(lanes):
+        e2 = eta[t] * eta[t]
+        m[first, first, t] += e2 * (2.0 * w0[t] * w0[t] - 1.0)
+        m[at, at, t] += e2 * (2.0 * w1[t] * w1[t] + 1.0)
+        m[at + 1, at, t] += e2 * 2.0 * w1[t] * w2[t]
+        m[at + 1, at + 1, t] += e2 * (2.0 * w2[t] * w2[t] + 1.0)
+    for t in range(lanes):
+        e2 = eta[t] * eta[t]
+        m[low_x, high_x, t] += 2.0 * e2 * w0[t] * w1[t]
+        m[low_y, high_y, t] += 2.0 * e2 * w0[t] * w2[t]
+
+
+@njit(cache=True, error_model="numpy")
+def _add_influence(influence, xx, xy, yy, where, m):  # type: ignore[no-untyped-def]
+    """H T H', where T are the inverse blocks of the webs, to the block of the peaks."""
+    cones, every = influence.shape
+    lanes = m.shape[2]
+    for i in range(cones):
+        for j in range(i + 1):
+            a, b = where[i], where[j]
+            for k in range(0, every, lanes):
+                for t in range(lanes):
+                    both = influence[i, k + t] * influence[j, k + t]
+                    m[a, b, t] += both * xx[k + t]
+                    m[a + 1, b, t] += both * xy[k + t]
+                    m[a + 1, b + 1, t] += both * yy[k + t]
+                if i != j:
+                    for t in range(lanes):
+                        m[a, b + 1, t] += influence[i, k + t] * influence[j, k + t] * xy[k + t]
+
+
+@njit(cache=True, error_model="numpy")
+def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
+    """The matrix of the step, factored; and the solution for a level that rises by one."""
+    rows, lanes = one.floor.shape
+    cones, terms, at_cones = one.influence.shape[0], one.row.size, one.sine.size
+    w, eta, block, m, where = work.w, work.eta, work.block, work.m, work.where
+    scaling(state.s, state.z, w, eta, work.lam)
+    eliminate_webs(w, eta, state.q, state.zq, one.present[1], one.sine, one.cosine, one.centre, block)
+    m[:] = 0.0
+    at_row, at_budget = 2 * terms, m.shape[0] - 1
+    for r in range(rows):
+        for t in range(lanes):
+            m[at_row + r, at_row + r, t] = state.rho[r, t] / state.z_rho[r, t]
+    for i in range(cones):
+        at, begin, end = where[i], at_cones + i * lanes, at_cones + (i + 1) * lanes
+        first = at_row + one.row[i] if i < terms else at - 1
+        _add_cone(first, at, eta[begin:end], w[0, begin:end], w[1, begin:end], w[2, begin:end], m)
+    _add_influence(one.influence, block[6], block[7], block[8], where, m)
+    # H^-1 (budget e_x): its own x, and what it is in the peaks
+    e = work.e
+    e[:] = 0.0
+    for k in range(one.budget.size):
+        e[0, k] = one.budget[k]
+    web_steps(block, one.cosine, e, work.edges)
+    for t in range(lanes):
+        m[at_budget, at_budget, t] = state.rest[0, t] / state.rest[1, t]
+    add_products(one.budget, e[0], m[at_budget, at_budget])
+    turned(e, one.sine, one.centre, work.u)
+    work.a[:] = 0.0
+    peaks_of(one.influence, work.u, work.a)
+    for i in range(cones):
+        for t in range(lanes):
+            m[at_budget, where[i], t] = work.a[0, i * lanes + t]
+            m[at_budget, where[i] + 1, t] = work.a[1, i * lanes + t]
+    cholesky(m)
+    if not least_mass:
+        border, border_sum = work.border, work.border_sum
+        border[:] = 0.0
+        border[at_row : at_row + rows] = 1.0
+        substitute(m, border)
+        border_sum[:] = 0.0
+        for r in range(rows):
+            for t in range(lanes):
+                border_sum[t] += border[at_row + r, t]
+
+
+@njit(cache=True, error_model="numpy")
+def first_order(work):  # type: ignore[no-untyped-def]
+    """No second-order parts: set, not multiplied away, for a lane may hold what the program before it left."""
+    work.d[:], work.cq[:], work.c_rho[:], work.c_rest[:] = 0.0, 0.0, 0.0, 0.0
+
+
+@njit(cache=True, error_model="numpy")
+def second_order(wanted, work):  # type: ignore[no-untyped-def]
+    """What the products miss in the direction found last where ``wanted`` (L,) is 1; nothing where it is 0."""
+    spread(wanted, work.each)
+    corrector(work.each, work.w, work.eta, work.ds, work.dz, work.d)
+    for c in range(3):
+        product(work.each, work.dq[c], work.dzq[c], work.cq[c])
+    for r in range(work.c_rho.shape[0]):
+        product(wanted, work.d_rho[r], work.dz_rho[r], work.c_rho[r])
+    product(wanted, work.d_rest[0], work.d_rest[1], work.c_rest[0])
+
+
+@njit(cache=True, error_model="numpy")
+def _add_targets(ws, rp, keep, right):  # type: ignore[no-untyped-def]
+    for t in range(keep.size):
+        right[t] += ws[t] + keep[t] * rp[t]
+
+
+@njit(cache=True, error_model="numpy")
+def _size_of_terms(begin, terms_end, w, eta, f, dz, ds):  # type: ignore[no-untyped-def]
+    """Steps of the sizes of the terms, from dZ = f - W^-2 dS."""
+    for j in range(begin, terms_end):
+        w0 = w[0, j]
+        along = 2.0 * w0 * (w[1, j] * ds[1, j] + w[2, j] * ds[2, j])
+        ds[0, j] = (eta[j] * eta[j] * (f[0, j] - dz[0, j]) + along) / (2.0 * w0 * w0 - 1.0)
+
+
+@njit(cache=True, error_model="numpy")
+def _solve(least_mass, one, work):  # type: ignore[no-untyped-def]
+    """The steps of the multipliers of the peaks, the rows and the budget, and of the level."""
+    right, d_level = work.right, work.d_rest[2]
+    rows, lanes = one.floor.shape
+    at_row = 2 * one.row.size
+    substitute(work.m, right)
+    d_level[:] = 0.0
+    if not least_mass:
+        for r in range(rows):
+            for t in range(lanes):
+                d_level[t] += right[at_row + r, t]
+        for t in range(lanes):
+            d_level[t] /= work.border_sum[t]
+        for i in range(right.shape[0]):
+            for t in range(lanes):
+                right[i, t] -= d_level[t] * work.border[i, t]
+    for r in range(rows):
+        for t in range(lanes):
+            work.dz_rho[r, t] = right[at_row + r, t]
+    for t in range(lanes):
+        work.d_rest[1, t] = -right[right.shape[0] - 1, t]
+
+
+@njit(cache=True, error_model="numpy")
+def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
+    """The step towards products ``nu`` that removes the share ``keep`` of the residuals."""
+    rows, lanes = one.floor.shape
+    cones, terms, at_cones = one.influence.shape[0], one.row.size, one.sine.size
+    ds, dz, ws, rp, right, where, keep, e = (
+        work.ds,
+        work.dz,
+        work.ws,
+        work.rp,
+        work.right,
+        work.where,
+        work.keep,
+        work.e,
+    )
+    at_row, at_budget = 2 * terms, right.shape[0] - 1
+    spread(work.nu, work.each)
+    targets(work.each, work.d, work.w, work.eta, work.lam, state.s, state.z, work.f, ws)
+    for c in range(3):
+        web_targets(work.each, one.present[c], work.cq[c], state.q[c], state.zq[c], work.fq[c])
+    spread(keep, work.each)
+    web_right_sides(work.each, work.rd, work.f, work.fq, one.sine, one.cosine, e)
+    for k in range(one.sine.size):
+        work.kept[0, k], work.kept[1, k], work.kept[2, k] = e[0, k], e[1, k], e[2, k]
+    web_steps(work.block, one.cosine, work.kept, work.edges)
+    turned(work.kept, one.sine, one.centre, work.u)
+    work.a[:] = 0.0
+    peaks_of(one.influence, work.u, work.a)
+    right[:] = 0.0
+    add_products(one.budget, work.kept[0], right[at_budget])
+    for t in range(lanes):
+        target = (work.nu[t] - work.c_rest[0, t]) / state.rest[1, t]
+        right[at_budget, t] = state.rest[0, t] - target - right[at_budget, t]
+    for r in range(rows):
+        for t in range(lanes):
+            target = (work.nu[t] - work.c_rho[r, t]) / state.z_rho[r, t] - state.rho[r, t]
+            right[at_row + r, t] = target + keep[t] * work.rp_row[r, t]
+    for i in range(cones):
+        at, begin, end = where[i], i * lanes, (i + 1) * lanes
+        first = at_row + one.row[i] if i < terms else at - 1
+        for t in range(lanes):
+            right[at, t] = -work.a[0, begin + t]
+            right[at + 1, t] = -work.a[1, begin + t]
+        _add_targets(ws[0, at_cones + begin : at_cones + end], rp[0, begin:end], keep, right[first])
+        _add_targets(ws[1, at_cones + begin : at_cones + end], rp[1, begin:end], keep, right[at])
+        _add_targets(ws[2, at_cones + begin : at_cones + end], rp[2, begin:end], keep, right[at + 1])
+    _solve(least_mass, one, work)
+    # back to the webs
+    for i in range(cones):
+        at, begin = where[i], i * lanes
+        first = at_row + one.row[i] if i < terms else at - 1
+        for t in range(lanes):
+            work.a[0, begin + t], work.a[1, begin + t] = right[at, t], right[at + 1, t]
+        for t in range(lanes):
+            dz[0, at_cones + begin + t] = right[first, t]
+            dz[1, at_cones + begin + t], dz[2, at_cones + begin + t] = right[at, t], right[at + 1, t]
+    webs_of(one.influence, work.a, work.u)
+    spread(work.d_rest[1], work.each)
+    with_peaks(work.each, one.budget, one.sine, one.centre, work.u, e)
+    web_steps(work.block, one.cosine, e, work.edges)
+    web_slacks(e, work.edges, one.sine, ds, work.dq)
+    for c in range(3):
+        web_multipliers(work.fq[c], state.zq[c], state.q[c], work.dq[c], work.dzq[c])
+    multiplier_steps(one.sine.size, work.w, work.eta, work.f, ds, dz)
+    d_left = work.d_rest[0]
+    d_left[:] = 0.0
+    add_products(one.budget, work.dq[0], d_left)
+    # the vectors of the peaks from the webs, which keeps them consistent
+    turned(e, one.sine, one.centre, work.u)
+    work.a[:] = 0.0
+    peaks_of(one.influence, work.u, work.a)
+    spread(keep, work.each)
+    for i in range(work.a.shape[1]):
+        ds[0, at_cones + i] = -work.each[i] * rp[0, i]
+        ds[1, at_cones + i] = work.a[0, i] - work.each[i] * rp[1, i]
+        ds[2, at_cones + i] = work.a[1, i] - work.each[i] * rp[2, i]
+    _size_of_terms(at_cones, at_cones + terms * lanes, work.w, work.eta, work.f, dz, ds)
+    for r in range(rows):
+        for t in range(lanes):
+            work.d_rho[r, t] = work.d_rest[2, t] - keep[t] * work.rp_row[r, t]
+    for i in range(terms):
+        for t in range(lanes):
+            work.d_rho[one.row[i], t] -= ds[0, at_cones + i * lanes + t]
+
+
+@njit(cache=True, error_model="numpy")
+def _until_zero(present, value, change, step):  # type: ignore[no-untyped-def]
+    """Steps at which values reach 0 (n,)."""
+    for k in range(value.size):
+        reached = -value[k] / (change[k] if change[k] < 0.0 else 1.0)
+        step[k] = reached if (change[k] < 0.0) & (present[k] > 0.0) else 1e300
+
+
+@njit(cache=True, error_model="numpy")
+def longest_step(one, state, work, longest):  # type: ignore[no-untyped-def]
+    """The longest step in the direction that stays inside, at most ``longest``, into ``work.step``."""
+    step, each = work.step, work.each
+    webs = each[: one.sine.size]
+    step[:] = longest
+    cone_steps(state.s, work.ds, each)
+    lower(each, step)
+    cone_steps(state.z, work.dz, each)
+    lower(each, step)
+    for c in range(3):
+        _until_zero(one.present[c], state.q[c], work.dq[c], webs)
+        lower(webs, step)
+        _until_zero(one.present[c], state.zq[c], work.dzq[c], webs)
+        lower(webs, step)
+    lane = each[: step.size]
+    always = work.always
+    for r in range(state.rho.shape[0]):
+        _until_zero(always, state.rho[r], work.d_rho[r], lane)
+        lower(lane, step)
+        _until_zero(always, state.z_rho[r], work.dz_rho[r], lane)
+        lower(lane, step)
+    for c in range(2):
+        _until_zero(always, state.rest[c], work.d_rest[c], lane)
+        lower(lane, step)
+
+
+@njit(cache=True, error_model="numpy")
+def take_step(one, state, work):  # type: ignore[no-untyped-def]
+    """Add the direction times ``work.step``."""
+    step, each = work.step, work.each
+    spread(step, each)
+    for c in range(3):
+        move(each, work.ds[c], state.s[c])
+        move(each, work.dz[c], state.z[c])
+        move(each, work.e[c], state.v[c])
+        move(each, work.dzq[c], state.zq[c])
+        # without edges their slacks stay 1
+        product(each, one.present[c], work.dq[c], work.kept[c])
+        for k in range(one.sine.size):
+            state.q[c, k] += work.kept[c, k]
+        move(step, work.d_rest[c], state.rest[c])
+    for r in range(state.rho.shape[0]):
+        move(step, work.d_rho[r], state.rho[r])
+        move(step, work.dz_rho[r], state.z_rho[r])

@@ -1,0 +1,199 @@
+"""The cone program, once and readably, in cvxpy; compiled once for every shape.
+
+In scaled variables a web's unbalance is u_k = U_k e^{j c_k} (x_k + j s_k y_k): U_k its reach, c_k the
+middle of its sector and s_k the sine of its half-angle, so that x, y are of order one however thin
+the sector or small the limit (docs/mathematics.md section 4).
+
+    minimise    value                             (stage "objective")
+                mass @ fraction                   (stage "mass")
+    subject to  |C_j + M_j (x, y)| <= t_j
+                membership t + floor <= value     (in stage "mass": <= target)
+                |C_i + M_i (x, y)| <= cap_i       ceilings
+                |(x_k, s_k y_k)| <= fraction_k <= 1
+                |y_k| cos B_k <= x_k              sectors
+                budget @ fraction <= 1            total mass
+"""
+
+import threading
+from collections import OrderedDict
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+
+if TYPE_CHECKING:
+    import cvxpy as cp
+
+Stage = Literal["objective", "mass"]
+
+
+class Shape(NamedTuple):
+    """What a compiled program depends on; everything else is a parameter."""
+
+    stage: Stage
+    webs: int
+    rows: tuple[int, ...]  # row of each norm term
+    ceilings: int
+    sectors: bool
+    budget: bool
+
+
+@dataclass(frozen=True)
+class ScaledData:
+    """Parameters of the program, of order one. K webs, J terms, I ceilings."""
+
+    shape: Shape
+    constant: Real  # (2, J) real and imaginary part of C_j
+    matrix: Real  # (2 J, 2 K) real parts of M first
+    floor: Real  # (rows,)
+    ceiling_constant: Real  # (2, I)
+    ceiling_matrix: Real  # (2 I, 2 K)
+    ceiling_cap: Real  # (I,)
+    sine: Real  # (K,) 1 where the web is free
+    cosine: Real  # (K,) 0 where the web is free
+    slack: Real  # (K,) 0; 2 where the web is free, which no point of the disc exceeds
+    mass: Real  # (K,) mass at full reach
+    budget: Real  # (K,) the same relative to the budget
+    target: float
+
+
+class ScaledSolution(NamedTuple):
+    """What the solver returned, unjudged: the certificate decides what it is worth."""
+
+    x: Real  # (K,)
+    y: Real  # (K,)
+    row: Real  # (rows,) multipliers of the rows (stage "mass": times the price of the target)
+    term: Complex  # (J,) multipliers of the terms
+    ceiling: Complex  # (I,) multipliers of the ceilings
+    solver_status: str
+
+
+class ConeProgram:
+    """A compiled program of one shape. Not for two threads at once."""
+
+    def __init__(self, shape: Shape) -> None:
+        """Compile.
+
+        Raises
+        ------
+        RuntimeError
+            if the program does not follow cvxpy's rules for parameters (DPP), in which case it
+            would be compiled anew for every machine.
+        """
+        import cvxpy as cp
+
+        webs, terms, rows = shape.webs, len(shape.rows), max(shape.rows, default=0) + 1
+        self.shape = shape
+        self._parameters: dict[str, cp.Parameter] = {}
+
+        x, y = cp.Variable(webs), cp.Variable(webs)
+        fraction, norm = cp.Variable(webs), cp.Variable(terms)
+        disc = cp.vstack([x, cp.multiply(self._parameter("sine", webs), y)])
+        limits = [cp.SOC(fraction, disc, axis=0), fraction <= 1]
+        if shape.sectors:
+            slack = self._parameter("slack", webs)
+            limits.append(cp.multiply(self._parameter("cosine", webs, nonneg=True), cp.abs(y)) <= x + slack)
+        if shape.budget:
+            limits.append(self._parameter("budget", webs) @ fraction <= 1)
+
+        place = cp.hstack([x, y])
+        vectors = cp.reshape(self._parameter("matrix", (2 * terms, 2 * webs)) @ place, (2, terms), order="C")
+        terms_cone = cp.SOC(norm, self._parameter("constant", (2, terms)) + vectors, axis=0)
+        ceilings = []
+        if shape.ceilings:
+            count = shape.ceilings
+            vectors = cp.reshape(
+                self._parameter("ceiling_matrix", (2 * count, 2 * webs)) @ place, (2, count), order="C"
+            )
+            cap = self._parameter("ceiling_cap", count)
+            ceilings = [cp.SOC(cap, self._parameter("ceiling_constant", (2, count)) + vectors, axis=0)]
+
+        membership = (np.arange(rows)[:, None] == np.array(shape.rows, dtype=int)[None, :]).astype(float)
+        total = membership @ norm + self._parameter("floor", rows)
+        if shape.stage == "objective":
+            value = cp.Variable()
+            objective, rows_below = value, total <= value
+        else:
+            objective = self._parameter("mass", webs) @ fraction
+            rows_below = total <= self._parameter("target", ())
+        self._problem = cp.Problem(cp.Minimize(objective), [*limits, terms_cone, *ceilings, rows_below])
+        if not self._problem.is_dcp(dpp=True):
+            raise RuntimeError("the cone program must be DPP, or it would be compiled anew for every machine")
+        self._variables = (x, y)
+        self._duals = (rows_below, terms_cone, ceilings[0] if ceilings else None)
+
+    def _parameter(self, name: str, shape: Any, **attributes: Any) -> "cp.Parameter":
+        import cvxpy as cp
+
+        self._parameters[name] = cp.Parameter(shape, name=name, **attributes)
+        return self._parameters[name]
+
+    def solve(self, data: ScaledData, tolerance: float) -> ScaledSolution | None:
+        """Solve for one set of data; None if the solver has no point to offer.
+
+        The solver's verdict is passed on, not believed.
+        """
+        import cvxpy as cp
+
+        for name, parameter in self._parameters.items():
+            parameter.value = getattr(data, name)
+        options = {"tol_gap_abs": tolerance, "tol_gap_rel": tolerance, "tol_feas": tolerance}
+        # the steps of Problem.solve, without writing the result into the shared variables and
+        # without its warnings: the status is read here, and judged by the certificate
+        compiled, chain, inverse = self._problem.get_problem_data(cp.CLARABEL, enforce_dpp=True, solver_opts=options)
+        raw = chain.solve_via_data(self._problem, compiled, False, False, options)
+        solution = chain.invert(raw, inverse)
+        if not solution.primal_vars or solution.status in (cp.INFEASIBLE, cp.UNBOUNDED):
+            return None
+        x, y = (np.atleast_1d(solution.primal_vars[variable.id]) for variable in self._variables)
+        rows, terms, ceilings = self._duals
+        if not (np.all(np.isfinite(x)) and np.all(np.isfinite(y))):
+            return None
+        return ScaledSolution(
+            x=x,
+            y=y,
+            row=np.atleast_1d(solution.dual_vars[rows.id]),
+            term=_vector_duals(solution, terms, len(self.shape.rows)),
+            ceiling=_vector_duals(solution, ceilings, self.shape.ceilings),
+            solver_status=str(solution.status),
+        )
+
+
+def _vector_duals(solution: Any, cone: Any, count: int) -> Complex:
+    """Multipliers p of |a| <= t as complex numbers: the cone's dual is (|p|, -p)."""
+    if cone is None:
+        return np.zeros(0, complex)
+    _, real, imaginary = np.reshape(solution.dual_vars[cone.id], (count, 3)).T
+    return -(real + 1j * imaginary)
+
+
+class CompiledPrograms:
+    """Compiled programs by shape, lent to one thread at a time; the least used are forgotten.
+
+    cvxpy problems are neither thread-safe nor picklable: every process compiles its own, and two
+    threads that need the same shape at once get two programs.
+    """
+
+    def __init__(self, capacity: int = 64) -> None:
+        self._capacity = capacity
+        self._idle: OrderedDict[Shape, list[ConeProgram]] = OrderedDict()
+        self._lock = threading.Lock()
+
+    @contextmanager
+    def lend(self, shape: Shape) -> Iterator[ConeProgram]:
+        """A program of this shape, compiled now if none is idle."""
+        with self._lock:
+            idle = self._idle.get(shape)
+            program = idle.pop() if idle else None
+        program = program or ConeProgram(shape)
+        yield program
+        # not after an error: what a failed solve leaves behind is not lent again
+        with self._lock:
+            self._idle.setdefault(shape, []).append(program)
+            self._idle.move_to_end(shape)
+            while len(self._idle) > self._capacity:
+                self._idle.popitem(last=False)

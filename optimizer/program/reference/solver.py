@@ -1,0 +1,207 @@
+"""Solve a program and prove it: the smallest objective, then the least mass among the optima."""
+
+import time
+from collections.abc import Callable, Iterable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex
+from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
+from optimizer.program.limits import Limits
+from optimizer.program.polish import (
+    mass_multipliers,
+    objective_multipliers,
+    resting_multipliers,
+    supporting_multipliers,
+)
+from optimizer.program.reference.modelling import CompiledPrograms, ScaledData, ScaledSolution
+from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
+from optimizer.program.solution import CEILING_TOLERANCE, CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
+from optimizer.program.statement import Ceilings, Norms, Statement
+
+
+class _Attempt(NamedTuple):
+    """How one attempt is made; what one cannot certify the next may."""
+
+    tolerance: float  # of the solver
+    reach: float  # multiple of the natural reach beyond which limits are ignored
+    ceiling_margin: float  # share by which ceilings are lowered, so that the answer keeps them
+    target_margin: float  # least mass: share of the allowance above the optimum that is kept back
+
+
+_ATTEMPTS = (
+    _Attempt(1e-12, 10.0, 2e-11, 1e-5),
+    _Attempt(1e-10, 10.0, 2e-10, 1e-4),
+    _Attempt(1e-12, 10.0, 5e-10, 1e-5),
+    _Attempt(1e-10, 10.0, 1e-9, 1e-3),
+    _Attempt(1e-9, 10.0, 1e-9, 1e-3),
+    _Attempt(1e-11, 10.0, 2e-11, 1e-6),
+    _Attempt(1e-11, 1e4, 5e-10, 1e-4),
+    _Attempt(1e-10, np.inf, 1e-9, 1e-4),
+)
+#: the least mass, which sits on a steeper edge, is more often certified by the second
+_MASS_ATTEMPTS = (_ATTEMPTS[1], _ATTEMPTS[0], *_ATTEMPTS[2:])
+_TARGET_MARGIN = 1e-7
+
+
+class Solver:
+    """Solves statements with compiled programs of its own."""
+
+    def __init__(self, programs: CompiledPrograms | None = None) -> None:
+        self._programs = programs or CompiledPrograms()
+
+    def smallest_objective(self, statement: Statement, enough: float, start: Solution | None = None) -> Solution:
+        """The smallest objective, with its bound.
+
+        Tries harder until the certified gap is at most ``enough``. If no point that keeps the
+        ceilings was found, the one with the smallest excess is returned, and says so.
+
+        Parameters
+        ----------
+        enough : gap that ends the search, in units of the objective.
+        start : what is known already.
+        """
+        best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
+        best = _proven(statement, best, resting_multipliers(statement))
+        cancelled = evaluated(statement, statement.limits.into(cancelling(statement, passes=3)))
+        if _better_objective(best, cancelled):
+            best = cancelled.bounded(best.lower_bound, best.multipliers)
+        if start is not None:
+            chosen, other = (start, best) if _better_objective(best, start) else (best, start)
+            best = chosen.bounded(other.lower_bound, other.multipliers)
+        if statement.limits.radius.size == 0 or (best.keeps_ceilings and best.gap <= enough):
+            return best
+        natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
+        for attempt in _ATTEMPTS:
+            clip = min(attempt.reach * natural, largest)
+            data, scaling = scale(statement, "objective", clip, attempt.ceiling_margin)
+            best, solved = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
+            if solved is not None:
+                began = time.perf_counter()
+                best = _proven(statement, best, objective_multipliers(statement, *solved))
+                best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
+            if best.keeps_ceilings and best.gap <= enough:
+                break
+        return best
+
+    def least_mass(
+        self, statement: Statement, first: Solution, share: float, enough: float, start: Solution | None = None
+    ) -> Solution:
+        """The least total mass among the optima, with its bound.
+
+        Parameters
+        ----------
+        first : a solution whose objective is the smallest.
+        share : how far above the smallest objective an optimum may be, in units of the objective.
+        enough : relative gap of the mass that ends the search.
+        start : what is known already; its bound counts all objectives up to the share above its own first stage.
+        """
+        rounding = float(statement.rounding(first.unbalance))
+        target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
+        nothing = first.moved_to(statement, np.zeros_like(first.unbalance))
+        if nothing.objective <= target and nothing.keeps_ceilings:
+            return nothing
+        # the smallest objective lies between first.lower_bound and first.objective: a bound for all
+        # that are within the share of it must allow for the larger
+        counted = first.objective + share
+        best, natural = first, float(natural_reach(statement))
+        needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
+
+        def admit(old: Solution, new: Solution) -> bool:
+            return new.keeps_ceilings and new.objective <= target and new.mass < old.mass
+
+        if start is not None:
+            known = replace(first, mass_lower_bound=start.mass_lower_bound)
+            best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
+        if np.any(best.unbalance):
+            multipliers = supporting_multipliers(statement, best.unbalance)
+            bound = float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
+            best = replace(best, mass_lower_bound=max(best.mass_lower_bound, bound))
+        for attempt in _MASS_ATTEMPTS:
+            inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
+            clip = min(max(attempt.reach * natural, needed), largest)
+            data, scaling = scale(statement, "mass", clip, attempt.ceiling_margin, inner, first.mass)
+            best, solved = self._attempt(
+                statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target)
+            )
+            if solved is not None:
+                began = time.perf_counter()
+                candidates = mass_multipliers(statement, *solved)
+                bound = _largest(mass_lower_bound(statement, each, np.asarray(counted)) for each in candidates)
+                best = replace(
+                    best,
+                    mass_lower_bound=max(best.mass_lower_bound, bound),
+                    certify_s=best.certify_s + time.perf_counter() - began,
+                )
+            if best.mass - best.mass_lower_bound <= enough * best.mass:
+                break
+        return best
+
+    def smallest_excess(self, ceilings: Ceilings, limits: Limits) -> Solution:
+        """The smallest largest excess over the ceilings; its sign decides whether they can be kept.
+
+        objective <= 0: they can; lower_bound > 0: they cannot, which is then proven.
+        """
+        size = ceilings.size
+        norms = Norms(ceilings.norms.constant / size, ceilings.norms.influence / size[:, None])
+        nothing = np.zeros(0)
+        none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), nothing, nothing)
+        return self.smallest_objective(
+            Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits), 0.1 * CEILING_TOLERANCE
+        )
+
+    def _attempt(
+        self,
+        statement: Statement,
+        best: Solution,
+        data: ScaledData,
+        scaling: Scaling,
+        tolerance: float,
+        better: Callable[[Solution, Solution], bool],
+        blend: tuple[Solution, float] | None = None,
+    ) -> tuple[Solution, tuple[Complex, Multipliers] | None]:
+        """One solve: the better of the best so far and the new point, and what a bound can be made of."""
+        with self._programs.lend(data.shape) as program:
+            found: ScaledSolution | None = program.solve(data, tolerance)
+        best = replace(best, method=CONE_PROGRAM)
+        if found is None:
+            return best, None
+        u = statement.limits.into(scaling.unbalance(statement, found))
+        for point in _tidied(u):
+            new = evaluated(statement, point if blend is None else _blended(statement, point, *blend))
+            if better(best, new):
+                best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
+        return best, (u, scaling.multipliers(statement, found))
+
+
+def _better_objective(old: Solution, new: Solution) -> bool:
+    if old.keeps_ceilings and new.keeps_ceilings:
+        return new.objective < old.objective
+    return new.keeps_ceilings or (not old.keeps_ceilings and new.excess < old.excess)
+
+
+def _tidied(u: Complex) -> tuple[Complex, ...]:
+    """The point, and the point without its negligible counterweights."""
+    small = np.abs(u) < NEGLIGIBLE * np.max(np.abs(u), initial=0.0)
+    return (u, np.where(small, 0.0, u)) if np.any(small & (u != 0)) else (u,)
+
+
+def _blended(statement: Statement, u: Complex, safe: Solution, target: float) -> Complex:
+    """The point moved towards a safe one just so far that the objective, which is convex, meets the target."""
+    value = float(statement.objective(u))
+    if value <= target or value <= safe.objective:
+        return u
+    step = min(1.0, (value - target) / (value - safe.objective) * (1.0 + 1e-12))
+    return u + step * (safe.unbalance - u)
+
+
+def _proven(statement: Statement, solution: Solution, candidates: Iterable[Multipliers]) -> Solution:
+    for multipliers in candidates:
+        solution = solution.bounded(float(objective_lower_bound(statement, multipliers)), multipliers)
+    return solution
+
+
+def _largest(bounds: Iterable[np.ndarray]) -> float:
+    return max(float(bound) for bound in bounds)

@@ -1,0 +1,1 @@
+"""What the service says about itself: documents that go in and out, examples, the reference page."""

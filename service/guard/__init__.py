@@ -1,0 +1,1 @@
+"""What guards the service: who asks, how often, how large."""

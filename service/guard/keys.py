@@ -1,0 +1,239 @@
+"""API keys: made, kept as salted hashes in a file, and compared in constant time.
+
+A key holds 256 random bits, so that no dictionary helps against a hash and a fast one (SHA-256 with a salt) will do.
+"""
+
+import hashlib
+import hmac
+import ipaddress
+import logging
+import os
+import re
+import secrets
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Annotated, Literal, get_args
+
+from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
+from starlette.requests import Request
+
+from schemas.base import Model
+from service.settings import Settings
+
+#: compute: the computing routes; sweeps: start, resume and delete jobs; read: see the jobs of the same owner;
+#: metrics: /metrics; admin: everything, with the jobs of all owners
+Scope = Literal["compute", "sweeps", "read", "metrics", "admin"]
+SCOPES: tuple[Scope, ...] = get_args(Scope)
+#: everything else needs a key, whether there is anything at the path or not
+PUBLIC = frozenset({"/", "/healthz", "/readyz", "/docs", "/openapi.json", "/favicon.ico"})
+PUBLIC_FOLDERS = ("/docs/assets/", "/portal/")
+
+_LOG = logging.getLogger(__name__)
+_KEY = re.compile(r"cw_([0-9a-f]{12})_([A-Za-z0-9_-]{43})")
+#: the file is looked at again after so long [s]: keys come and go without a restart
+_LOOK_S = 1.0
+
+Owner = Annotated[str, StringConstraints(pattern=r"^[A-Za-z0-9._@-]{1,64}$")]
+Digest = Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{64}$")]
+
+
+class BadKeyFile(ValueError):
+    """The file of the keys cannot be read."""
+
+
+class KeyRecord(Model):
+    """What is kept of a key. Jobs belong to the owner, so a new key of the same owner sees the jobs of the old one."""
+
+    id: Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{12}$")] = Field(
+        description="public part of the key", examples=["0123456789ab"]
+    )
+    owner: Owner = Field(description="whose key it is", examples=["portal"])
+    scopes: tuple[Scope, ...] = Field(min_length=1, description="what it allows", examples=[["compute", "sweeps"]])
+    salt: Annotated[str, StringConstraints(pattern=r"^[0-9a-f]{32}$")] = Field(
+        description="salt of the hash", examples=["00" * 16]
+    )
+    sha256: Digest = Field(description="hash of salt and key", examples=["00" * 32])
+    created: str = Field("", max_length=40, description="when it was made", examples=["2026-11-21T12:00:00+00:00"])
+    expires: float | None = Field(
+        None, description="seconds since 1970 after which it is refused; null is never", examples=[None]
+    )
+    rate_limit: str | None = Field(
+        None, max_length=64, description="in place of the setting; null is the setting", examples=["10/second"]
+    )
+
+
+@dataclass(frozen=True)
+class Caller:
+    """Who asks."""
+
+    key: str | None
+    owner: str | None
+    scopes: frozenset[Scope]
+    rate_limit: str | None = None
+
+    def may(self, *scopes: Scope) -> bool:
+        """Whether one of some scopes is allowed."""
+        return "admin" in self.scopes or not self.scopes.isdisjoint(scopes)
+
+
+#: where nobody needs a key
+ANYONE = Caller(None, None, frozenset(SCOPES))
+#: on a public page
+NOBODY = Caller(None, None, frozenset())
+
+
+def caller_of(request: Request) -> Caller:
+    """Whose request it is; :class:`~service.guard.access.Access` has found out."""
+    found: Caller = request.state.caller
+    return found
+
+
+def make(
+    owner: str, scopes: tuple[Scope, ...], expires: float | None = None, rate_limit: str | None = None
+) -> tuple[str, KeyRecord]:
+    """A new key, and what is kept of it.
+
+    Raises
+    ------
+    ValidationError
+        if the owner is no name or there is no scope.
+    """
+    identity, salt = secrets.token_hex(6), secrets.token_hex(16)
+    key = f"cw_{identity}_{secrets.token_urlsafe(32)}"
+    record = KeyRecord(
+        id=identity,
+        owner=owner,
+        scopes=scopes,
+        salt=salt,
+        sha256=_hash(salt, key),
+        created=datetime.now(UTC).isoformat(timespec="seconds"),
+        expires=expires,
+        rate_limit=rate_limit,
+    )
+    return key, record
+
+
+def read(file: Path) -> list[KeyRecord]:
+    """The keys in a file, one JSON object a line.
+
+    Raises
+    ------
+    BadKeyFile
+    """
+    try:
+        lines = file.read_text("utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise BadKeyFile(f"cannot read the keys in {file}: {getattr(error, 'strerror', None) or error}") from None
+    found = []
+    for number, line in enumerate(lines, 1):
+        if line.strip():
+            try:
+                found.append(_RECORD.validate_json(line))
+            except ValidationError as error:
+                first = error.errors(include_input=False)[0]
+                where = ".".join(map(str, first["loc"])) or "line"
+                raise BadKeyFile(f"{file}, line {number}: {where}: {first['msg']}") from None
+    return found
+
+
+def write(file: Path, records: list[KeyRecord]) -> None:
+    """Replace the keys in a file, at once and readable by its owner only.
+
+    Raises
+    ------
+    OSError
+    """
+    fresh = file.with_name(f".{file.name}.{os.getpid()}")
+    with open(os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as out:
+        out.writelines(record.model_dump_json(exclude_none=True) + "\n" for record in records)
+        out.flush()
+        os.fsync(out.fileno())
+    fresh.replace(file)
+
+
+class Keys:
+    """The keys in a file, read anew when it changes.
+
+    Raises
+    ------
+    BadKeyFile
+    """
+
+    def __init__(self, file: Path) -> None:
+        self._file = file
+        self._known: Mapping[str, KeyRecord] = {record.id: record for record in read(file)}
+        self._stamp = self._stamped()
+        self._looked = time.monotonic()
+        self._nobody = make("nobody", ("read",))[1]
+
+    def caller(self, key: str) -> Caller | None:
+        """Whose key it is; None if it is no key, wrong or expired."""
+        self._look()
+        match = _KEY.fullmatch(key)
+        record = self._known.get(match[1], self._nobody) if match else self._nobody
+        # compared in every case, so that the time tells nothing
+        right = hmac.compare_digest(_hash(record.salt, key), record.sha256)
+        if not right or (record.expires is not None and record.expires < time.time()):
+            return None
+        return Caller(record.id, record.owner, frozenset(record.scopes), record.rate_limit)
+
+    def _look(self) -> None:
+        now = time.monotonic()
+        if now - self._looked < _LOOK_S:
+            return
+        self._looked = now
+        stamp = self._stamped()
+        if stamp == self._stamp:
+            return
+        try:
+            self._known = {record.id: record for record in read(self._file)}
+        except BadKeyFile as error:
+            # the keys that are known stay valid until the file is right again
+            _LOG.warning("%s", error)
+        self._stamp = stamp
+
+    def _stamped(self) -> tuple[int, int, int]:
+        try:
+            found = self._file.stat()
+        except OSError:
+            return (0, 0, 0)
+        return found.st_mtime_ns, found.st_size, found.st_ino
+
+
+def keys(settings: Settings) -> Keys | None:
+    """The keys of the settings; None where nobody needs one.
+
+    Raises
+    ------
+    ValueError
+        if other machines reach the service and nobody would need a key.
+    BadKeyFile
+    """
+    if settings.keys_file is not None:
+        return Keys(settings.keys_file)
+    if is_loopback(settings.host) or settings.allow_without_keys:
+        return None
+    raise ValueError(
+        f"other machines reach {settings.host}: set COUNTERWEIGHT_KEYS_FILE to a file made with `counterweight key`, "
+        "or COUNTERWEIGHT_ALLOW_WITHOUT_KEYS=true"
+    )
+
+
+def is_loopback(host: str) -> bool:
+    """Whether only this machine reaches an address."""
+    if host == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(host).is_loopback
+    except ValueError:
+        return False
+
+
+_RECORD = TypeAdapter(KeyRecord)
+
+
+def _hash(salt: str, key: str) -> str:
+    return hashlib.sha256(bytes.fromhex(salt) + key.encode("utf-8", "surrogateescape")).hexdigest()

@@ -1,0 +1,71 @@
+"""The sizes that an operator allows, below those of the schemas; what is larger is refused field by field."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from schemas.base import FieldProblem, Model
+from schemas.machine import ReciprocatingMachine
+from schemas.requests import Angles, Scene
+from schemas.sweep import SweepRequest
+from service.http.validation import InvalidRequest, Path
+from service.settings import Settings
+
+
+@dataclass(frozen=True)
+class SizeLimits:
+    """Largest numbers of throws, rows, webs, samples in a turn and designs of a sweep."""
+
+    throws: int
+    rows: int
+    webs: int
+    angles: int
+    designs: int
+
+    @classmethod
+    def of(cls, settings: Settings) -> "SizeLimits":
+        return cls(
+            throws=settings.max_throws,
+            rows=settings.max_rows,
+            webs=settings.max_webs,
+            angles=settings.max_angles,
+            designs=settings.max_sweep_designs,
+        )
+
+    def require(self, asked: Model) -> None:
+        """Check that a request is not larger than allowed.
+
+        Raises
+        ------
+        InvalidRequest
+            naming every field that is too large.
+        """
+        found = list(self._problems(asked, ()))
+        if found:
+            raise InvalidRequest(found)
+
+    def _problems(self, asked: Model, at: Path) -> Iterator[FieldProblem]:
+        if isinstance(asked, SweepRequest):
+            if asked.total > self.designs:
+                field = ("samples",) if asked.design == "latin_hypercube" else ("axes",)
+                message = f"a sweep may hold at most {self.designs} designs here; these are {asked.total}"
+                yield FieldProblem(field, message)
+            yield from self._problems(asked.base, ("base",))
+            return
+        if isinstance(asked, Scene):
+            yield from self._machine_problems(asked, (*at, "machine"))
+        angles = getattr(asked, "angles", None)
+        if isinstance(angles, Angles) and angles.count > self.angles:
+            message = f"a turn may hold at most {self.angles} samples here"
+            yield FieldProblem((*at, "angles", "step_deg"), message)
+
+    def _machine_problems(self, asked: Scene, at: Path) -> Iterator[FieldProblem]:
+        machine = asked.machine
+        counts = {"webs": (len(machine.webs), self.webs, "webs")}
+        if isinstance(machine, ReciprocatingMachine):
+            counts["throws"] = (len(machine.throws), self.throws, "throws")
+            rows = sum(len(throw.rows) for throw in machine.throws)
+            if rows > self.rows:
+                yield FieldProblem((*at, "throws"), f"a machine may have at most {self.rows} rows here, not {rows}")
+        for field, (count, most, name) in counts.items():
+            if count > most:
+                yield FieldProblem((*at, field), f"a machine may have at most {most} {name} here, not {count}")

@@ -1,0 +1,1 @@
+"""What speaks HTTP: server and connections, bodies, checks, errors, computations behind a route."""

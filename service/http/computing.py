@@ -1,0 +1,164 @@
+"""A computation behind a route: bytes in, bytes out, in a worker process and only so many at a time."""
+
+import logging
+from collections.abc import Awaitable, Callable
+from typing import Annotated, TypeVar
+
+from anyio import create_task_group, get_cancelled_exc_class, to_thread
+from fastapi import Depends
+from starlette.requests import Request
+from starlette.responses import Response
+
+from schemas.accuracy import AccuracyRequest
+from schemas.base import Model
+from schemas.pareto import ParetoRequest
+from service.guard.sizes import SizeLimits
+from service.http.request_body import read_body
+from service.http.validation import check, read_json
+from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
+from service.jobs.kinds import later
+from service.settings import Settings
+from service.watch.metrics import Metrics
+from service.watch.readiness import Readiness
+from service.watch.tracing import Tracing
+from service.workers.pool import Pool
+from service.workers.worker import Answer, Crashed, Outcome, Refused, Task
+
+Question = TypeVar("Question", bound=Model)
+Result = TypeVar("Result")
+
+_LOG = logging.getLogger(__name__)
+#: these take seconds
+_LONG = (AccuracyRequest, ParetoRequest)
+
+
+class ClientGone(Exception):
+    """The client closed its connection; nobody waits for the answer."""
+
+
+class ComputationFailed(Exception):
+    """The service is at fault; its log says where."""
+
+
+class Computing:
+    """Computes answers, once the service is ready."""
+
+    def __init__(
+        self, settings: Settings, readiness: Readiness, pool: Pool, metrics: Metrics, tracing: Tracing
+    ) -> None:
+        self._max_body_bytes = settings.max_body_bytes
+        self._body_timeout_s = settings.body_timeout_s
+        self._quotes = settings.log_machines
+        self._readiness = readiness
+        self._pool = pool
+        self._metrics = metrics
+        self._tracing = tracing
+        self.limits = SizeLimits.of(settings)
+
+    async def body(self, request: Request) -> bytes:
+        """The body of a request that needs the solver.
+
+        Raises
+        ------
+        NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow
+        """
+        self._readiness.require()
+        body = await read_body(request, self._max_body_bytes, self._body_timeout_s)
+        if self._quotes:
+            request.state.body = body
+        return body
+
+    def checked(self, model: type[Question], body: bytes) -> Question:
+        """The request in a body; one that is too large for this service is refused.
+
+        Raises
+        ------
+        UnreadableJson, InvalidRequest
+        """
+        asked = check(model, read_json(body))
+        self.limits.require(asked)
+        return asked
+
+    async def answer(self, request: Request, model: type[Question], compute: Callable[[Question], Model]) -> Response:
+        """The answer to the question in the body, or a job if the client prefers to be answered later.
+
+        Raises
+        ------
+        NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableJson, InvalidRequest, MissingInput, OutOfRange,
+        OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
+            all of which have a row in the table of :mod:`service.http.errors`, as those of jobs have.
+        """
+        body = await self.body(request)
+        kind = later(model)
+
+        def accept(kind: str) -> Response:
+            asked = self.checked(model, body).model_dump_json().encode()
+            return accepted(request, *desk_of(request).later(kind, asked, idempotency_key(request)))
+
+        if kind is not None and prefers_later(request):
+            return await to_thread.run_sync(accept, kind)
+
+        content = await self.content(request, model, compute, body)
+        return Response(content, media_type="application/json", headers={"Cache-Control": "no-store"})
+
+    async def content(
+        self, request: Request, model: type[Question], compute: Callable[[Question], Model | bytes], body: bytes
+    ) -> bytes:
+        """What a worker makes of the question in a body: a model as JSON, a document as it is.
+
+        Raises
+        ------
+        UnreadableJson, InvalidRequest, MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed,
+        ClientGone
+        """
+        task = Task(model, compute, body, self.limits, long=model in _LONG)
+        with self._tracing.span(compute.__name__):
+            outcome = await _while_connected(request, lambda: self._pool.run(task))
+        return self._judged(outcome, compute.__name__).content
+
+    def _judged(self, outcome: Outcome, name: str) -> Answer:
+        if isinstance(outcome, Refused):
+            raise outcome.error
+        if isinstance(outcome, Crashed):
+            # the message of an exception may quote the request
+            _LOG.error("%s failed\n%s%s", name, outcome.trace, f": {outcome.message}" if self._quotes else "")
+            raise ComputationFailed(name)
+        self._metrics.computed(name, outcome)
+        return outcome
+
+
+async def _while_connected(request: Request, work: Callable[[], Awaitable[Result]]) -> Result:
+    """The result of some work, which is cancelled when the client goes away."""
+    results: list[Result] = []
+    failures: list[Exception] = []
+
+    async with create_task_group() as tasks:
+
+        async def watch() -> None:
+            while (await request.receive())["type"] != "http.disconnect":
+                pass
+            tasks.cancel_scope.cancel()
+
+        tasks.start_soon(watch)
+        try:
+            results.append(await work())
+        except get_cancelled_exc_class():
+            raise
+        except Exception as error:
+            # raised below: a task group would wrap it
+            failures.append(error)
+        tasks.cancel_scope.cancel()
+    if failures:
+        raise failures[0]
+    if not results:
+        raise ClientGone
+    return results[0]
+
+
+def computing(request: Request) -> Computing:
+    """The application's :class:`Computing`."""
+    found: Computing = request.app.state.computing
+    return found
+
+
+Computes = Annotated[Computing, Depends(computing)]

@@ -1,0 +1,1 @@
+"""What watches the service: log, metrics, traces, readiness."""

@@ -1,0 +1,96 @@
+"""One line of the log, one count of the metrics and one span for every request."""
+
+import logging
+import re
+import secrets
+import time
+from typing import Any
+
+from starlette.datastructures import Headers, MutableHeaders
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from service.watch.logs import REQUEST
+from service.watch.metrics import Metrics
+from service.watch.tracing import Tracing
+
+_LOG = logging.getLogger("service.requests")
+_ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
+_TRACEPARENT = re.compile(r"[0-9a-f]{2}-(?!0{32})([0-9a-f]{32})-(?!0{16})[0-9a-f]{16}-[0-9a-f]{2}(?:-.*)?")
+#: asked every few seconds by whoever looks after the service
+_PROBES = frozenset({"/healthz", "/readyz", "/metrics"})
+_LONGEST_PATH = 200
+_LONGEST_BODY = 10_000
+
+
+class RequestLog:
+    """Gives every request an id, that of the client or a new one, and says what became of it.
+
+    Parameters
+    ----------
+    bodies : whether the log quotes the bodies of requests.
+    """
+
+    def __init__(self, app: ASGIApp, metrics: Metrics, tracing: Tracing, bodies: bool) -> None:
+        self._app = app
+        self._metrics = metrics
+        self._tracing = tracing
+        self._bodies = bodies
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http":
+            await self._app(scope, receive, send)
+            return
+        begun = time.perf_counter()
+        headers = Headers(scope=scope)
+        given = headers.get("x-request-id", "")
+        request_id = given if _ID.fullmatch(given) else secrets.token_hex(16)
+        traced = _TRACEPARENT.fullmatch(headers.get("traceparent", ""))
+        method = "HEAD" if scope.get("head") else scope["method"]
+        ids = {"request_id": request_id, "trace_id": traced[1] if traced else secrets.token_hex(16)}
+        REQUEST.set(ids)
+        status = 0
+
+        async def note(message: Message) -> None:
+            nonlocal status
+            if message["type"] == "http.response.start":
+                status = message["status"]
+                MutableHeaders(scope=message)["X-Request-ID"] = request_id
+            await send(message)
+
+        with self._tracing.request(method, headers) as span:
+            try:
+                await self._app(scope, receive, note)
+            except BaseException:
+                status = status or 500
+                raise
+            finally:
+                route = _route(scope)
+                seconds = time.perf_counter() - begun
+                if span is not None:
+                    span.set_attribute("http.request.method", method)
+                    span.set_attribute("http.route", route)
+                    span.set_attribute("http.response.status_code", status)
+                self._metrics.requested(method, route, status, seconds)
+                self._say(scope, method, route, status, seconds)
+
+    def _say(self, scope: Scope, method: str, route: str, status: int, seconds: float) -> None:
+        state = scope.get("state", {})
+        caller = state.get("caller")
+        about: dict[str, Any] = {
+            "method": method,
+            "path": scope["path"][:_LONGEST_PATH],
+            "status": status,
+            "duration_ms": round(1e3 * seconds, 2),
+            "client": (scope.get("client") or ("",))[0],
+        }
+        if caller is not None and caller.key is not None:
+            about |= {"key": caller.key, "owner": caller.owner}
+        if self._bodies and "body" in state:
+            about["body"] = bytes(state["body"][:_LONGEST_BODY]).decode("utf-8", "replace")
+        level = logging.DEBUG if route in _PROBES and status < 500 else logging.INFO
+        _LOG.log(level, "%s %s %d", method, route, status, extra={**about, "about": about})
+
+
+def _route(scope: Scope) -> str:
+    found = getattr(scope.get("route"), "path", None)
+    return "unmatched" if found is None else str(found)
