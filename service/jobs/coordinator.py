@@ -19,8 +19,8 @@ from service.jobs.engines import Engine, EngineUnavailable
 from service.jobs.files import JobFiles
 from service.jobs.job import Chunk
 from service.jobs.kinds import KINDS
+from service.jobs.piece import Piece, Run, Stopped, Unanswerable
 from service.jobs.store import Store, UnknownJob
-from service.jobs.worker import Piece, Run, Stopped, Unanswerable
 
 _LOG = logging.getLogger(__name__)
 

@@ -23,9 +23,9 @@ from service.jobs.engines import engine
 from service.jobs.files import JobFiles
 from service.jobs.job import Job
 from service.jobs.kinds import table_bytes
+from service.jobs.piece import Run
 from service.jobs.selection import Selections
 from service.jobs.store import Store, UnknownJob, digest
-from service.jobs.worker import Run
 from service.settings import Settings
 
 #: the rate is that of the last so many seconds

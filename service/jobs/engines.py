@@ -8,8 +8,9 @@ from multiprocessing.context import SpawnContext
 from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
+from service.jobs.piece import Piece
 from service.jobs.spool import Spool
-from service.jobs.worker import Piece, prepare
+from service.jobs.worker import prepare
 
 _NICENESS = 10
 _CONNECT_S = 4

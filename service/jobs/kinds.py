@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
-from service.jobs.worker import Piece, Unanswerable
+from service.jobs.piece import Piece, Unanswerable
 
 if TYPE_CHECKING:
     import pyarrow as pa

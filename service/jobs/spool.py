@@ -13,7 +13,7 @@ from concurrent.futures import Executor, Future, InvalidStateError
 from contextlib import suppress
 from pathlib import Path
 
-from service.jobs.worker import Piece
+from service.jobs.piece import Piece
 
 #: bytes; a pipe takes less than this in one step
 _SHORT = 8000

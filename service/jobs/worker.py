@@ -3,33 +3,14 @@
 import os
 import signal
 import threading
-from collections.abc import Callable
-from dataclasses import dataclass
 from multiprocessing import parent_process
 from pathlib import Path
 
+from service.jobs.kinds import KINDS
+from service.jobs.piece import Piece, Stopped
+
 #: one thread each: as many workers as cores share the work already
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
-
-
-class Stopped(Exception):
-    """The flag of the job told the worker to stop."""
-
-
-class Unanswerable(Exception):
-    """The request has no answer; computing it again does not help."""
-
-
-@dataclass(frozen=True)
-class Piece:
-    """What a chunk comes to: the content of its file, and how many of its rows failed."""
-
-    content: bytes
-    failed: int
-
-
-#: kind, request, start, stop, path of the flag -> piece
-Run = Callable[[str, bytes, int, int, str], Piece]
 
 
 def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
@@ -41,8 +22,6 @@ def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
         if there is a file at ``flag``; looked for between blocks of rows.
     Unanswerable
     """
-    from service.jobs.kinds import KINDS
-
     # on a cluster without the service's folder there is no flag, and the chunk runs to its end
     where = Path(flag)
 

@@ -8,7 +8,7 @@ import time
 from typing import Any
 
 from service.jobs import worker
-from service.jobs.worker import Piece
+from service.jobs.piece import Piece
 
 #: seconds that a chunk takes on top of its work
 DELAY = "TESTS_DELAY_S"

@@ -11,7 +11,7 @@ from typing import Any
 import pyarrow as pa
 
 from service.jobs.kinds import Kind, table_bytes
-from service.jobs.worker import Piece, Stopped
+from service.jobs.piece import Piece, Stopped
 
 SCHEMA = pa.schema(
     [pa.field("index", pa.int64(), False), pa.field("value", pa.float64()), pa.field("status", pa.string())],

@@ -18,7 +18,7 @@ import pytest
 from service.jobs.coordinator import Pace
 from service.jobs.engines import Engine, Processes, engine
 from service.jobs.files import JobFiles
-from service.jobs.worker import Piece
+from service.jobs.piece import Piece
 from tests.jobs import synthetic
 from tests.jobs.house import QUICK, House
 

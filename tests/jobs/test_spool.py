@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
+from service.jobs.piece import Piece
 from service.jobs.spool import Spool
-from service.jobs.worker import Piece
 
 
 def piece(size: int) -> Piece:

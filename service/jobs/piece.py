@@ -1,0 +1,24 @@
+"""What a chunk comes to, and the ways in which it comes to nothing."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+
+class Stopped(Exception):
+    """The flag of the job told the worker to stop."""
+
+
+class Unanswerable(Exception):
+    """The request has no answer; computing it again does not help."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """What a chunk comes to: the content of its file, and how many of its rows failed."""
+
+    content: bytes
+    failed: int
+
+
+#: kind, request, start, stop, path of the flag -> piece
+Run = Callable[[str, bytes, int, int, str], Piece]
