@@ -15,7 +15,11 @@ from service.cli import app
 from service.documents.examples import bodies
 from tests.docs.reading import ROOT, agrees, blocks
 
-DOCUMENTS = ["README.md", *sorted(f"docs/{path.name}" for path in (ROOT / "docs").glob("*.md"))]
+DOCUMENTS = [
+    "README.md",
+    "CHANGELOG.md",
+    *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md")),
+]
 COMMANDS = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}
 GROUPS = {group.name for group in app.registered_groups}
 
