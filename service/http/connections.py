@@ -11,6 +11,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.guard.refusals import TooManyConnections
 from service.http.errors import PROBLEM_JSON, Fault, answered, problem
+from service.http.joined import Joined
 from service.settings import Settings
 
 _TITLES = {431: "Headers too large", 501: "Not implemented"}
@@ -41,7 +42,7 @@ class Connection(H11Protocol):
         self._write_timer: asyncio.TimerHandle | None = None
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        super().connection_made(transport)
+        super().connection_made(Joined(transport, self.loop))  # type: ignore[arg-type]
         if len(self.connections) > self.max_connections:
             self.app = _refused(self.max_connections)
         self._watch_headers()
@@ -89,6 +90,7 @@ class Connection(H11Protocol):
         super().on_response_complete()
         if self.conn.their_state is h11.SEND_BODY:
             self._watch_headers()
+        self.transport.flush()  # type: ignore[attr-defined]
         # what is left is too little to pause for, and still must not stay for ever
         if self.transport.get_write_buffer_size():
             self._watch_writing()

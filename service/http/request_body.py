@@ -1,9 +1,15 @@
 """The body of a request, up to a size and for a time."""
 
-from email.message import Message
+import re
 
 from anyio import fail_after
 from starlette.requests import Request
+
+_TOKEN = r"[!#$%&'*+.^_`|~0-9A-Za-z-]+"
+#: RFC 9110, 8.3.1 and 5.6.6; a parameter may be empty
+_MEDIA_TYPE = re.compile(rf"[ \t]*({_TOKEN}/{_TOKEN})[ \t]*((?:;.*)?)")
+_PARAMETER = re.compile(rf';[ \t]*(?:({_TOKEN})=({_TOKEN}|"(?:[^"\\]|\\.)*"))?[ \t]*')
+_UTF_8 = (("charset", "utf-8"), ("charset", "utf8"))
 
 
 class UnsupportedMedia(ValueError):
@@ -58,12 +64,26 @@ def require_json(request: Request) -> None:
     UnsupportedMedia
         if it is anything else, or nothing was announced.
     """
-    announced = Message()
-    announced["content-type"] = request.headers.get("content-type", "text/plain")
-    kind = announced.get_content_type()
+    kind, parameters = _media_type(request.headers.get("content-type", "text/plain"))
     if not (kind == "application/json" or (kind.startswith("application/") and kind.endswith("+json"))):
         raise UnsupportedMedia("Send the body as Content-Type: application/json.")
-    if (announced.get_content_charset("utf-8")) not in ("utf-8", "utf8"):
+    # charset* and charset*0 are forms of mail, which HTTP does not have here
+    if any(name.startswith("charset") and (name, value) not in _UTF_8 for name, value in parameters):
         raise UnsupportedMedia("Send the body in UTF-8.")
     if request.headers.get("content-encoding", "identity").strip().lower() != "identity":
         raise UnsupportedMedia("Send the body uncompressed.")
+
+
+def _media_type(announced: str) -> tuple[str, list[tuple[str, str]]]:
+    """Kind and parameters of a ``Content-Type`` in small letters; an empty kind if it is none."""
+    found = _MEDIA_TYPE.fullmatch(announced)
+    if found is None:
+        return "", []
+    parameters, end = [], 0
+    for one in _PARAMETER.finditer(found[2]):
+        if one.start() != end:
+            break
+        end = one.end()
+        if one[1]:
+            parameters.append((one[1].lower(), one[2].strip('"').lower()))
+    return (found[1].lower(), parameters) if end == len(found[2]) else ("", [])

@@ -164,7 +164,11 @@ def _compressed() -> Iterator[Raw]:
 
 
 def _announced() -> Iterator[Raw]:
-    kinds = ("text/plain", "application/xml", "", "application/json; charset=utf-16", "a/b/c;;=", "*/*", "x" * 5000)
+    kinds = (
+        "text/plain", "application/xml", "", "application/json; charset=utf-16", "a/b/c;;=", "*/*", "x" * 5000,
+        "application/json; charset*=a; charset*0=b", f"application/json; charset*{'9' * 5000}=b",
+        "application/json; charset*0*=utf-8''a; charset*1=b", 'application/json; charset="', "application/json; =a",
+    )  # fmt: skip
     for path, body in QUESTIONS.items():
         for kind in kinds:
             yield request("POST", path, json.dumps(body).encode(), {"Content-Type": kind})

@@ -100,7 +100,15 @@ def test_a_client_that_hangs_up_early_leaves_no_traceback(server: tuple[str, int
 
 
 @pytest.mark.parametrize(
-    "odd", [b"\xff/\xff", b'application/json; charset*0="a\xff"; charset*1*=%fe', b"a/b/c;;=", b"="]
+    "odd",
+    [
+        b"\xff/\xff",
+        b'application/json; charset*0="a\xff"; charset*1*=%fe',
+        b"application/json; charset*=a; charset*0=b",
+        b"application/json; charset*" + b"9" * 5000 + b"=b",
+        b"a/b/c;;=",
+        b"=",
+    ],
 )
 def test_odd_headers(server: tuple[str, int], odd: bytes) -> None:
     with socket.create_connection(server, timeout=30) as connection:
