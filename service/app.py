@@ -113,7 +113,13 @@ def create_app(
     chosen = settings or Settings()
     readiness = Readiness()
     desk = jobs or Desk(chosen)
-    pool = Pool(chosen.concurrent_solves, chosen.queue_length, chosen.request_timeout_s, chosen.solve_memory_mb)
+    pool = Pool(
+        chosen.concurrent_solves,
+        chosen.queue_length,
+        chosen.queue_length_each,
+        chosen.request_timeout_s,
+        chosen.solve_memory_mb,
+    )
     metrics = Metrics(pool, desk.counts)
     traces = tracing(chosen)
 

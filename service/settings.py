@@ -72,13 +72,18 @@ class _Sizes(BaseSettings):
 
 
 class _Work(BaseSettings):
-    """How much is computed at a time, and for how long."""
+    """How much is computed at a time, and for how long; a client is the owner of a key, or an address without keys."""
 
     concurrent_solves: int = Field(
-        default_factory=lambda: os.cpu_count() or 1, ge=1, description="computations at the same time, a process each"
+        default_factory=lambda: os.cpu_count() or 1,
+        ge=1,
+        description="computations at the same time, a process each; one more for a client that has none",
     )
     queue_length: int = Field(
         128, ge=0, description="requests that wait for a computation; further ones are answered 429"
+    )
+    queue_length_each: int = Field(
+        64, ge=0, description="requests of one client that wait for a computation; further ones are answered 429"
     )
     request_timeout_s: float = Field(
         60, gt=0, description="a request that waits and computes for longer is answered 503 [s]"

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from service.guard.addresses import client_network
 from service.guard.keys import ANYONE, NOBODY, PUBLIC, PUBLIC_FOLDERS, Caller, Keys
 from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
@@ -24,7 +25,7 @@ _JOBS: Mapping[str, tuple[KeyScope, ...]] = {
 class Access:
     """Lets requests pass that have a key with the scope they need, and not too many of them.
 
-    Whose request it is goes into ``state["caller"]``.
+    Whose request it is goes into ``state["caller"]``, and whose share of the service it takes into ``state["who"]``.
     """
 
     def __init__(self, app: ASGIApp, keys: Keys | None, limits: RateLimits) -> None:
@@ -41,7 +42,7 @@ class Access:
         except (Unauthorized, Forbidden, TooManyRequests) as error:
             await answered(error, scope["path"])(scope, receive, send)
             return
-        scope.setdefault("state", {})["caller"] = caller
+        scope.setdefault("state", {}).update(caller=caller, who=_who(scope, caller))
         await self._app(scope, receive, send)
 
     async def _admitted(self, scope: Scope, keys: Keys | None) -> Caller:
@@ -61,6 +62,10 @@ class Access:
         if not caller.may(*needed):
             raise Forbidden(needed)
         return caller
+
+
+def _who(scope: Scope, caller: Caller) -> str:
+    return f"owner {caller.owner}" if caller.owner is not None else client_network((scope.get("client") or ("",))[0])
 
 
 def _own_path(scope: Scope) -> str:

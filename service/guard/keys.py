@@ -5,7 +5,6 @@ A key holds 256 random bits, so that no dictionary helps against a hash and a fa
 
 import hashlib
 import hmac
-import ipaddress
 import logging
 import os
 import re
@@ -21,6 +20,7 @@ from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
 from starlette.requests import Request
 
 from schemas.base import Model
+from service.guard.addresses import is_loopback
 from service.settings import Settings
 
 #: compute: the computing routes; sweeps: start, resume and delete jobs; read: see the jobs of the same owner;
@@ -88,6 +88,12 @@ NOBODY = Caller(None, None, frozenset())
 def caller_of(request: Request) -> Caller:
     """Whose request it is; :class:`~service.guard.access.Access` has found out."""
     found: Caller = request.state.caller
+    return found
+
+
+def who(request: Request) -> str:
+    """Whose share of the service a request takes: the owner of its key, or the address that it comes from."""
+    found: str = request.state.who
     return found
 
 
@@ -220,16 +226,6 @@ def keys(settings: Settings) -> Keys | None:
         f"other machines reach {settings.host}: set COUNTERWEIGHT_KEYS_FILE to a file made with `counterweight key`, "
         "or COUNTERWEIGHT_ALLOW_WITHOUT_KEYS=true"
     )
-
-
-def is_loopback(host: str) -> bool:
-    """Whether only this machine reaches an address."""
-    if host == "localhost":
-        return True
-    try:
-        return ipaddress.ip_address(host).is_loopback
-    except ValueError:
-        return False
 
 
 _RECORD = TypeAdapter(KeyRecord)

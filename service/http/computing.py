@@ -12,6 +12,7 @@ from starlette.responses import Response
 from schemas.accuracy import AccuracyRequest
 from schemas.base import Model
 from schemas.pareto import ParetoRequest
+from service.guard.keys import who
 from service.guard.sizes import SizeLimits
 from service.http.request_body import read_body
 from service.http.validation import check, read_json
@@ -113,7 +114,7 @@ class Computing:
         """
         task = Task(model, compute, body, self.limits, long=model in _LONG)
         with self._tracing.span(compute.__name__):
-            outcome = await _while_connected(request, lambda: self._pool.run(task))
+            outcome = await _while_connected(request, lambda: self._pool.run(task, who(request)))
         return self._judged(outcome, compute.__name__).content
 
     def _judged(self, outcome: Outcome, name: str) -> Answer:

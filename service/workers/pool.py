@@ -3,7 +3,7 @@
 import logging
 import multiprocessing
 from collections.abc import Callable
-from contextlib import nullcontext, suppress
+from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 from anyio import CancelScope, CapacityLimiter, fail_after, get_cancelled_exc_class, move_on_after, to_thread
 from anyio import wait_readable as readable
 
+from service.workers.turns import Full, Turns
 from service.workers.worker import Crashed, Outcome, Task, serve
 
 _LOG = logging.getLogger(__name__)
@@ -129,23 +130,23 @@ class Pool:
 
     Parameters
     ----------
-    size : computations at a time.
+    size : computations at a time; one more where somebody has none.
     waiting : requests that may wait for one.
+    each : requests of one owner that may wait.
     timeout_s : for waiting and computing [s].
     memory_mb : of one worker [MB].
     """
 
     size: int
     waiting: int
+    each: int
     timeout_s: float
     memory_mb: int
     counts: PoolCounts = field(default_factory=PoolCounts)
 
     def __post_init__(self) -> None:
-        self._slots = CapacityLimiter(self.size)
-        # tasks that take seconds never take every worker, if there are two at least
-        self._long = CapacityLimiter(max(1, self.size // 2))
-        self._threads = CapacityLimiter(2 * self.size)
+        self._turns = Turns(self.size, self.waiting, self.each)
+        self._threads = CapacityLimiter(2 * (self.size + 1))
         self._idle: list[_Worker] = []
         self._busy: set[_Worker] = set()
         # of recent computations, for Retry-After [s]
@@ -158,7 +159,7 @@ class Pool:
 
     @property
     def queued(self) -> int:
-        return self._slots.statistics().tasks_waiting + self._long.statistics().tasks_waiting
+        return self._turns.waiting
 
     @property
     def pids(self) -> tuple[int, ...]:
@@ -183,24 +184,22 @@ class Pool:
         while self._idle:
             self._idle.pop().end()
 
-    async def run(self, task: Task) -> Outcome:
-        """The outcome of a task; if the caller is cancelled, its worker is ended.
+    async def run(self, task: Task, owner: str) -> Outcome:
+        """The outcome of a task of an owner; if the caller is cancelled, its worker is ended.
 
         Raises
         ------
         Busy, TooSlow, WorkerDied, WorkersFailed
         """
-        gate = self._long if task.long else nullcontext()
-        full = self._slots.available_tokens < 1 or (task.long and self._long.available_tokens < 1)
-        if full and self.queued >= self.waiting:
-            self.counts.refused_busy += 1
-            raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size)))
         computing = False
         try:
             with fail_after(self.timeout_s):
-                async with gate, self._slots:
+                async with self._turns.turn(owner, task.long):
                     computing = True
                     return await self._computed(task)
+        except Full:
+            self.counts.refused_busy += 1
+            raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size))) from None
         except TimeoutError:
             self.counts.ended_late += 1
             raise TooSlow(self.timeout_s, computing) from None

@@ -15,7 +15,7 @@ from tests.network.tasks import task
 
 @pytest.fixture
 def pool() -> Iterator[Pool]:
-    made = Pool(size=2, waiting=2, timeout_s=30, memory_mb=2000)
+    made = Pool(size=2, waiting=2, each=2, timeout_s=30, memory_mb=2000)
     yield made
     made.close()
 
@@ -26,7 +26,7 @@ def run(pool: Pool, *asked: object) -> list[Outcome | Exception]:
 
     async def one(index: int) -> None:
         try:
-            found[index] = await pool.run(asked[index])  # type: ignore[arg-type]
+            found[index] = await pool.run(asked[index], "one")  # type: ignore[arg-type]
         except Exception as error:
             found[index] = error
 
@@ -79,10 +79,10 @@ def test_long_tasks_leave_a_worker_to_the_others(pool: Pool) -> None:
     async def three_at_once() -> None:
         async with anyio.create_task_group() as group:
             for _ in range(2):
-                group.start_soon(pool.run, task(tasks.slow, long=True))
+                group.start_soon(pool.run, task(tasks.slow, long=True), "one")
             await anyio.sleep(0.1)
             begun = time.monotonic()
-            assert isinstance(await pool.run(task(tasks.quick)), Answer)
+            assert isinstance(await pool.run(task(tasks.quick), "one"), Answer)
             found.append(time.monotonic() - begun)
 
     anyio.run(three_at_once)
@@ -125,9 +125,9 @@ def test_a_task_whose_caller_is_gone_is_ended(pool: Pool) -> None:
 
     async def leave() -> None:
         with anyio.move_on_after(0.3):
-            await pool.run(task(tasks.endless))
+            await pool.run(task(tasks.endless), "one")
         assert pool.running == 0
-        assert isinstance(await pool.run(task(tasks.quick)), Answer)
+        assert isinstance(await pool.run(task(tasks.quick), "one"), Answer)
 
     begun = time.monotonic()
     anyio.run(leave)
