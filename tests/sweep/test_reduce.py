@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.sweep import ParetoFilter, Reducer, Top, reducer
-from optimizer.sweep.reduce import unbeaten
+from optimizer.sweep.reduce import TooManyRows, unbeaten
 from schemas.sweep import SweepRequest, TopFilter
 from tests.sweep.single import example, sweep, table
 
@@ -76,6 +76,42 @@ def test_a_front_that_holds_every_point(size: int) -> None:
     assert np.all(unbeaten(sphere))
     both = np.concatenate([sphere, sphere + 1e-6])
     assert np.array_equal(unbeaten(both), np.arange(3000) < 1500)
+
+
+@pytest.mark.parametrize("size", [2, 3, 4, 6])
+@pytest.mark.parametrize("levels", [2, 6, 40])
+def test_ties_by_the_hundred(size: int, levels: int) -> None:
+    points = np.random.default_rng(size * levels).integers(levels, size=(900, size)).astype(float)
+    # independent: the definition, pair by pair
+    no_larger = np.all(points[None, :, :] <= points[:, None, :], axis=-1)
+    smaller = np.any(points[None, :, :] < points[:, None, :], axis=-1)
+    assert np.array_equal(unbeaten(points), ~np.any(no_larger & smaller, axis=-1))
+
+
+def test_a_long_comparison_can_be_ended() -> None:
+    calls = 0
+
+    def proceed() -> None:
+        nonlocal calls
+        calls += 1
+        if calls == 20:
+            raise TimeoutError
+
+    with pytest.raises(TimeoutError):
+        unbeaten(np.random.default_rng(0).random((5000, 4)), proceed)
+
+
+def test_no_more_rows_than_may_be_kept() -> None:
+    # analytic: what rises in one column falls in the other, so every row is on the front
+    rows = as_table([(float(k), -float(k), 0.0) for k in range(100)])
+    for most in (99, 100):
+        tool = ParetoFilter("ab", rows.schema, most)
+        tool.add(rows)
+        if most == 100:
+            assert tool.table().num_rows == 100
+        else:
+            with pytest.raises(TooManyRows, match="more than 99 rows"):
+                tool.table()
 
 
 def test_memory_is_that_of_what_is_kept() -> None:
