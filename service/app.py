@@ -13,6 +13,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.documents import reference_page
 from service.guard.access import Access
+from service.guard.hosts import Hosts
 from service.guard.keys import keys
 from service.guard.rates import RateLimits
 from service.http import errors
@@ -141,7 +142,7 @@ def create_app(
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(CORSMiddleware, chosen.cors_origins, **CORS),
-            Middleware(Access, keys(chosen), RateLimits(chosen)),
+            Middleware(Access, keys(chosen), Hosts(chosen.allowed_hosts), RateLimits(chosen)),
         ),
         title="counterweight",
         version=version("counterweight"),

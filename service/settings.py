@@ -42,8 +42,9 @@ class _Network(BaseSettings):
         "", pattern=r"^(/[A-Za-z0-9._~-]+)*$", description="path prefix that a proxy in front strips, such as /balance"
     )
     trusted_proxies: Names = Field(
-        ("127.0.0.1", "::1"),
-        description="addresses of proxies whose X-Forwarded-For and X-Forwarded-Proto are believed, comma-separated",
+        (),
+        description="addresses or networks of proxies whose X-Forwarded-For and X-Forwarded-Proto are believed, "
+        "comma-separated",
     )
     max_connections: int = Field(1000, ge=1, description="open connections; further ones are answered 503")
     headers_timeout_s: float = Field(
@@ -107,6 +108,11 @@ class _Access(BaseSettings):
     )
     allow_without_keys: bool = Field(
         False, description="whether to serve without keys on an address that other machines reach"
+    )
+    allowed_hosts: Names = Field(
+        (),
+        description="hosts, without ports, that requests may name besides this machine where nobody needs a key, "
+        "comma-separated; * is any",
     )
     cors_origins: Names = Field((), description="origins whose pages may ask, comma-separated; * is any")
     hsts_s: int = Field(0, ge=0, description="Strict-Transport-Security of answers over https [s]; 0 sends none")

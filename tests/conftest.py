@@ -10,6 +10,8 @@ from hypothesis import settings
 # no test may touch the jobs of whoever runs it; processes that tests start inherit this
 _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
 os.environ["COUNTERWEIGHT_DATA_DIR"] = _DATA.name
+# the host that the test client names; a service without keys answers for no others than this machine
+os.environ["COUNTERWEIGHT_ALLOWED_HOSTS"] = "testserver"
 
 # times are for benchmarks, and a run that failed must fail again;
 # HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time

@@ -6,10 +6,11 @@ from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.guard.addresses import client_network
-from service.guard.keys import ANYONE, NOBODY, PUBLIC, PUBLIC_FOLDERS, Caller, Keys
+from service.guard.hosts import Hosts
+from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys
 from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
-from service.guard.refusals import Forbidden, Unauthorized
+from service.guard.refusals import Forbidden, ForeignHost, Unauthorized
 from service.http.errors import answered
 
 #: any key will do
@@ -25,12 +26,15 @@ _JOBS: Mapping[str, tuple[KeyScope, ...]] = {
 class Access:
     """Lets requests pass that have a key with the scope they need, and not too many of them.
 
+    Where nobody needs a key, those for hosts that are known.
+
     Whose request it is goes into ``state["caller"]``, and whose share of the service it takes into ``state["who"]``.
     """
 
-    def __init__(self, app: ASGIApp, keys: Keys | None, limits: RateLimits) -> None:
+    def __init__(self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits) -> None:
         self._app = app
         self._keys = keys
+        self._hosts = hosts
         self._limits = limits
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -39,7 +43,7 @@ class Access:
             return
         try:
             caller = await self._admitted(scope, self._keys)
-        except (Unauthorized, Forbidden, TooManyRequests) as error:
+        except (Unauthorized, Forbidden, ForeignHost, TooManyRequests) as error:
             await answered(error, scope["path"])(scope, receive, send)
             return
         scope.setdefault("state", {}).update(caller=caller, who=_who(scope, caller))
@@ -48,6 +52,9 @@ class Access:
     async def _admitted(self, scope: Scope, keys: Keys | None) -> Caller:
         path = _own_path(scope)
         if keys is None:
+            # who asks for health comes by whatever address there is, and learns nothing else
+            if path not in PROBES:
+                self._hosts.require(scope)
             return ANYONE
         if path in PUBLIC or path.startswith(PUBLIC_FOLDERS):
             return NOBODY

@@ -28,7 +28,8 @@ from service.settings import Settings
 Scope = Literal["compute", "sweeps", "read", "metrics", "admin"]
 SCOPES: tuple[Scope, ...] = get_args(Scope)
 #: everything else needs a key, whether there is anything at the path or not
-PUBLIC = frozenset({"/", "/healthz", "/readyz", "/docs", "/openapi.json", "/favicon.ico"})
+PROBES = frozenset({"/healthz", "/readyz"})
+PUBLIC = PROBES | {"/", "/docs", "/openapi.json", "/favicon.ico"}
 PUBLIC_FOLDERS = ("/docs/assets/", "/portal/")
 
 _LOG = logging.getLogger(__name__)

@@ -20,6 +20,16 @@ class Forbidden(Exception):
         super().__init__(f"This needs a key with the scope {' or '.join(scopes)}.")
 
 
+class ForeignHost(Exception):
+    """The request is for a host that this service does not answer for."""
+
+    def __init__(self) -> None:
+        super().__init__(
+            "Nobody needs a key here, so this service answers only for hosts that it knows: this machine, and those of "
+            "COUNTERWEIGHT_ALLOWED_HOSTS."
+        )
+
+
 class TooManyConnections(Exception):
     """As many connections as are allowed are open; a retry may help."""
 

@@ -18,7 +18,7 @@ from schemas.base import FieldProblem
 from schemas.problem import FieldError, Problem
 from service.documents.examples import UnknownExample
 from service.guard.rates import TooManyRequests
-from service.guard.refusals import Forbidden, TooManyConnections, Unauthorized
+from service.guard.refusals import Forbidden, ForeignHost, TooManyConnections, Unauthorized
 from service.http.computing import ClientGone, ComputationFailed
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
 from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
@@ -118,6 +118,7 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     ClientGone: _fixed(499, "Client gone", "The client closed its connection."),
     Unauthorized: _unauthorized,
     Forbidden: _fixed(403, "Forbidden"),
+    ForeignHost: _fixed(421, "Misdirected request"),
     TooManyRequests: _too_many("Too many requests"),
     TooManyConnections: _later(503, "Too many connections", 1),
     Busy: _too_many("Busy"),

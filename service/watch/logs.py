@@ -4,7 +4,9 @@ Everything in the package and in its libraries logs with :mod:`logging`; python-
 formatter covers them all and nothing has to be logged in another way.
 """
 
+import json
 import logging
+import re
 import sys
 import traceback
 from contextvars import ContextVar
@@ -54,15 +56,27 @@ class _Json(JsonFormatter):
         return logging.Formatter.formatException(self, ei) if self._quotes else _frames(ei)
 
 
+#: characters that end a line or move a cursor, but for the end of a line itself
+_CONTROLS = {code: f"\\x{code:02x}" for code in (*range(10), *range(11, 32), *range(127, 160), 0x2028, 0x2029)}
+_PLAIN = re.compile(r"[!#-~]+")
+
+
+def _field(value: Any) -> str:
+    """A value as it is, or quoted where it might be taken for something else."""
+    return str(value) if _PLAIN.fullmatch(str(value)) else json.dumps(str(value))
+
+
 class _Text(logging.Formatter):
+    """A line begins with its time; what goes on is indented, so that nobody who is quoted begins a line."""
+
     def __init__(self, quotes: bool) -> None:
         super().__init__("%(asctime)s %(levelname)-7s %(message)s")
         self._quotes = quotes
 
     def format(self, record: logging.LogRecord) -> str:
-        said = super().format(record)
         about: dict[str, Any] = getattr(record, "about", {})
-        return " ".join([said, *(f"{name}={value}" for name, value in about.items())])
+        said = " ".join([super().format(record), *(f"{name}={_field(value)}" for name, value in about.items())])
+        return "\n    ".join(said.translate(_CONTROLS).split("\n"))
 
     def formatException(self, ei: _ExcInfo) -> str:
         return super().formatException(ei) if self._quotes else _frames(ei)

@@ -213,8 +213,8 @@ def _headers() -> Iterator[Raw]:
 
 def _no_http() -> Iterator[Raw]:
     yield from (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", b"\0" * 5000)
-    yield from (b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET /\xff HTTP/1.1\r\nHost: x\r\n\r\n", b"\r\n" * 500)
-    post = b"POST /v1/optimize HTTP/1.1\r\nHost: x\r\nContent-Type: application/json\r\n"
+    yield from (b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET /\xff HTTP/1.1\r\nHost: [::1]\r\n\r\n", b"\r\n" * 500)
+    post = b"POST /v1/optimize HTTP/1.1\r\nHost: localhost\r\nContent-Type: application/json\r\n"
     for rest in (
         b"Content-Length: -1\r\n\r\n{}",
         b"Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}",

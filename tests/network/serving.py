@@ -86,7 +86,7 @@ class Service:
 
 def request(method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None) -> bytes:
     """A request as it goes over the wire; the connection is closed after it unless the headers say otherwise."""
-    given = {"Host": "x", "Connection": "close", "Content-Type": "application/json", **(headers or {})}
+    given = {"Host": "localhost", "Connection": "close", "Content-Type": "application/json", **(headers or {})}
     if body and "Transfer-Encoding" not in given:
         given.setdefault("Content-Length", str(len(body)))
     lines = "".join(f"{name}: {value}\r\n" for name, value in given.items())

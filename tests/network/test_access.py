@@ -1,5 +1,6 @@
 """Keys: who may do what, and what those learn who may not."""
 
+import asyncio
 import json
 import time
 from collections.abc import Iterator
@@ -14,6 +15,7 @@ from service.documents.examples import bodies
 from service.guard import keys
 from service.guard.keys import BadKeyFile, KeyRecord, Scope
 from service.settings import Settings
+from tests.network.serving import Service, service
 
 KEYS: dict[str, tuple[str, tuple[Scope, ...], dict[str, Any]]] = {
     "alice": ("alice", ("compute", "sweeps", "read"), {}),
@@ -165,6 +167,23 @@ def test_those_who_guess_are_slowed_down(made: tuple[Path, dict[str, str]]) -> N
         assert statuses == [401] * 3 + [429] * 2
         # who has a key is not locked out by a neighbour who guesses
         assert client.get("/v1/examples", headers={"X-API-Key": made[1]["alice"]}).status_code == 200
+
+
+async def _guess(target: Service, forwarded: str) -> int:
+    headers = {"X-API-Key": "x", "X-Forwarded-For": forwarded}
+    return (await target.ask("GET", "/v1/examples", headers=headers)).status
+
+
+def test_nobody_avoids_that_by_saying_that_he_is_another_one(made: tuple[Path, dict[str, str]]) -> None:
+    with service(keys_file=str(made[0]), refusal_limit="3/hour") as target:
+        statuses = [asyncio.run(_guess(target, f"10.0.0.{k}")) for k in range(5)]
+    assert statuses == [401] * 3 + [429] * 2
+
+
+def test_a_proxy_is_believed_if_it_is_named(made: tuple[Path, dict[str, str]]) -> None:
+    with service(keys_file=str(made[0]), refusal_limit="1/hour", trusted_proxies="127.0.0.0/8") as target:
+        statuses = [asyncio.run(_guess(target, address)) for address in ("10.0.0.1", "10.0.0.2", "10.0.0.1")]
+    assert statuses == [401, 401, 429]
 
 
 def test_keys_come_and_go_while_the_service_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -94,6 +94,22 @@ def test_a_fault_is_logged_by_where_it_is(tmp_path: Path, capsys: pytest.Capture
         logging.getLogger().setLevel(kept[1])
 
 
+def test_nobody_begins_a_line_of_text() -> None:
+    with service(log_format="text") as target:
+        before = len(target.log())
+        for path in (b"/%0a2026-01-01 00:00:00,000 ERROR   forged", b"/%0d%1b[2J%c2%85%e2%80%a8x", b'/"%20status=200'):
+            asyncio.run(target.send(b"GET " + path.replace(b" ", b"%20") + b" HTTP/1.0\r\n\r\n"))
+        deadline = time.monotonic() + 10
+        while (said := target.log()[before:]).count("unmatched 404") < 3:
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+    begun = [line for line in said.split("\n") if line and not line.startswith("    ")]
+    assert len(begun) == 3
+    quoted = re.compile(r'\S+ \S+ INFO    GET unmatched 404 method=GET path="(?:[^"\\]|\\.)*" status=404 .*')
+    assert all(quoted.fullmatch(line) for line in begun)
+    assert not set(said) & set("\r\x1b\x85\u2028")
+
+
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     settings = Settings(concurrent_solves=1, data_dir=tmp_path_factory.mktemp("data"))

@@ -1,0 +1,44 @@
+"""For which hosts the service answers where nobody needs a key.
+
+A web page may give its own name the address of this machine (DNS rebinding), and a browser then lets it ask here as if
+it asked at home. The header ``Host`` tells: it holds the name of the page.
+"""
+
+import re
+from collections.abc import Iterable
+
+from starlette.datastructures import Headers
+from starlette.types import Scope
+
+from service.guard.addresses import is_loopback
+from service.guard.refusals import ForeignHost
+
+_HOST = re.compile(r"(?:\[([0-9A-Fa-f:.]+)\]|([^:\[\]/@]+))(?::[0-9]*)?")
+
+
+class Hosts:
+    """Names and addresses of this machine for itself, the address that a request came to, and those of a list.
+
+    Parameters
+    ----------
+    others : further ones; ``*`` is any.
+    """
+
+    def __init__(self, others: Iterable[str]) -> None:
+        self._others = frozenset(map(str.lower, others))
+
+    def require(self, scope: Scope) -> None:
+        """Go on only if a request asks for one of them; browsers always say for which.
+
+        Raises
+        ------
+        ForeignHost
+        """
+        asked = Headers(scope=scope).get("host")
+        if asked is None or "*" in self._others:
+            return
+        found = _HOST.fullmatch(asked)
+        host = (found[1] or found[2]).lower().removesuffix(".") if found else ""
+        came_to = (scope.get("server") or ("",))[0]
+        if not (host in self._others or is_loopback(host) or host.endswith(".localhost") or (host and host == came_to)):
+            raise ForeignHost
