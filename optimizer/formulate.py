@@ -82,4 +82,5 @@ def formulate(
 
 def smallest_peak(response: Response, machine: Machine) -> Statement:
     """The program for one peak alone, without ceilings."""
-    return statement([weighted_peak(response, 1.0)], "sum", [], limits(machine))
+    # the larger of one is that one, and its row has its name
+    return statement([weighted_peak(response, 1.0)], "max", [], limits(machine))

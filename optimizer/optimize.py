@@ -7,6 +7,7 @@ import numpy as np
 from optimizer.arrays import Complex
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order
+from optimizer.figures.proof import conflict, named, named_conflict, physical
 from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import outputs
@@ -25,6 +26,8 @@ from schemas.answers import (
     OptimizeAnswer,
     Timing,
 )
+from schemas.proof import InfeasibilityMultipliers
+from schemas.proof import Multipliers as NamedMultipliers
 from schemas.requests import OptimizeRequest
 
 #: an answer whose total mass is not certified this closely is called inaccurate
@@ -124,10 +127,23 @@ def _certified(
             objective_without_counterweights=rest * square,
             mass_lower_bound_kg=mass_bound,
             mass_relative_gap=mass_gap,
+            mass_objective_limit=solution.mass_target * square if goal.least_mass else None,
             method=solution.method,
+            multipliers=_multipliers(statement, solution, square),
         ),
         **outputs(scene, u),
     }
+
+
+def _multipliers(statement: Statement, solution: Solution, omega_squared: float) -> NamedMultipliers:
+    """The proofs of both stages."""
+    # a bound that is printed has multipliers: rest, at least, proves one
+    assert solution.multipliers is not None
+    of_mass = solution.mass_multipliers
+    return NamedMultipliers(
+        objective=named(statement, physical(statement, solution.multipliers, "objective", omega_squared)),
+        mass=None if of_mass is None else named(statement, physical(statement, of_mass, "mass", omega_squared)),
+    )
 
 
 def _touched(request: OptimizeRequest, scene: Prepared, u: Complex, mass: float) -> tuple[MachineLimit, ...]:
@@ -149,10 +165,14 @@ def _infeasible(
 ) -> dict[str, object]:
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
     square, allowed = scene.omega_squared, ceilings(request.objective)
-    smallest, bound = {}, {}
+    smallest, bound, proofs = {}, {}, {}
     for response in scene.responses:
-        alone = optimum(smallest_peak(response, request.machine), 1e-9, False, solver)
-        assert isinstance(alone, Solution)  # without ceilings nothing is unreachable
+        peak = smallest_peak(response, request.machine)
+        alone = optimum(peak, 1e-9, False, solver)
+        # without ceilings nothing is unreachable, and rest proves something
+        assert isinstance(alone, Solution)
+        assert alone.multipliers is not None
+        proofs[response.name] = named(peak, physical(peak, alone.multipliers, "objective", square))
         smallest[response.name], bound[response.name] = alone.objective * square, alone.lower_bound * square
     impossible = [name for name in allowed if bound[name] > allowed[name]]
     field = {"force": "force_ceiling_N", "moment": "moment_ceiling_Nm"}
@@ -169,6 +189,11 @@ def _infeasible(
             smallest_force_lower_bound_N=bound["force"],
             smallest_moment_lower_bound_Nm=bound["moment"],
             closest=Closest(counterweights=fitted, first_order=first_order(scene.first_order(u))),
+            multipliers=InfeasibilityMultipliers(
+                conflict=named_conflict(statement, conflict(statement, proof.multipliers, square)),
+                smallest_force=proofs["force"],
+                smallest_moment=proofs["moment"],
+            ),
         ),
         **outputs(scene, None),
     }

@@ -16,6 +16,7 @@ from schemas.dynamics import (
     Torque,
 )
 from schemas.outputs import Hodographs, OrdersComparison, Stages
+from schemas.proof import InfeasibilityMultipliers, Multipliers
 from schemas.quantities import (
     Degrees,
     KilogramMetres,
@@ -126,7 +127,16 @@ class Certificate(Model):
     mass_relative_gap: float | None = Field(
         description="total mass above that bound, relative to the total mass", examples=[2e-9]
     )
+    mass_objective_limit: float | None = Field(
+        description="largest objective that counts as an optimum in the bound of the mass; null if least mass was not"
+        " asked for",
+        examples=[30345.06],
+    )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
+    multipliers: Multipliers = Field(
+        description="the multipliers of both bounds, with which anybody can evaluate them again",
+        examples=[{"objective": {"rows": [{"name": "sum", "value": 1.0}]}}],
+    )
 
 
 class ShadowPrice(Model):
@@ -187,6 +197,10 @@ class Infeasibility(Model):
         description="certified: no counterweights within the limits have a smaller peak moment", examples=[9747.0]
     )
     closest: Closest = Field(description="the best compromise with the ceilings", examples=[{"counterweights": []}])
+    multipliers: InfeasibilityMultipliers = Field(
+        description="the multipliers that prove the conflict and both bounds",
+        examples=[{"conflict": {"rows": [{"name": "force", "value": 0.01}]}}],
+    )
 
 
 class Outputs(Model):

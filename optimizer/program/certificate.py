@@ -56,6 +56,15 @@ class Multipliers:
         return Multipliers(self.term * shrink, row, self.ceiling)
 
 
+def nothing_proven(statement: Statement) -> Multipliers:
+    """Multipliers that are all 0, which prove that no mass is below 0."""
+    return Multipliers(
+        np.zeros_like(statement.norms.constant),
+        np.zeros_like(statement.floor),
+        np.zeros_like(statement.ceilings.norms.constant),
+    )
+
+
 def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Real:
     """No u within limits and ceilings has a smaller objective than this (...).
 
@@ -83,6 +92,29 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
     charge = np.sum(usable.row, axis=-1) * target
     least, rounding = _least_over_limits(slope, np.ones_like(statement.limits.radius), statement.limits)
     return np.maximum(constant - charge + least - noise - rounding - _ROUNDING * np.abs(charge), 0.0)
+
+
+def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: float) -> Real:
+    """Price of the budget at which the knapsack of the bound is priced exactly (...).
+
+    It is the gain of the web at which the budget ends, 0 where it does not end; with it the knapsack is
+    sum_k max_mass_k max(gain_k - price, 0) + price budget (docs/mathematics.md section 5).
+
+    Parameters
+    ----------
+    mass_cost : 0 in a bound on the objective, 1 in one on the mass.
+    """
+    limits = statement.limits
+    _, slope, _ = _lagrangian(statement, multipliers)
+    return knapsack_price(limits.radius * limits.support(-slope) - mass_cost, limits)
+
+
+def knapsack_price(gain: Real, limits: Limits) -> Real:
+    """Gain per kilogram (..., K) of the web at which the budget ends, at least 0; 0 where it does not end (...)."""
+    order = np.argsort(-gain, axis=-1, kind="stable")
+    spent = np.cumsum(np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1), axis=-1)
+    unpaid = spent > limits.max_total_mass[..., None]
+    return np.max(np.where(unpaid, np.take_along_axis(gain, order, axis=-1), 0.0), axis=-1, initial=0.0)
 
 
 def _lagrangian(statement: Statement, multipliers: Multipliers) -> tuple[Real, Complex, Real]:

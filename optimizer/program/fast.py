@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
+from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.polish import resting_multipliers
 from optimizer.program.scaling import natural_reach
@@ -53,6 +53,8 @@ class Fast:
     smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
     certified: np.ndarray  # (N,) bool: nothing better is worth looking for
     multipliers: Multipliers  # (N, ...), those of the lower bound
+    mass_multipliers: Multipliers  # (N, ...), those of the lower bound of the mass
+    mass_target: Real  # (N,) largest objective that this bound counts as an optimum
     certify_s: float  # time spent on bounds
 
 
@@ -80,6 +82,7 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     smallest = _better(statement, none, smallest)
     value = statement.objective(smallest)
     target = np.maximum(value, lower_bound + _TARGET * share - statement.rounding(smallest))
+    counted, mass_proof = np.maximum(value, lower_bound) + share, nothing_proven(statement)
     if not least_mass:
         chosen, mass_bound = smallest, np.zeros_like(value)
     else:
@@ -91,7 +94,8 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
             admitted = (statement.objective(point) <= target) & (_excess(statement, point) <= CEILING_TOLERANCE)
             chosen = np.where((lighter & admitted)[:, None], point, chosen)
         began = time.perf_counter()
-        mass_bound = mass_lower_bound(statement, multipliers(1, mass_unit), np.maximum(value, lower_bound) + share)
+        mass_proof = multipliers(1, mass_unit)
+        mass_bound = mass_lower_bound(statement, mass_proof, counted)
         certify_s += time.perf_counter() - began
     mass, excess = statement.mass(chosen), _excess(statement, chosen)
     objective = statement.objective(chosen)
@@ -100,7 +104,20 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     certified = (loose | (value - lower_bound <= enough)) & (excess <= CEILING_TOLERANCE)
     if least_mass:
         certified &= mass - mass_bound <= _MASS_ENOUGH * mass
-    return Fast(chosen, objective, lower_bound, mass, mass_bound, excess, smallest, certified, proof, certify_s)
+    return Fast(
+        chosen,
+        objective,
+        lower_bound,
+        mass,
+        mass_bound,
+        excess,
+        smallest,
+        certified,
+        proof,
+        mass_proof,
+        counted,
+        certify_s,
+    )
 
 
 def _solve(statement: Statement, share: Real, least_mass: bool, precision: Precision | None):  # type: ignore[no-untyped-def]

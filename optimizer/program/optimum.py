@@ -6,6 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.fast import fast
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.reference.solver import Solver
@@ -29,6 +30,7 @@ class Unreachable:
     excess: float  # largest relative excess over a ceiling of the closest
     excess_lower_bound: float  # > 0
     certify_s: float  # time spent on bounds
+    multipliers: Multipliers  # of the excess: rows and terms are those of the ceilings, each over its size
 
 
 def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Solution | Unreachable:
@@ -60,7 +62,11 @@ def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver:
             found = fine.lightest if fine.certified else _better_of(found, fine.lightest, share)
     if isinstance(found, Unreachable):
         return replace(found, closest=_everywhere(found.closest, webs))
-    return replace(found, unbalance=_everywhere(found.unbalance, webs))
+    found = replace(found, unbalance=_everywhere(found.unbalance, webs))
+    if least_mass and found.mass_multipliers is None:
+        # nothing is proven about the mass but that it is not below 0
+        found = replace(found, mass_multipliers=nothing_proven(part), mass_target=found.objective + share)
+    return found
 
 
 def _by_cone_program(
@@ -72,7 +78,10 @@ def _by_cone_program(
         nearest = solver.smallest_excess(statement.ceilings, statement.limits)
         certify_s = first.certify_s + nearest.certify_s
         if nearest.lower_bound > 0:
-            return Unreachable(nearest.unbalance, nearest.objective, nearest.lower_bound, certify_s)
+            assert nearest.multipliers is not None  # they are what proves the bound
+            return Unreachable(
+                nearest.unbalance, nearest.objective, nearest.lower_bound, certify_s, nearest.multipliers
+            )
         first = replace(first, certify_s=certify_s)
         if not first.keeps_ceilings:
             first = first.moved_to(statement, nearest.unbalance)
@@ -99,8 +108,14 @@ def _better_of(one: Solution | Unreachable, other: Solution, share: float) -> So
     lighter = other.mass < one.mass
     chosen = other if not one.keeps_ceilings or (lighter if both_optimal else other.objective < one.objective) else one
     # a bound on the mass holds for its own first stage only, unless that stage was the worse one
-    mass_bound = max(one.mass_lower_bound, other.mass_lower_bound) if both_optimal else chosen.mass_lower_bound
-    return replace(chosen.bounded(bound, one.multipliers), mass_lower_bound=min(mass_bound, chosen.mass))
+    heavier = other if other.mass_lower_bound > one.mass_lower_bound else one
+    proof = heavier if both_optimal else chosen
+    return replace(
+        chosen.bounded(bound, one.multipliers),
+        mass_lower_bound=min(proof.mass_lower_bound, chosen.mass),
+        mass_multipliers=proof.mass_multipliers,
+        mass_target=proof.mass_target,
+    )
 
 
 class _Found(NamedTuple):
@@ -128,7 +143,14 @@ def _interior_point(
         found.multipliers.chosen(0),
     )
     smallest = nothing.moved_to(statement, found.smallest[0])
-    lightest = replace(smallest, mass_lower_bound=float(found.mass_lower_bound[0]))
+    lightest = smallest
+    if least_mass:
+        lightest = replace(
+            smallest,
+            mass_lower_bound=float(found.mass_lower_bound[0]),
+            mass_multipliers=found.mass_multipliers.chosen(0),
+            mass_target=float(found.mass_target[0]),
+        )
     return _Found(smallest, lightest.moved_to(statement, found.unbalance[0]), bool(found.certified[0]))
 
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers
+from optimizer.program.certificate import Multipliers, knapsack_price
 from optimizer.program.statement import Statement
 
 
@@ -40,11 +40,7 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     worth = limits.radius * limits.support(-slope)
-    order = np.argsort(-worth, axis=-1, kind="stable")
-    falling = np.take_along_axis(worth, order, axis=-1)
-    spent = np.cumsum(np.take_along_axis(np.broadcast_to(limits.max_mass, worth.shape), order, axis=-1), axis=-1)
-    unpaid = spent > limits.max_total_mass[..., None]
-    budget = np.max(np.where(unpaid, falling, 0.0), axis=-1, initial=0.0)
+    budget = knapsack_price(worth, limits)
     return ShadowPrices(
         max_mass=np.maximum(worth - budget[..., None], 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),

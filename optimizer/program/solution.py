@@ -33,6 +33,8 @@ class Solution:
     method: str = CLOSED_FORM
     certify_s: float = 0.0  # time spent on bounds
     multipliers: Multipliers | None = None  # those of the lower bound
+    mass_multipliers: Multipliers | None = None  # those of the lower bound of the mass
+    mass_target: float = np.inf  # largest objective that this bound counts as an optimum
 
     @property
     def gap(self) -> float:
@@ -45,6 +47,12 @@ class Solution:
     def bounded(self, bound: float, multipliers: Multipliers | None) -> "Solution":
         """The same point with the better of two proofs of its objective."""
         return self if bound <= self.lower_bound else replace(self, lower_bound=bound, multipliers=multipliers)
+
+    def weighed(self, bound: float, multipliers: Multipliers | None, target: float) -> "Solution":
+        """The same point with the better of two proofs of its mass."""
+        if not bound > self.mass_lower_bound:
+            return self
+        return replace(self, mass_lower_bound=bound, mass_multipliers=multipliers, mass_target=target)
 
     def moved_to(self, statement: Statement, u: Complex) -> "Solution":
         """Another point with the bounds that are proven already."""

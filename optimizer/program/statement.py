@@ -6,6 +6,7 @@ subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -13,8 +14,12 @@ from optimizer.arrays import SMALLEST, Complex, Real, Reals, total
 from optimizer.program.limits import Limits
 from optimizer.response import Response
 
+Part = Literal["co", "counter"]
+
 #: of a sum, in units of the sum of the magnitudes of its terms
 _ROUNDING = 4 * np.finfo(float).eps
+#: what a term of a weighted peak is the size of: the vector that turns with the shaft, and the one against it
+_PARTS: tuple[Part, ...] = ("co", "counter")
 
 
 @dataclass(frozen=True)
@@ -43,8 +48,12 @@ class Norms:
 
 @dataclass(frozen=True)
 class WeightedPeak:
-    """One weighted peak over a turn, as a floor and norm terms."""
+    """One weighted peak over a turn, as a floor and norm terms.
 
+    A single term is the co-rotating vector; of two the second is the counter-rotating one.
+    """
+
+    name: str  # of the response
     floor: Real  # (...)
     norms: Norms
 
@@ -69,6 +78,20 @@ class Ceilings:
         return Ceilings(self.names, self.norms.only(webs), self.cap, self.size)
 
 
+class Term(NamedTuple):
+    """What a norm term of the objective is the size of."""
+
+    response: str
+    part: Part
+
+
+class Names(NamedTuple):
+    """What terms and rows of an objective are called where its proof is told."""
+
+    terms: tuple[Term, ...]  # J
+    rows: tuple[str, ...]
+
+
 @dataclass(frozen=True)
 class Statement:
     """A program to solve."""
@@ -78,6 +101,7 @@ class Statement:
     floor: Real  # (..., rows)
     ceilings: Ceilings
     limits: Limits
+    names: Names
 
     @property
     def membership(self) -> Real:
@@ -120,6 +144,7 @@ class Statement:
                 limits.half_angle_sin[None],
                 limits.max_total_mass[None],
             ),
+            self.names,
         )
 
     def each(self) -> Iterator["Statement"]:
@@ -135,11 +160,13 @@ class Statement:
             self.floor[programs],
             self.ceilings.chosen(programs),
             self.limits.chosen(programs),
+            self.names,
         )
 
     def only(self, webs: np.ndarray) -> "Statement":
         """The program with some of the webs, for one program (no leading axes)."""
-        return Statement(self.norms.only(webs), self.row, self.floor, self.ceilings.only(webs), self.limits.only(webs))
+        norms, ceilings, limits = self.norms.only(webs), self.ceilings.only(webs), self.limits.only(webs)
+        return Statement(norms, self.row, self.floor, ceilings, limits, self.names)
 
 
 def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weight_y: Reals = 1.0) -> WeightedPeak:
@@ -158,11 +185,12 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     f, b = response.baseline.co, np.conj(response.baseline.counter)
     if not np.any(q):
         alone = total((p * f)[..., None, None])
-        return WeightedPeak(p * np.abs(b), Norms(alone, p[..., None, None] * response.influence[..., None, :]))
+        norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
+        return WeightedPeak(response.name, p * np.abs(b), norms)
     terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)
     constant = total(np.stack(terms, axis=-1).reshape(*terms[0].shape, 2, 2))
     influence = np.stack([p, q], axis=-1)[..., None] * response.influence[..., None, :]
-    return WeightedPeak(np.zeros_like(p), Norms(constant, influence))
+    return WeightedPeak(response.name, np.zeros_like(p), Norms(constant, influence))
 
 
 def statement(
@@ -186,6 +214,10 @@ def statement(
         floor=floors if combine == "max" else floors.sum(axis=-1, keepdims=True),
         ceilings=_ceilings(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
+        names=Names(
+            tuple(Term(peak.name, part) for peak in peaks for part in _PARTS[: peak.norms.constant.shape[-1]]),
+            tuple(peak.name for peak in peaks) if combine == "max" else (combine,),
+        ),
     )
 
 

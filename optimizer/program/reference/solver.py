@@ -19,7 +19,7 @@ from optimizer.program.polish import (
 from optimizer.program.reference.modelling import CompiledPrograms, ScaledData, ScaledSolution
 from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
 from optimizer.program.solution import CEILING_TOLERANCE, CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
-from optimizer.program.statement import Ceilings, Norms, Statement
+from optimizer.program.statement import Ceilings, Names, Norms, Statement, Term
 
 
 class _Attempt(NamedTuple):
@@ -113,12 +113,12 @@ class Solver:
             return new.keeps_ceilings and new.objective <= target and new.mass < old.mass
 
         if start is not None:
-            known = replace(first, mass_lower_bound=start.mass_lower_bound)
+            known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
             best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
         if np.any(best.unbalance):
             multipliers = supporting_multipliers(statement, best.unbalance)
             bound = float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
-            best = replace(best, mass_lower_bound=max(best.mass_lower_bound, bound))
+            best = best.weighed(bound, multipliers, counted)
         for attempt in _MASS_ATTEMPTS:
             inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
             clip = min(max(attempt.reach * natural, needed), largest)
@@ -128,13 +128,10 @@ class Solver:
             )
             if solved is not None:
                 began = time.perf_counter()
-                candidates = mass_multipliers(statement, *solved)
-                bound = _largest(mass_lower_bound(statement, each, np.asarray(counted)) for each in candidates)
-                best = replace(
-                    best,
-                    mass_lower_bound=max(best.mass_lower_bound, bound),
-                    certify_s=best.certify_s + time.perf_counter() - began,
-                )
+                for each in mass_multipliers(statement, *solved):
+                    bound = float(mass_lower_bound(statement, each, np.asarray(counted)))
+                    best = best.weighed(bound, each, counted)
+                best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
             if best.mass - best.mass_lower_bound <= enough * best.mass:
                 break
         return best
@@ -148,8 +145,9 @@ class Solver:
         norms = Norms(ceilings.norms.constant / size, ceilings.norms.influence / size[:, None])
         nothing = np.zeros(0)
         none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), nothing, nothing)
+        names = Names(tuple(Term(name, "co") for name in ceilings.names), ceilings.names)
         return self.smallest_objective(
-            Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits), 0.1 * CEILING_TOLERANCE
+            Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits, names), 0.1 * CEILING_TOLERANCE
         )
 
     def _attempt(
@@ -201,7 +199,3 @@ def _proven(statement: Statement, solution: Solution, candidates: Iterable[Multi
     for multipliers in candidates:
         solution = solution.bounded(float(objective_lower_bound(statement, multipliers)), multipliers)
     return solution
-
-
-def _largest(bounds: Iterable[np.ndarray]) -> float:
-    return max(float(bound) for bound in bounds)

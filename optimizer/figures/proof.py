@@ -1,0 +1,115 @@
+"""Multipliers of the program by name and in the units of the answer: the proof that leaves the house.
+
+The program is in mass-radius products, forces over omega^2. A multiplier of the objective is the same in either; one
+of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Webs that cannot carry anything have no
+multipliers of their own, so none is missing where the program went without them.
+"""
+
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real, Reals
+from optimizer.program.certificate import Multipliers, budget_price, nothing_proven
+from optimizer.program.statement import Statement
+from schemas.proof import BoundMultipliers, CeilingMultiplier, RowMultiplier, TermMultiplier
+
+#: |y| <= lambda holds for the printed numbers too, whatever the rounding of the division by omega^2
+_INSIDE = 1.0 - 4 * np.finfo(float).eps
+
+Bounded = Literal["objective", "mass"]
+
+
+@dataclass(frozen=True)
+class PhysicalMultipliers:
+    """Multipliers in N, N m and kg; leading axes are programs."""
+
+    term: Complex  # (..., J)
+    row: Real  # (..., rows)
+    ceiling: Complex  # (..., I)
+    budget: Real  # (...)
+
+    def chosen(self, program: int) -> "PhysicalMultipliers":
+        """Those of one program of one leading axis."""
+        return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])
+
+
+def physical(
+    statement: Statement, multipliers: Multipliers, bounded: Bounded, omega_squared: Reals
+) -> PhysicalMultipliers:
+    """Multipliers of a bound in the units of the answer.
+
+    Parameters
+    ----------
+    statement : (...) programs, over omega^2.
+    bounded : the rows of a bound on the objective are made to sum to 1.
+    omega_squared : (...) rad^2/s^2.
+    """
+    usable = multipliers.admissible(statement)
+    if bounded == "objective":
+        usable = usable.times(1.0 / np.sum(usable.row, axis=-1))
+        price = budget_price(statement, usable, 0.0) * omega_squared
+    else:
+        price = budget_price(statement, usable, 1.0)
+        usable = usable.times(1.0 / np.asarray(omega_squared))
+    term = _no_longer(usable.term, usable.row[..., statement.row])
+    return PhysicalMultipliers(term, usable.row, usable.ceiling, price)
+
+
+def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) -> PhysicalMultipliers:
+    """Multipliers that prove that the ceilings cannot be kept, in 1/N and 1/(N m).
+
+    Parameters
+    ----------
+    excess : of the program whose terms and rows are the ceilings, each over its size.
+    """
+    scale = 1.0 / statement.ceilings.size
+    row = np.maximum(excess.row, 0.0) * scale
+    ceiling = _no_longer(excess.term * scale, row)
+    alone = replace(nothing_proven(statement), ceiling=ceiling)
+    per_newton = 1.0 / np.asarray(omega_squared)[..., None]
+    price = budget_price(statement, alone, 0.0)
+    return PhysicalMultipliers(alone.term, row * per_newton, ceiling * per_newton, price)
+
+
+def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
+    """Multipliers of a bound on one program (no leading axes) by the names of its terms, rows and ceilings."""
+    terms, rows = statement.names
+    return BoundMultipliers(
+        terms=tuple(
+            TermMultiplier(response=term.response, part=term.part, row=rows[row], x=y.real, y=y.imag)
+            for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
+        ),
+        rows=_rows(rows, multipliers),
+        budget=float(multipliers.budget),
+        ceilings=_ceilings(statement, multipliers),
+    )
+
+
+def named_conflict(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
+    """Multipliers of :func:`conflict`, one program: its rows are the ceilings."""
+    return BoundMultipliers(
+        terms=(),
+        rows=_rows(statement.ceilings.names, multipliers),
+        budget=float(multipliers.budget),
+        ceilings=_ceilings(statement, multipliers),
+    )
+
+
+def _no_longer(vectors: Complex, allowed: Real) -> Complex:
+    """Vectors that are no longer than allowed, whatever the rounding of what is done to both."""
+    size, allowed = np.abs(vectors), allowed * _INSIDE
+    return vectors * np.where(size > allowed, allowed / np.where(size > 0, size, 1.0), 1.0)
+
+
+def _rows(names: tuple[str, ...], multipliers: PhysicalMultipliers) -> tuple[RowMultiplier, ...]:
+    values = multipliers.row.tolist()
+    return tuple(RowMultiplier(name=name, value=value) for name, value in zip(names, values, strict=True))
+
+
+def _ceilings(statement: Statement, multipliers: PhysicalMultipliers) -> tuple[CeilingMultiplier, ...]:
+    return tuple(
+        CeilingMultiplier(response=name, part="co", x=p.real, y=p.imag)
+        for name, p in zip(statement.ceilings.names, multipliers.ceiling.tolist(), strict=True)
+    )
