@@ -21,20 +21,7 @@ from service.http.computing import Computing
 from service.http.openapi import Documented
 from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
-from service.routes import (
-    accuracy,
-    analyze,
-    effects,
-    examples,
-    health,
-    optimize,
-    pareto,
-    pin_loads,
-    portal,
-    rating,
-    report,
-    sweeps,
-)
+from service.routes import computations, effects, examples, health, portal, sweeps
 from service.routes import metrics as metrics_route
 from service.settings import Settings
 from service.watch.metrics import Metrics
@@ -43,21 +30,7 @@ from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
 from service.workers.pool import Pool
 
-_RESOURCES = (
-    optimize,
-    accuracy,
-    analyze,
-    pareto,
-    sweeps,
-    pin_loads,
-    rating,
-    report,
-    effects,
-    examples,
-    health,
-    metrics_route,
-    portal,
-)
+_RESOURCES = (sweeps, effects, examples, health, metrics_route, portal)
 
 #: what pages of the origins that are allowed may send and read
 CORS: Mapping[str, Any] = {
@@ -158,6 +131,7 @@ def create_app(
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
     errors.install(app)
+    app.include_router(computations.router())
     for resource in _RESOURCES:
         app.include_router(resource.router)
     reference_page.install(app)

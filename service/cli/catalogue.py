@@ -45,13 +45,14 @@ def schema(
     """List the documents that go in and come out, or print the JSON schema of one of them."""
     import json
 
-    from service.documents.catalogue import DOCUMENTS
+    from service.documents.catalogue import documents
 
+    known = documents()
     if name is None:
         from service.tables import names_report
 
-        show(names_report("documents", [(key, document.meaning) for key, document in DOCUMENTS.items()]))
-    elif name in DOCUMENTS:
-        put(json.dumps(DOCUMENTS[name].json_schema(), indent=2))
+        show(names_report("documents", [(key, document.meaning) for key, document in known.items()]))
+    elif name in known:
+        put(json.dumps(known[name].json_schema(), indent=2))
     else:
-        fail(f"there is no document of this name; there are {', '.join(DOCUMENTS)}")
+        fail(f"there is no document of this name; there are {', '.join(known)}")

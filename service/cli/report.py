@@ -1,27 +1,26 @@
 """The command that writes the report on a machine to a file."""
 
 from pathlib import Path
+from pkgutil import resolve_name
 from typing import Annotated
 
 import typer
 
 from service.cli.terminal import File, Outputs, answer, fail, question
+from service.computations import COMPUTATIONS
 
 Target = Annotated[Path, typer.Option("-o", "--to", metavar="FILE", help="Document to write: .html or .pdf.")]
 
 
 def report(file: File, to: Target, output: Outputs = None) -> None:
     """Write a document on a machine and its counterweights, to be read, printed and filed."""
-    from schemas.requests import OptimizeRequest
-    from service.report.document import report as compute
-    from service.report.formats import FORMATS
-
-    form = next((form for name, form in FORMATS.items() if to.suffix.lower() == f".{name}"), None)
+    one = COMPUTATIONS["report"]
+    form = next((form for form in one.forms if form.suffix == to.suffix.lower()), None)
     if form is None:
-        fail("the name of the document must end in .html or .pdf")
-    made = answer(compute, question(OptimizeRequest, file, output))
+        fail(f"the name of the document must end in {' or '.join(form.suffix for form in one.forms)}")
+    made = answer(one.function, question(one.asks, file, output))
     try:
-        to.write_bytes(form.write(made))
+        to.write_bytes(resolve_name(form.write)(made))
     except OSError as error:
         fail(f"cannot write {to}: {error.strerror}")
     raise typer.Exit(0 if made.status == "optimal" else 1)

@@ -1,30 +1,33 @@
-"""Who asks, and whether they may: before a path is even looked at."""
+"""Who asks, before a path is even looked at; and, at each route, whether they may."""
 
-from collections.abc import Mapping
+from typing import Any
 
+from fastapi import Depends
 from starlette.datastructures import Headers
+from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.guard.addresses import client_network
 from service.guard.hosts import Hosts
-from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys
+from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
 from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
 from service.guard.refusals import Forbidden, ForeignHost, Unauthorized
 from service.http.errors import answered
 
-#: any key will do
-_ANY: tuple[KeyScope, ...] = ("compute", "sweeps", "read", "metrics")
-#: a job may also come from a computing route, with Prefer: respond-async
-_JOBS: Mapping[str, tuple[KeyScope, ...]] = {
-    "GET": ("sweeps", "read", "compute"),
-    "POST": ("sweeps",),
-    "DELETE": ("sweeps", "compute"),
-}
+
+def needs(*scopes: KeyScope) -> Any:
+    """What stands at a route that a key must allow, by one of some scopes; for other routes any key will do."""
+
+    async def require(request: Request) -> None:
+        if not caller_of(request).may(*scopes):
+            raise Forbidden(scopes)
+
+    return Depends(require)
 
 
 class Access:
-    """Lets requests pass that have a key with the scope they need, and not too many of them.
+    """Lets requests pass that have a key, and not too many of them.
 
     Where nobody needs a key, those for hosts that are known.
 
@@ -43,7 +46,7 @@ class Access:
             return
         try:
             caller = await self._admitted(scope, self._keys)
-        except (Unauthorized, Forbidden, ForeignHost, TooManyRequests) as error:
+        except (Unauthorized, ForeignHost, TooManyRequests) as error:
             await answered(error, scope["path"])(scope, receive, send)
             return
         scope.setdefault("state", {}).update(caller=caller, who=_who(scope, caller))
@@ -65,9 +68,6 @@ class Access:
                 await self._limits.refused((scope.get("client") or ("",))[0])
             raise Unauthorized(given is not None)
         await self._limits.asked(caller.key or "", caller.rate_limit)
-        needed = _needed(scope["method"], path)
-        if not caller.may(*needed):
-            raise Forbidden(needed)
         return caller
 
 
@@ -85,11 +85,3 @@ def _key(headers: Headers) -> str | None:
     if kind.lower() == "bearer":
         return token.strip()
     return headers.get("x-api-key")
-
-
-def _needed(method: str, path: str) -> tuple[KeyScope, ...]:
-    if path == "/metrics":
-        return ("metrics",)
-    if path == "/v1/sweeps" or path.startswith("/v1/sweeps/"):
-        return _JOBS.get(method, _ANY)
-    return ("compute",) if method == "POST" else _ANY

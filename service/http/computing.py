@@ -1,7 +1,7 @@
 """A computation behind a route: bytes in, bytes out, in a worker process and only so many at a time."""
 
 import logging
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from typing import Annotated, TypeVar
 
 from anyio import create_task_group, get_cancelled_exc_class, to_thread
@@ -9,15 +9,14 @@ from fastapi import Depends
 from starlette.requests import Request
 from starlette.responses import Response
 
-from schemas.accuracy import AccuracyRequest
 from schemas.base import Model
-from schemas.pareto import ParetoRequest
+from service.computations import Computation, Form
 from service.guard.keys import who
 from service.guard.sizes import SizeLimits
+from service.http.accept import NotAcceptable, preferred
 from service.http.request_body import read_body
 from service.http.validation import check, read_json
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
-from service.jobs.kinds import later
 from service.settings import Settings
 from service.watch.metrics import Metrics
 from service.watch.readiness import Readiness
@@ -29,8 +28,6 @@ Question = TypeVar("Question", bound=Model)
 Result = TypeVar("Result")
 
 _LOG = logging.getLogger(__name__)
-#: these take seconds
-_LONG = (AccuracyRequest, ParetoRequest)
 
 
 class ClientGone(Exception):
@@ -80,42 +77,32 @@ class Computing:
         self.limits.require(asked)
         return asked
 
-    async def answer(self, request: Request, model: type[Question], compute: Callable[[Question], Model]) -> Response:
+    async def answer(self, request: Request, asked_for: Computation) -> Response:
         """The answer to the question in the body, or a job if the client prefers to be answered later.
 
         Raises
         ------
-        NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableJson, InvalidRequest, MissingInput, OutOfRange,
-        OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
+        NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableJson, InvalidRequest,
+        MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
             all of which have a row in the table of :mod:`service.http.errors`, as those of jobs have.
         """
+        form = _form(request, asked_for.forms)
         body = await self.body(request)
-        kind = later(model)
 
-        def accept(kind: str) -> Response:
-            asked = self.checked(model, body).model_dump_json().encode()
-            return accepted(request, *desk_of(request).later(kind, asked, idempotency_key(request)))
+        def accept() -> Response:
+            question = self.checked(asked_for.asks, body).model_dump_json().encode()
+            return accepted(request, *desk_of(request).later(asked_for.name, question, idempotency_key(request)))
 
-        if kind is not None and prefers_later(request):
-            return await to_thread.run_sync(accept, kind)
+        if asked_for.later and prefers_later(request):
+            return await to_thread.run_sync(accept)
 
-        content = await self.content(request, model, compute, body)
-        return Response(content, media_type="application/json", headers={"Cache-Control": "no-store"})
-
-    async def content(
-        self, request: Request, model: type[Question], compute: Callable[[Question], Model | bytes], body: bytes
-    ) -> bytes:
-        """What a worker makes of the question in a body: a model as JSON, a document as it is.
-
-        Raises
-        ------
-        UnreadableJson, InvalidRequest, MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed,
-        ClientGone
-        """
-        task = Task(model, compute, body, self.limits, long=model in _LONG)
-        with self._tracing.span(compute.__name__):
+        task = Task(asked_for, form, body, self.limits)
+        with self._tracing.span(asked_for.name):
             outcome = await _while_connected(request, lambda: self._pool.run(task, who(request)))
-        return self._judged(outcome, compute.__name__).content
+        content = self._judged(outcome, asked_for.name).content
+        varies = {"Vary": "Accept"} if len(asked_for.forms) > 1 else {}
+        headers = {"Cache-Control": "no-store", **dict(form.headers), **varies}
+        return Response(content, media_type=form.media_type, headers=headers)
 
     def _judged(self, outcome: Outcome, name: str) -> Answer:
         if isinstance(outcome, Refused):
@@ -126,6 +113,17 @@ class Computing:
             raise ComputationFailed(name)
         self._metrics.computed(name, outcome)
         return outcome
+
+
+def _form(request: Request, forms: Sequence[Form]) -> Form:
+    """The form that a client accepts best; what there is in one form only is answered in that."""
+    if len(forms) == 1:
+        return forms[0]
+    offered = {form.media_type: form for form in forms}
+    chosen = preferred(",".join(request.headers.getlist("accept")), tuple(offered))
+    if chosen is None:
+        raise NotAcceptable(tuple(offered))
+    return offered[chosen]
 
 
 async def _while_connected(request: Request, work: Callable[[], Awaitable[Result]]) -> Result:

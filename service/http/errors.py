@@ -19,6 +19,7 @@ from schemas.problem import FieldError, Problem
 from service.documents.examples import UnknownExample
 from service.guard.rates import TooManyRequests
 from service.guard.refusals import Forbidden, ForeignHost, TooManyConnections, Unauthorized
+from service.http.accept import NotAcceptable
 from service.http.computing import ClientGone, ComputationFailed
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
 from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
@@ -27,7 +28,6 @@ from service.jobs.database import DatabaseUnavailable
 from service.jobs.desk import NotFinished
 from service.jobs.results import UnknownColumn
 from service.jobs.store import KeyReused, TooManyJobs, UnknownJob
-from service.report.formats import NotAcceptable
 from service.watch.readiness import NotReady
 from service.workers.pool import Busy, TooSlow, WorkerDied, WorkersFailed
 from service.workers.worker import OutOfMemory

@@ -9,14 +9,10 @@ from typing import Any
 from fastapi import FastAPI
 from pydantic.json_schema import models_json_schema
 
-from schemas.accuracy import AccuracyRequest
 from schemas.base import Model
-from schemas.pareto import ParetoRequest
 from schemas.problem import Problem
-from schemas.rating import RatingRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.scroll import PinLoadsRequest
 from schemas.sweep import SweepRequest
+from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard.keys import PUBLIC
 from service.http.errors import PROBLEM_JSON
@@ -81,16 +77,7 @@ class Documented(FastAPI):
         known = document["components"]["schemas"]
         # the framework keeps the document and makes a new one when routes are added
         if Problem.__name__ not in known:
-            models: list[type[Model]] = [
-                OptimizeRequest,
-                AccuracyRequest,
-                AnalyzeRequest,
-                RatingRequest,
-                ParetoRequest,
-                PinLoadsRequest,
-                SweepRequest,
-                Problem,
-            ]
+            models: list[type[Model]] = [*(one.asks for one in COMPUTATIONS.values()), SweepRequest, Problem]
             _, schemas = models_json_schema([(model, "validation") for model in models], ref_template=_REF)
             # a model that is asked and answered, as a cylinder, is described as it is asked: that holds for both
             known |= schemas["$defs"]

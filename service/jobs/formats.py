@@ -11,6 +11,8 @@ import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
+from service.http.accept import preferred
+
 Name = Literal["ndjson", "csv", "parquet", "arrow"]
 Batches = Iterable[pa.RecordBatch]
 
@@ -141,22 +143,6 @@ ARROW_FILE = Format("application/vnd.apache.arrow.file", _arrow_file, describes_
 
 def negotiated(accept: str) -> Name:
     """The format that an Accept header likes best; NDJSON if it likes none of them."""
-    liked: list[tuple[float, Name]] = []
-    for part in accept.split(","):
-        media, *parameters = (piece.strip().lower() for piece in part.split(";"))
-        for name, known in FORMATS.items():
-            if media == known.media_type.split(";")[0]:
-                liked.append((_quality(parameters), name))
-    best = max(liked, key=lambda one: one[0], default=(0.0, "ndjson"))
-    return best[1] if best[0] > 0 else "ndjson"
-
-
-def _quality(parameters: Iterable[str]) -> float:
-    for parameter in parameters:
-        key, _, value = parameter.partition("=")
-        if key.strip() == "q":
-            try:
-                return float(value)
-            except ValueError:
-                return 0.0
-    return 1.0
+    offered = {known.media_type.split(";")[0]: name for name, known in FORMATS.items()}
+    liked = preferred(accept, tuple(offered))
+    return "ndjson" if liked is None else offered[liked]

@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from pkgutil import resolve_name
 from typing import TYPE_CHECKING
 
+from service.computations import COMPUTATIONS, Computation, json_bytes
 from service.jobs.piece import Piece, Unanswerable
 
 if TYPE_CHECKING:
@@ -14,12 +14,6 @@ Proceed = Callable[[], None]
 
 #: rows with these statuses do not count as failed
 _ANSWERED = ("optimal", "analyzed")
-#: model and function of the requests that may be answered later
-_LATER = {
-    "optimize": ("schemas.requests:OptimizeRequest", "optimizer.optimize:optimize"),
-    "pareto": ("schemas.pareto:ParetoRequest", "optimizer.pareto.pareto:pareto"),
-    "accuracy": ("schemas.accuracy:AccuracyRequest", "optimizer.accuracy.measure:accuracy"),
-}
 
 
 @dataclass(frozen=True)
@@ -32,12 +26,6 @@ class Kind:
 
     compute: Callable[[bytes, int, int, Proceed], Piece]
     failed: Callable[[bytes, int, int, str], Piece] | None = None
-
-
-def later(model: type) -> str | None:
-    """The kind of job that answers a request of this model later; None if there is none."""
-    name = f"{model.__module__}:{model.__qualname__}"
-    return next((kind for kind, (known, _) in _LATER.items() if known == name), None)
 
 
 def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
@@ -95,21 +83,21 @@ def _piece(table: "pa.Table") -> Piece:
     return Piece(table_bytes(table), table.num_rows - int(pc.sum(answered).as_py() or 0))
 
 
-def _answer(model: str, compute: str) -> Callable[[bytes, int, int, Proceed], Piece]:
+def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Piece]:
     def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
         from optimizer.errors import MissingInput
         from service.http.validation import check, pointer, read_json
 
         try:
-            found = resolve_name(compute)(check(resolve_name(model), read_json(request)))
+            found = asked_for.function(check(asked_for.asks, read_json(request)))
         except MissingInput as error:
             raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
-        return Piece(found.model_dump_json().encode(), 0)
+        return Piece(json_bytes(found), 0)
 
     return answer
 
 
 KINDS: Mapping[str, Kind] = {
     "sweep": Kind(_sweep, _failed_rows),
-    **{kind: Kind(_answer(model, compute)) for kind, (model, compute) in _LATER.items()},
+    **{one.name: Kind(_answer(one)) for one in COMPUTATIONS.values() if one.later},
 }

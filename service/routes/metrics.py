@@ -6,6 +6,7 @@ from prometheus_client import CONTENT_TYPE_LATEST
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.guard.access import needs
 from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])
@@ -15,6 +16,7 @@ router = APIRouter(tags=["health"])
     "/metrics",
     operation_id="metrics",
     summary="Metrics for Prometheus",
+    dependencies=[needs("metrics")],
     response_class=Response,
     responses={200: {"description": "text format of Prometheus", "content": {"text/plain": {}}}, **problems()},
 )

@@ -1,12 +1,11 @@
 """The portal page and its files."""
 
-import re
-
 from fastapi import APIRouter
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.http.accept import preferred
 from service.portal.assets import UnknownAsset, asset, page, release
 
 router = APIRouter(include_in_schema=False)
@@ -18,7 +17,6 @@ _POLICY = (
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
 _FOR_EVER = "public, max-age=31536000, immutable"
-_GZIP = re.compile(r"\bgzip\b(?!\s*;\s*q=0(\.0*)?\s*(,|$))")
 
 
 @router.get("/")
@@ -40,6 +38,7 @@ def file(request: Request, of: str, name: str) -> Response:
         raise HTTPException(404) from None
     headers = {"Cache-Control": _FOR_EVER if of == release() else "no-cache", "Vary": "Accept-Encoding"}
     content = found.content
-    if _GZIP.search(request.headers.get("accept-encoding", "")):
+    # a client that says nothing takes the file as it is
+    if preferred(request.headers.get("accept-encoding") or "identity", ("gzip",)):
         content, headers["Content-Encoding"] = found.compressed, "gzip"
     return Response(content, media_type=found.media_type, headers=headers)

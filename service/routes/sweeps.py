@@ -12,6 +12,7 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 
 from optimizer.sweep.plan import plan
 from schemas.sweep import SweepEstimate, SweepRequest, SweepState
+from service.guard.access import needs
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
@@ -25,6 +26,10 @@ from service.jobs.results import chosen, description, fitted
 router = APIRouter(tags=["sweeps"])
 
 Jobs = Annotated[Desk, Depends(desk_of)]
+#: a job may also come from a computing route, with Prefer: respond-async
+_SEES = [needs("sweeps", "read", "compute")]
+_ENDS = [needs("sweeps", "compute")]
+_STARTS = [needs("sweeps")]
 _NO_STORE = {"Cache-Control": "no-store"}
 _LOCATION = {"Location": {"description": "where the sweep is", "schema": {"type": "string"}}}
 _ROWS = {known.media_type.split(";")[0]: {"schema": {"type": "string"}} for known in FORMATS.values()}
@@ -33,6 +38,7 @@ _ROWS = {known.media_type.split(";")[0]: {"schema": {"type": "string"}} for know
 @router.post(
     "/v1/sweeps",
     operation_id="start_sweep",
+    dependencies=_STARTS,
     summary="Thousands to millions of designs of one machine",
     status_code=202,
     response_model=SweepState,
@@ -58,7 +64,11 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
 
 
 @router.get(
-    "/v1/sweeps", operation_id="list_sweeps", summary="All sweeps, newest first", responses=problems(404, 422, 503)
+    "/v1/sweeps",
+    operation_id="list_sweeps",
+    dependencies=_SEES,
+    summary="All sweeps, newest first",
+    responses=problems(404, 422, 503),
 )
 def list_sweeps(
     request: Request,
@@ -74,6 +84,7 @@ def list_sweeps(
 @router.get(
     "/v1/sweeps/{id}",
     operation_id="read_sweep",
+    dependencies=_SEES,
     summary="How far a sweep is",
     response_model=SweepState,
     responses=problems(404, 503),
@@ -85,6 +96,7 @@ def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
 @router.delete(
     "/v1/sweeps/{id}",
     operation_id="end_sweep",
+    dependencies=_ENDS,
     summary="Cancel a sweep that runs, remove one that has ended",
     response_model=SweepState,
     responses={204: {"description": "removed, with its results"}, **problems(404, 503)},
@@ -98,6 +110,7 @@ def delete_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
 @router.post(
     "/v1/sweeps/{id}/resume",
     operation_id="resume_sweep",
+    dependencies=_STARTS,
     summary="Go on with a sweep that was cancelled or has failed",
     status_code=202,
     response_model=SweepState,
@@ -111,6 +124,7 @@ def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
 @router.get(
     "/v1/sweeps/{id}/metadata",
     operation_id="describe_sweep",
+    dependencies=_SEES,
     summary="Request, versions, seed and columns of a sweep",
     response_class=JSONResponse,
     responses=problems(404, 503),
@@ -124,6 +138,7 @@ def describe_sweep(desk: Jobs, id: str) -> Response:  # noqa: A002
 @router.get(
     "/v1/sweeps/{id}/results",
     operation_id="read_sweep_results",
+    dependencies=_SEES,
     summary="The rows of a sweep, in the order of their index",
     response_class=Response,
     responses={
@@ -147,7 +162,7 @@ def read_results(
     job = desk.get(id)
     if job.columns is None:
         return Response(desk.answer(job), media_type="application/json", headers=_NO_STORE)
-    name = format or negotiated(request.headers.get("accept", ""))
+    name = format or negotiated(",".join(request.headers.getlist("accept")))
     schema = chosen(desk.schema(job), columns or ())
     last = None if limit is None else offset + limit
     if select == "kept" and desk.keeps(job):
@@ -188,6 +203,7 @@ def _stream(request: Request, job: Job, name: Name, content: Iterator[bytes], mo
 @router.get(
     "/v1/sweeps/{id}/events",
     operation_id="watch_sweep",
+    dependencies=_SEES,
     summary="Progress as server-sent events, from the last state to the end",
     response_class=Response,
     responses={

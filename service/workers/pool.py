@@ -194,7 +194,7 @@ class Pool:
         computing = False
         try:
             with fail_after(self.timeout_s):
-                async with self._turns.turn(owner, task.long):
+                async with self._turns.turn(owner, task.computation.long):
                     computing = True
                     return await self._computed(task)
         except Full:

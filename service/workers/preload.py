@@ -14,10 +14,15 @@ signal.signal(signal.SIGINT, signal.SIG_IGN)
 #: what went wrong, if anything did
 failure: str | None = None
 try:
+    from pkgutil import resolve_name
+
     from optimizer.warm_up import warm_up
-    from service.report import formats  # noqa: F401
+    from service.computations import COMPUTATIONS
     from service.workers import worker  # noqa: F401
 
+    for _one in COMPUTATIONS.values():
+        for _needed in (_one.request, _one.compute, *(form.write for form in _one.forms)):
+            resolve_name(_needed)
     warm_up()
 except Exception:
     import traceback

@@ -7,14 +7,15 @@ import signal
 import sys
 import time
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from multiprocessing.connection import Connection
 from pathlib import Path
+from pkgutil import resolve_name
 
 from optimizer.errors import MissingInput
 from optimizer.rating.errors import OutOfRange
-from schemas.base import Model
+from service.computations import Computation, Form
 from service.guard.sizes import SizeLimits
 from service.http.validation import InvalidRequest, UnreadableJson, check, read_json
 
@@ -30,13 +31,12 @@ class OutOfMemory(Exception):
 
 @dataclass(frozen=True)
 class Task:
-    """A request and what to do with it; ``compute`` is found by name in the worker, ``long`` takes seconds."""
+    """What to compute, and in which form to answer; all data: what it names is looked up in the worker."""
 
-    model: type[Model]
-    compute: Callable[..., Model | bytes]
+    computation: Computation
+    form: Form
     body: bytes
     limits: SizeLimits
-    long: bool = False
 
 
 @dataclass(frozen=True)
@@ -119,10 +119,10 @@ def perform(task: Task) -> Outcome:
     """The outcome of a task; nothing escapes."""
     begun = time.perf_counter()
     try:
-        asked = check(task.model, read_json(task.body))
+        asked = check(task.computation.asks, read_json(task.body))
         task.limits.require(asked)
-        found = task.compute(asked)
-        content = found if isinstance(found, bytes) else found.model_dump_json().encode()
+        found = task.computation.function(asked)
+        content = resolve_name(task.form.write)(found)
         return Answer(content, time.perf_counter() - begun, _certified(found), _resident())
     except REFUSALS as error:
         return Refused.because(error)
@@ -138,7 +138,7 @@ def _frames(error: BaseException) -> Iterator[str]:
     yield type(error).__qualname__
 
 
-def _certified(found: Model | bytes) -> Certified | None:
+def _certified(found: object) -> Certified | None:
     proof = getattr(found, "certificate", None)
     timing = getattr(found, "timing", None)
     if proof is None or timing is None:

@@ -8,7 +8,6 @@ from urllib.parse import urlsplit
 import pytest
 
 from service.documents.examples import load
-from service.report.formats import NotAcceptable, negotiated
 
 _HTML, _PDF = "text/html; charset=utf-8", "application/pdf"
 
@@ -77,27 +76,3 @@ def test_what_an_output_needs_is_asked_for_by_its_field(url: str, body: Any) -> 
 def test_to_be_answered_later_is_no_way_to_get_a_document(url: str, body: Any) -> None:
     status, headers, _ = post(url, body, Prefer="respond-async")
     assert (status, headers["content-type"]) == (200, _HTML)
-
-
-@pytest.mark.parametrize(
-    ("accept", "name"),
-    [
-        ("", "html"),
-        ("*/*", "html"),
-        ("text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8", "html"),
-        ("application/pdf, */*;q=0.1", "pdf"),
-        ("APPLICATION/PDF ; Q=0.5", "pdf"),
-        ("text/html;q=0.3, application/pdf;q=0.7", "pdf"),
-        ("text/html;q=0, */*", "pdf"),
-        ("application/*;q=0.9, text/html;q=0.1", "pdf"),
-        ("text/html;q=often, application/pdf;q=0.1", "pdf"),
-    ],
-)
-def test_what_a_client_likes_best(accept: str, name: str) -> None:
-    assert negotiated(accept) == name
-
-
-@pytest.mark.parametrize("accept", ["image/png", "text/html;q=0", "text/plain, application/json", "*/*;q=0", ";;,;"])
-def test_what_cannot_be_had(accept: str) -> None:
-    with pytest.raises(NotAcceptable, match="text/html and application/pdf"):
-        negotiated(accept)

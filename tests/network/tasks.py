@@ -4,10 +4,13 @@ import json
 import os
 import signal
 import time
+from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from schemas.problem import Problem
 from schemas.requests import OptimizeRequest
+from service.computations import COMPUTATIONS, JSON
 from service.documents.examples import load
 from service.guard.sizes import SizeLimits
 from service.settings import Settings
@@ -51,9 +54,11 @@ def deadly_once(asked: OptimizeRequest) -> Problem:
     return _DONE
 
 
-def task(compute: object, name: str = "x", long: bool = False) -> Task:
+def task(compute: Callable[[OptimizeRequest], Problem], name: str = "x", long: bool = False) -> Task:
     """A task that has the machine of an example, with another name."""
     body = json.loads(load("w60"))
     body["machine"]["name"] = name
     content = json.dumps(body).encode()
-    return Task(OptimizeRequest, compute, content, SizeLimits.of(Settings()), long)  # type: ignore[arg-type]
+    reference = f"{compute.__module__}:{compute.__name__}"
+    computation = replace(COMPUTATIONS["optimize"], compute=reference, long=long)
+    return Task(computation, JSON, content, SizeLimits.of(Settings()))

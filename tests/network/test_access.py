@@ -11,6 +11,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from service.app import create_app
+from service.computations import COMPUTATIONS, Computation
 from service.documents.examples import bodies
 from service.guard import keys
 from service.guard.keys import BadKeyFile, KeyRecord, Scope
@@ -149,6 +150,15 @@ def test_the_same_idempotency_key_of_two_owners_is_two_jobs(ask: Any) -> None:
 def test_scopes(ask: Any, name: str | None, method: str, path: str, status: int) -> None:
     more = {"json": {}} if method == "POST" else {}
     assert ask(name, method, path, **more).status_code == status
+
+
+@pytest.mark.parametrize("one", COMPUTATIONS.values(), ids=lambda one: one.name)
+def test_every_computing_route_asks_for_its_scope(ask: Any, one: Computation) -> None:
+    for name in ("reader", "meter"):
+        refused = ask(name, "POST", one.path, json={})
+        assert refused.status_code == 403
+        assert refused.json()["detail"] == f"This needs a key with the scope {one.scope}."
+    assert ask("alice", "POST", one.path, json={}).status_code == 422
 
 
 def test_a_key_has_a_rate_of_its_own(ask: Any) -> None:

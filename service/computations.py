@@ -1,0 +1,187 @@
+"""What the service computes: all that routes, jobs, documents, OpenAPI, the command line and metrics say of it.
+
+An entry is data and refers to models and functions by name: the table loads neither schemas nor optimiser, and an entry
+goes to a worker as it is, which looks up there what it refers to.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pkgutil import resolve_name
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from schemas.base import Model
+    from service.guard.keys import Scope
+
+#: ``module:name``
+Reference = str
+
+
+@dataclass(frozen=True)
+class Form:
+    """A form in which an answer goes out.
+
+    write : the function that makes bytes of the answer.
+    suffix : of a file that holds it.
+    headers : what a client is told about it beyond its media type.
+    """
+
+    media_type: str
+    write: Reference
+    suffix: str
+    headers: tuple[tuple[str, str], ...] = ()
+
+
+JSON = Form("application/json", "service.computations:json_bytes", ".json")
+
+
+def json_bytes(found: "Model") -> bytes:
+    """An answer as JSON."""
+    return found.model_dump_json().encode()
+
+
+@dataclass(frozen=True)
+class Computation:
+    """A computation.
+
+    name : of operation, job and metric; with hyphens, of command and documents.
+    request, answer : models; an answer that is a document has none.
+    compute : request -> answer.
+    summary, remark : one line and some sentences for OpenAPI.
+    tag : the group of operations in OpenAPI.
+    forms : in which the answer is there; of several the header `Accept` chooses, the first for those who take all.
+    examples : folder of example bodies.
+    long : takes seconds: such computations never occupy all workers.
+    later : may be asked for as a job, by `Prefer: respond-async`.
+    scope : what a key must allow.
+    """
+
+    name: str
+    path: str
+    request: Reference
+    answer: Reference | None
+    compute: Reference
+    summary: str
+    remark: str
+    tag: str = "counterweights"
+    forms: tuple[Form, ...] = (JSON,)
+    examples: str = ""
+    long: bool = False
+    later: bool = False
+    scope: "Scope" = "compute"
+
+    @property
+    def title(self) -> str:
+        """The name in addresses and on the command line."""
+        return self.name.replace("_", "-")
+
+    @property
+    def asks(self) -> "type[Model]":
+        """Model of the request."""
+        found: type[Model] = resolve_name(self.request)
+        return found
+
+    @property
+    def answers(self) -> "type[Model] | None":
+        """Model of the answer."""
+        return None if self.answer is None else resolve_name(self.answer)
+
+    @property
+    def function(self) -> Callable[[Any], Any]:
+        """What makes the answer."""
+        found: Callable[[Any], Any] = resolve_name(self.compute)
+        return found
+
+
+def _document(suffix: str, media_type: str, write: Reference, styles: str = "") -> Form:
+    """A form of the report; a browser may do nothing while it shows one but use the styles in it."""
+    headers = (
+        ("Content-Disposition", f'inline; filename="counterweights{suffix}"'),
+        ("Content-Security-Policy", f"default-src 'none'; {styles}frame-ancestors 'none'"),
+    )
+    return Form(media_type, write, suffix, headers)
+
+
+COMPUTATIONS: dict[str, Computation] = {
+    one.name: one
+    for one in (
+        Computation(
+            name="optimize",
+            path="/v1/optimize",
+            request="schemas.requests:OptimizeRequest",
+            answer="schemas.answers:OptimizeAnswer",
+            compute="optimizer.optimize:optimize",
+            summary="Counterweights that minimise the first-order peaks, with a certificate",
+            remark="An infeasible machine is answered with 200 too: `status` says so, `infeasibility` says why.",
+            later=True,
+        ),
+        Computation(
+            name="analyze",
+            path="/v1/analyze",
+            request="schemas.requests:AnalyzeRequest",
+            answer="schemas.answers:AnalyzeAnswer",
+            compute="optimizer.analyze:analyze",
+            summary="Forces and moments of a machine as it stands, or with given counterweights",
+            remark="`outputs` says what the answer shall hold; only the effects that they need are simulated.",
+        ),
+        Computation(
+            name="pareto",
+            path="/v1/pareto",
+            request="schemas.pareto:ParetoRequest",
+            answer="schemas.pareto:ParetoAnswer",
+            compute="optimizer.pareto.pareto:pareto",
+            summary="The certified trade-off of peak force, peak moment and total mass",
+            remark="Every point is the lightest set of counterweights that no other set beats in both peaks, with a "
+            "proof.",
+            long=True,
+            later=True,
+        ),
+        Computation(
+            name="accuracy",
+            path="/v1/accuracy",
+            request="schemas.accuracy:AccuracyRequest",
+            answer="schemas.accuracy:AccuracyAnswer",
+            compute="optimizer.accuracy.measure:accuracy",
+            summary="What accuracy costs in time on a machine: a ladder of methods and settings",
+            remark="Times are those of this machine at this moment; errors and gaps do not depend on it.",
+            long=True,
+            later=True,
+        ),
+        Computation(
+            name="pin_loads",
+            path="/v1/scroll/pin-loads",
+            request="schemas.scroll:PinLoadsRequest",
+            answer="schemas.scroll:PinLoadsAnswer",
+            compute="optimizer.pins.answer:pin_loads",
+            summary="Loads of the anti-rotation pins of a scroll over a turn",
+            remark="Where the pins cannot hold the scroll at some angle, `equilibrium` and `dead_points_deg` say so.",
+            tag="scroll",
+            examples="pin-loads",
+        ),
+        Computation(
+            name="rating",
+            path="/v1/rating",
+            request="schemas.rating:RatingRequest",
+            answer="schemas.rating_answer:RatingAnswer",
+            compute="optimizer.rating.rate:rate",
+            summary="Thermal design of a compressor: sizes, pressures, loads and powers",
+            remark="Figures out of their customary range are answered with 200 too; `warnings` names them.",
+            tag="rating",
+            examples="rating",
+        ),
+        Computation(
+            name="report",
+            path="/v1/report",
+            request="schemas.requests:OptimizeRequest",
+            answer=None,
+            compute="service.report.document:report",
+            summary="A document on a machine and its counterweights, as HTML or PDF",
+            remark="The header `Accept` chooses; the eight stages are in it where the machine allows, other outputs as "
+            "asked for.",
+            forms=(
+                _document(".html", "text/html", "service.report.html:html", "style-src 'unsafe-inline'; "),
+                _document(".pdf", "application/pdf", "service.report.pdf:pdf"),
+            ),
+        ),
+    )
+}

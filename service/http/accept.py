@@ -1,0 +1,48 @@
+"""What a client accepts: the one reader of the headers Accept and Accept-Encoding."""
+
+from collections.abc import Iterator, Mapping, Sequence
+
+
+class NotAcceptable(ValueError):
+    """The client accepts none of the forms that there are."""
+
+    def __init__(self, offered: Sequence[str]) -> None:
+        super().__init__(f"The answer is there as {' and '.join(offered)}; say so in the header Accept.")
+
+
+def preferred(header: str, offered: Sequence[str]) -> str | None:
+    """Which of the media types or codings offered a client likes best; of the equally liked the first one.
+
+    Parameters
+    ----------
+    header : as RFC 9110 section 12.5 has it, lists joined by commas; an empty one accepts everything.
+    offered : without parameters, in lower case, the own preference first.
+
+    Returns
+    -------
+    None where the client accepts none.
+    """
+    ranges = dict(_range(part) for part in header.split(",") if part.strip()) or {"*/*": 1.0}
+    liked = {each: _quality(each, ranges) for each in offered}
+    best = max(offered, key=liked.__getitem__)
+    return best if liked[best] > 0 else None
+
+
+def _quality(name: str, ranges: Mapping[str, float]) -> float:
+    """How much a form is liked: the most specific range that holds it says so."""
+    return next((ranges[each] for each in _ranges(name) if each in ranges), 0.0)
+
+
+def _ranges(name: str) -> Iterator[str]:
+    yield name
+    kind, slash, _ = name.partition("/")
+    yield from (f"{kind}/*", "*/*") if slash else ("*",)
+
+
+def _range(part: str) -> tuple[str, float]:
+    name, *parameters = (piece.strip().lower() for piece in part.split(";"))
+    given = dict(parameter.replace(" ", "").partition("=")[::2] for parameter in parameters)
+    try:
+        return name, float(given.get("q", "1"))
+    except ValueError:
+        return name, 0.0

@@ -1,0 +1,40 @@
+"""What a client accepts."""
+
+import pytest
+
+from service.http.accept import preferred
+
+_FORMS = ("text/html", "application/pdf")
+
+
+@pytest.mark.parametrize(
+    ("header", "chosen"),
+    [
+        ("", "text/html"),
+        ("*/*", "text/html"),
+        ("text/html,application/xhtml+xml,application/xml;q=0.9,*/*;q=0.8", "text/html"),
+        ("application/pdf, text/html", "text/html"),
+        ("application/pdf, */*;q=0.1", "application/pdf"),
+        ("APPLICATION/PDF ; Q=0.5", "application/pdf"),
+        ("text/html;q=0.3, application/pdf;q=0.7", "application/pdf"),
+        ("text/html;q=0, */*", "application/pdf"),
+        ("application/*;q=0.9, text/html;q=0.1", "application/pdf"),
+        ("text/html;q=often, application/pdf;q=0.1", "application/pdf"),
+        *(
+            (header, None)
+            for header in ("image/png", "text/html;q=0", "text/plain, application/json", "*/*;q=0", ";;,;")
+        ),
+        ("text/html;q=nan, application/pdf;q=-1", None),
+    ],
+)
+def test_what_a_client_likes_best(header: str, chosen: str | None) -> None:
+    assert preferred(header, _FORMS) == chosen
+
+
+@pytest.mark.parametrize(
+    ("header", "taken"),
+    [("gzip, br", True), ("br;q=1, *;q=0.1", True), ("gzip;q=0", False), ("gzip;q=0, *", False), ("identity", False)],
+)
+def test_codings(header: str, taken: bool) -> None:
+    """RFC 9110, section 12.5.3: the same lists, with a wildcard of its own."""
+    assert (preferred(header, ("gzip",)) == "gzip") is taken
