@@ -170,6 +170,18 @@ COMPUTATIONS: dict[str, Computation] = {
             examples="rating",
         ),
         Computation(
+            name="verify",
+            path="/v1/verify",
+            request="schemas.verify:VerifyRequest",
+            answer="schemas.verify:VerifyAnswer",
+            compute="service.verification:verify",
+            summary="Whether the claims of an answer hold, evaluated anew from request and answer alone",
+            remark="Intervals of whole numbers enclose every rounding. A broken claim is answered with 200 too: "
+            "`verdict` says so.",
+            examples="verify",
+            long=True,
+        ),
+        Computation(
             name="report",
             path="/v1/report",
             request="schemas.requests:OptimizeRequest",

@@ -21,11 +21,13 @@ from schemas.answers import (
 from schemas.effects import EffectCatalogue
 from schemas.outputs import Hodograph, Hodographs, OrdersComparison, Stages
 from schemas.requests import Objective
+from schemas.verify import VerifyAnswer
 from service.cells import add, number, table
 from service.dynamics_tables import dynamics
 from service.pin_tables import pin_loads_report
 
 _STYLES = {"optimal": "bold green", "inaccurate": "bold yellow", "infeasible": "bold red"}
+_VERDICTS = {"held": "bold green", "not covered": "bold yellow", "broken": "bold red"}
 
 
 def optimize_report(title: str, objective: Objective, answer: OptimizeAnswer) -> Group:
@@ -44,6 +46,15 @@ def names_report(title: str, names: Sequence[tuple[str, str]]) -> Table:
     for name, meaning in names:
         add(rows, name, meaning)
     return rows
+
+
+def verify_report(answer: VerifyAnswer) -> Group:
+    """What became of the claims of an answer."""
+    rows = table("claims", "claim", "verdict", "margin", "where")
+    for one in answer.claims:
+        margin = "" if one.margin is None else f"{one.margin:.1e}"
+        add(rows, one.claim, one.verdict, margin, one.where)
+    return Group(rows, Text.assemble("the answer: ", (answer.verdict, _VERDICTS[answer.verdict])))
 
 
 def effects_report(catalogue: EffectCatalogue) -> Group:

@@ -14,6 +14,7 @@ from service.cli.pareto import pareto
 from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
+from service.cli.verify import verify
 
 app = typer.Typer(
     help="Certified optimum counterweights for reciprocating and scroll machines.",
@@ -29,6 +30,7 @@ app.command()(pareto)
 app.command()(accuracy)
 app.command()(sweep)
 app.command()(report)
+app.command()(verify)
 app.command()(effects)
 app.command()(examples)
 app.command()(schema)

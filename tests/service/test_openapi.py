@@ -17,6 +17,7 @@ OPERATIONS = {
     ("post", "/v1/pareto"): "pareto",
     ("post", "/v1/rating"): "rating",
     ("post", "/v1/report"): "report",
+    ("post", "/v1/verify"): "verify",
     ("post", "/v1/scroll/pin-loads"): "pin_loads",
     ("post", "/v1/sweeps"): "start_sweep",
     ("get", "/v1/sweeps"): "list_sweeps",
@@ -72,6 +73,7 @@ def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
         ("/v1/accuracy", COMPUTED),
         ("/v1/pareto", COMPUTED),
         ("/v1/rating", COMPUTED),
+        ("/v1/verify", COMPUTED),
         ("/v1/scroll/pin-loads", COMPUTED),
         ("/v1/sweeps/{id}/metadata", KEYED | {"404", "503"}),
         ("/v1/effects", KEYED),
@@ -98,6 +100,7 @@ def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
         ("/v1/analyze", "Analyze"),
         ("/v1/pareto", "Pareto"),
         ("/v1/rating", "Rating"),
+        ("/v1/verify", "Verify"),
         ("/v1/scroll/pin-loads", "PinLoads"),
     ):
         operation = document["paths"][path]["post"]
