@@ -4,18 +4,19 @@ import time
 
 import numpy as np
 
-from optimizer.arrays import Complex
+from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order
 from optimizer.figures.proof import conflict, named, named_conflict, physical
 from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import outputs
-from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
+from optimizer.program.verdict import INFEASIBLE, claim, verdict
 from optimizer.scene import Prepared, prepare
 from schemas.answers import (
     Certificate,
@@ -30,8 +31,6 @@ from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as NamedMultipliers
 from schemas.requests import OptimizeRequest
 
-#: an answer whose total mass is not certified this closely is called inaccurate
-MASS_GAP = 1e-4
 _TOUCHED = 1e-4
 
 # compiled programs of this process; they are lent to one thread at a time
@@ -86,28 +85,27 @@ def _certified(
 ) -> dict[str, object]:
     fitted, u = _fitted(request, scene, solution.unbalance)
     square, goal = scene.omega_squared, request.objective
-    value, rest = float(statement.objective(u)), float(statement.objective(np.zeros_like(u)))
-    # a bound above the value by rounding, or by what a ceiling is exceeded within its tolerance, is lowered to it
-    bound = min(solution.lower_bound, value)
-    gap = value - bound
-    relative_gap = gap / rest if rest > 0 else 0.0
     mass = float(sum(counterweight.mass_kg for counterweight in fitted))
-    mass_bound = min(solution.mass_lower_bound, mass) if goal.least_mass else None
-    mass_gap = None if mass_bound is None else ((mass - mass_bound) / mass if mass > 0 else 0.0)
-    certified = (
-        solution.keeps_ceilings
-        # where nothing is unbalanced, a gap is measured by what the counterweights could unbalance
-        and gap <= request.accuracy.relative_gap * float(yardstick(statement))
-        and (mass_gap is None or mass_gap <= MASS_GAP)
+    claimed = claim(
+        statement,
+        u,
+        np.asarray(mass),
+        np.asarray(solution.lower_bound),
+        solution.multipliers,
+        np.asarray(solution.mass_lower_bound) if goal.least_mass else None,
     )
+    judged = verdict(claimed, request.accuracy.relative_gap)
+    value, rest = float(claimed.value[0]), float(statement.objective(np.zeros_like(u)))
+    gap = float(judged.gap[0])
     touched = _touched(request, scene, u, mass)
     return {
-        "status": "optimal" if certified else "inaccurate",
+        "status": str(judged.status),
+        "status_reason": str(judged.reason),
         "counterweights": fitted,
         "total_mass_kg": mass,
         "active_limits": touched,
         "shadow_prices": ()
-        if solution.multipliers is None
+        if solution.multipliers is None or np.isnan(gap)
         else priced(
             request.machine,
             goal,
@@ -121,13 +119,14 @@ def _certified(
         ),
         "certificate": Certificate(
             objective=value * square,
-            lower_bound=bound * square,
-            gap=gap * square,
-            relative_gap=relative_gap,
+            lower_bound=proven_or_null(judged.lower_bound[0] * square),
+            gap=proven_or_null(gap * square),
+            relative_gap=proven_or_null(judged.relative_gap),
+            yardstick=float(claimed.yardstick[0]) * square,
             objective_without_counterweights=rest * square,
-            mass_lower_bound_kg=mass_bound,
-            mass_relative_gap=mass_gap,
-            mass_objective_limit=solution.mass_target * square if goal.least_mass else None,
+            mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if goal.least_mass else None,
+            mass_relative_gap=proven_or_null(judged.mass_gap) if goal.least_mass else None,
+            mass_objective_limit=_finite(solution.mass_target * square) if goal.least_mass else None,
             method=solution.method,
             multipliers=_multipliers(statement, solution, square),
         ),
@@ -144,6 +143,15 @@ def _multipliers(statement: Statement, solution: Solution, omega_squared: float)
         objective=named(statement, physical(statement, solution.multipliers, "objective", omega_squared)),
         mass=None if of_mass is None else named(statement, physical(statement, of_mass, "mass", omega_squared)),
     )
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
+
+
+def proven_or_null(value: Real | float) -> float | None:
+    """A figure, null where nothing is proven."""
+    return None if np.isnan(value) else float(value)
 
 
 def _touched(request: OptimizeRequest, scene: Prepared, u: Complex, mass: float) -> tuple[MachineLimit, ...]:
@@ -179,6 +187,7 @@ def _infeasible(
     fitted, u = _fitted(request, scene, proof.closest)
     return {
         "status": "infeasible",
+        "status_reason": INFEASIBLE,
         "counterweights": (),
         "total_mass_kg": None,
         "certificate": None,

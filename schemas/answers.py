@@ -115,14 +115,23 @@ class Certificate(Model):
     """The proof: a lower bound in closed form that no counterweights within the limits can beat."""
 
     objective: float = Field(description="objective of the returned counterweights, recomputed", examples=[30345.0])
-    lower_bound: float = Field(
-        description="no counterweights within the limits have a smaller objective", examples=[30344.97]
+    lower_bound: float | None = Field(
+        description="no counterweights within the limits, exceeding no ceiling by more than the returned ones do, have"
+        " a smaller objective; null if nothing is proven",
+        examples=[30344.97],
     )
-    gap: float = Field(description="objective minus lower bound", examples=[0.03])
-    relative_gap: float = Field(description="gap over the objective without counterweights", examples=[5e-7])
+    gap: float | None = Field(description="objective minus lower bound; null if nothing is proven", examples=[0.03])
+    relative_gap: float | None = Field(description="gap over the yardstick; null if nothing is proven", examples=[5e-7])
+    yardstick: float = Field(
+        description="what the relative gap is relative to: the objective without counterweights; where that is 0, what"
+        " the counterweights could change of it",
+        examples=[60690.0],
+    )
     objective_without_counterweights: float = Field(description="objective with no counterweights", examples=[60690.0])
     mass_lower_bound_kg: Kilograms | None = Field(
-        description="no optimum has a smaller total mass; null if least mass was not asked for", examples=[41.2]
+        description="no optimum, ceilings kept to their tolerance, has a smaller total mass; null if least mass was not"
+        " asked for, or if nothing is proven",
+        examples=[41.2],
     )
     mass_relative_gap: float | None = Field(
         description="total mass above that bound, relative to the total mass", examples=[2e-9]
@@ -227,6 +236,10 @@ class OptimizeAnswer(Outputs):
         description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported; "
         "infeasible: no counterweights satisfy the ceilings",
         examples=["optimal"],
+    )
+    status_reason: str = Field(
+        description="why the status is what it is, in a sentence",
+        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
     )
     counterweights: tuple[Counterweight, ...] = Field(
         description="one for each web, in the machine's order; empty if infeasible", examples=[[]]

@@ -65,23 +65,36 @@ class ParetoRequest(OptimizeRequest):
         return self
 
 
+class Scale(Model):
+    """What gaps are relative to: the weighted peaks without counterweights.
+
+    Where there is no such peak, what the counterweights at the other end do one by one.
+    """
+
+    force_N: Newtons = Field(description="of forces", examples=[10006.1])
+    moment_Nm: NewtonMetres = Field(description="of moments", examples=[48734.5])
+
+
 class CornerCertificate(Model):
     """The proof of a point: no counterweights within the limits are below this corner in both peaks."""
 
-    force_N: Newtons = Field(
+    force_N: Newtons | None = Field(
         description="no counterweights have a weighted peak force up to this and a smaller weighted peak moment than"
-        " moment_Nm",
+        " moment_Nm; null if nothing is proven",
         examples=[7504.59],
     )
-    moment_Nm: NewtonMetres = Field(
+    moment_Nm: NewtonMetres | None = Field(
         description="no counterweights have a weighted peak moment up to this and a smaller weighted peak force than"
-        " force_N",
+        " force_N; null if nothing is proven",
         examples=[20123.27],
     )
-    relative_gap: float = Field(
-        description="how far the point is above the corner: the larger of both differences, each relative to the"
-        " front's scale",
+    relative_gap: float | None = Field(
+        description="how far the point is above the corner: the larger of both differences, each relative to its"
+        " yardstick; null if nothing is proven",
         examples=[8e-13],
+    )
+    yardstick: Scale = Field(
+        description="what the relative gap is relative to: the front's scale", examples=[{"force_N": 10006.1}]
     )
     mass_lower_bound_kg: Kilograms | None = Field(
         description="no counterweights that are as good in both peaks, to within that gap, have a smaller total mass;"
@@ -100,6 +113,10 @@ class ParetoPoint(Model):
     status: Literal["optimal", "inaccurate"] = Field(
         description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
         examples=["optimal"],
+    )
+    status_reason: str = Field(
+        description="why the status is what it is, in a sentence",
+        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
     )
     force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
     moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
@@ -136,16 +153,6 @@ class Ends(Model):
         description="certified: no counterweights within the limits have a smaller one", examples=[19948.1]
     )
     force_at_smallest_moment_N: Newtons = Field(description="weighted peak force at the last point", examples=[10006.1])
-
-
-class Scale(Model):
-    """What gaps are relative to: the weighted peaks without counterweights.
-
-    Where there is no such peak, what the counterweights at the other end do one by one.
-    """
-
-    force_N: Newtons = Field(description="of forces", examples=[10006.1])
-    moment_Nm: NewtonMetres = Field(description="of moments", examples=[48734.5])
 
 
 class ParetoFront(Model):

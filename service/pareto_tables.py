@@ -71,7 +71,8 @@ def _points(front: ParetoFront, weighted: bool) -> Table:
     for index, point in enumerate(front.points):
         cells: list[Cell] = [str(index), point.force_peak_N, point.moment_peak_Nm]
         cells += [point.weighted_force_peak_N, point.weighted_moment_peak_Nm] if weighted else []
-        gap = f"{point.certificate.relative_gap:.1e}" + ("" if point.status == "optimal" else " inaccurate")
+        proven = point.certificate.relative_gap
+        gap = ("none" if proven is None else f"{proven:.1e}") + ("" if point.status == "optimal" else " inaccurate")
         add(rows, *cells, point.total_mass_kg, gap, _reached(point), "knee" if index == front.knee else "")
     return rows
 

@@ -140,6 +140,11 @@ def _first_order(before: FirstOrder, after: FirstOrder | None, floor: Floor) -> 
 
 
 def _certificate(optimal: bool, proof: Certificate) -> Iterator[Text]:
+    if proof.lower_bound is None or proof.relative_gap is None:
+        yield Text(
+            f"Nothing is proven of these counterweights, which bring the objective to {number(proof.objective)}."
+        )
+        return
     yield Text(
         f"{'Certified' if optimal else 'Not certified to the gap asked for'}: no counterweights within the limits "
         f"bring the objective below {number(proof.lower_bound)}; these bring it to {number(proof.objective)}, "

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from optimizer.accuracy.methods import Found, Method, Run, Task
-from optimizer.program.solution import CEILING_TOLERANCE
+from optimizer.program.statement import CEILING_TOLERANCE
 
 #: what one method may hand to its solver; beyond it a single solve takes many seconds
 MAX_ENTRIES = 600_000

@@ -15,8 +15,7 @@ from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import ceilings, formulate, weights
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_TOLERANCE
-from optimizer.program.statement import Statement
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.scene import Prepared, prepare
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference
 from schemas.machine import ReciprocatingMachine

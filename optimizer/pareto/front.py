@@ -11,11 +11,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
-from optimizer.optimize import MASS_GAP
 from optimizer.pareto.trade import Trade
+from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.verdict import MASS_GAP
 
 #: a smallest peak by itself is sought to this share of its size
 _SHARPNESS = 1e-9
@@ -75,7 +77,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
         if isinstance(found, Unreachable):
             return found
         alone.append(found)
-    ideal = np.array([found.lower_bound for found in alone])
+    ideal = np.array([_bound(each, found) for each, found in zip(trade.alone, alone, strict=True)])
     size = _size(trade, np.array([found.unbalance for found in alone]))
     try:
         if not all(found.keeps_ceilings for found in alone):
@@ -131,8 +133,9 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     share : how much of t the answer may lie above the smallest.
     """
     best: Solution | None = None
+    program = trade.along(anchor, unit)
     for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
-        found = optimum(trade.along(anchor, unit), part * share, least_mass, solver)
+        found = optimum(program, part * share, least_mass, solver)
         if isinstance(found, Unreachable):
             raise _Undecided
         if best is None or _mass_gap(found) < _mass_gap(best):
@@ -140,8 +143,15 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
         if _mass_gap(best) <= MASS_GAP:
             break
     assert best is not None
-    bound = min(best.lower_bound, best.objective)
-    return Point(best, anchor + trade.parameter(bound, anchor, unit) * unit)
+    return Point(best, anchor + trade.parameter(_bound(program, best), anchor, unit) * unit)
+
+
+def _bound(statement: Statement, found: Solution) -> float:
+    """What is proven of all that counts as keeping the ceilings: one bound is held against many points."""
+    if found.multipliers is None:
+        return found.lower_bound
+    tolerance = np.full(statement.ceilings.cap.shape, CEILING_TOLERANCE)
+    return found.lower_bound - float(ceiling_allowance(statement, found.multipliers, tolerance))
 
 
 def _mass_gap(solution: Solution) -> float:

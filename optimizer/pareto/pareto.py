@@ -10,11 +10,12 @@ from optimizer.arrays import Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, floor
 from optimizer.formulate import ceilings
-from optimizer.optimize import MASS_GAP, optimize
+from optimizer.optimize import optimize, proven_or_null
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
 from optimizer.program.optimum import Unreachable
 from optimizer.program.reference.solver import Solver
+from optimizer.program.verdict import Claim, verdict
 from optimizer.scene import Prepared, prepare
 from schemas.answers import MachineLimit, Timing
 from schemas.machine import Machine
@@ -107,11 +108,10 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded
     first, last = kept[0], kept[-1]
     ends = Ends(
         smallest_force_N=first.weighted_force_peak_N,
-        # a bound above the value by rounding, or by what a ceiling is exceeded within its tolerance, is lowered to it
-        smallest_force_lower_bound_N=min(float(ideal[0]), first.weighted_force_peak_N),
+        smallest_force_lower_bound_N=float(ideal[0]),
         moment_at_smallest_force_Nm=first.weighted_moment_peak_Nm,
         smallest_moment_Nm=last.weighted_moment_peak_Nm,
-        smallest_moment_lower_bound_Nm=min(float(ideal[1]), last.weighted_moment_peak_Nm),
+        smallest_moment_lower_bound_Nm=float(ideal[1]),
         force_at_smallest_moment_N=last.weighted_force_peak_N,
     )
     excess = max(
@@ -141,19 +141,25 @@ def _point(
     masses, angles = masses_and_angles(solution.unbalance, radius)
     fitted, u = counterweights(machine, masses, angles), unbalance(masses, angles, radius)
     peaks = traded.peaks(u)
-    corner = np.minimum(point.corner, peaks)
-    gap = float(np.max((peaks - corner) / found.size))
     mass = float(sum(counterweight.mass_kg for counterweight in fitted))
-    mass_bound = min(solution.mass_lower_bound, mass) if request.objective.least_mass else None
-    mass_gap = None if mass_bound is None else ((mass - mass_bound) / mass if mass > 0 else 0.0)
-    certified = (
-        solution.keeps_ceilings and gap <= request.accuracy.relative_gap and (mass_gap is None or mass_gap <= MASS_GAP)
+    judged = verdict(
+        Claim(
+            value=peaks,
+            lower_bound=point.corner,
+            rounding=traded.rounding(u),
+            yardstick=found.size,
+            excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
+            mass=np.asarray(mass),
+            mass_lower_bound=np.asarray(solution.mass_lower_bound) if request.objective.least_mass else None,
+        ),
+        request.accuracy.relative_gap,
     )
     plain = scene.first_order(u)
     weighted: Real = peaks * square
-    proven: Real = corner * square
+    proven: Real = judged.lower_bound * square
     return ParetoPoint(
-        status="optimal" if certified else "inaccurate",
+        status="optimal" if judged.status == "optimal" else "inaccurate",
+        status_reason=str(judged.reason),
         force_peak_N=float(plain.force.peak),
         moment_peak_Nm=float(plain.moment.peak),
         weighted_force_peak_N=float(weighted[0]),
@@ -162,11 +168,12 @@ def _point(
         counterweights=fitted,
         active_limits=_touched(request, machine, float(plain.force.peak), float(plain.moment.peak), mass),
         certificate=CornerCertificate(
-            force_N=float(proven[0]),
-            moment_Nm=float(proven[1]),
-            relative_gap=gap,
-            mass_lower_bound_kg=mass_bound,
-            mass_relative_gap=mass_gap,
+            force_N=proven_or_null(proven[0]),
+            moment_Nm=proven_or_null(proven[1]),
+            relative_gap=proven_or_null(judged.relative_gap),
+            yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
+            mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if request.objective.least_mass else None,
+            mass_relative_gap=proven_or_null(judged.mass_gap) if request.objective.least_mass else None,
             method=solution.method,
         ),
     )

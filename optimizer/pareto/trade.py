@@ -34,6 +34,10 @@ class Trade:
         sizes = np.sum(np.abs(self.both.norms.influence) * np.abs(u)[..., None, :], axis=-1)
         return np.sum(self.both.membership * sizes[..., None, :], axis=-1)
 
+    def rounding(self, u: Complex) -> Real:
+        """What each peak may change by where masses and angles are rounded (..., 2)."""
+        return np.stack([each.rounding(u) for each in self.alone], axis=-1)
+
     @property
     def at_rest(self) -> Real:
         """Peaks without counterweights (2,)."""

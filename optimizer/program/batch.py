@@ -1,15 +1,19 @@
 """Optima of many programs of one shape at once; what is not certified goes to the reference solver."""
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+from typing import Any
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers
 from optimizer.program.fast import fast
-from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
 from optimizer.program.statement import Statement
+from optimizer.program.verdict import yardstick
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,7 @@ class Optima:
     excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
     unreachable: np.ndarray  # (N,) bool: proven that no counterweights keep the ceilings
     method: np.ndarray  # (N,) str
+    multipliers: Multipliers  # (N, ...), those of the lower bound
 
 
 def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
@@ -45,10 +50,24 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
         found.excess,
         np.zeros(share.shape, bool),
         np.full(share.shape, INTERIOR_POINT, dtype=object),
+        found.multipliers,
     )
     for n in map(int, np.flatnonzero(~found.certified)):
         _put(answer, n, statement.chosen(n), optimum(statement.chosen(n), relative_gap, least_mass, solver))
     return answer
+
+
+def joined(parts: Sequence[Optima], order: np.ndarray) -> Optima:
+    """Optima side by side, then in an order of all programs."""
+
+    def join(pieces: Sequence[Any]) -> Any:
+        if isinstance(pieces[0], np.ndarray):
+            return np.concatenate(pieces)[order]
+        names = [field.name for field in fields(pieces[0])]
+        return type(pieces[0])(*(join([getattr(piece, name) for piece in pieces]) for name in names))
+
+    whole: Optima = join(parts)
+    return whole
 
 
 def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreachable) -> None:
@@ -64,3 +83,5 @@ def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreach
     )
     answer.mass[n], answer.mass_lower_bound[n] = point.mass, point.mass_lower_bound
     answer.excess[n], answer.method[n] = point.excess, point.method
+    if point.multipliers is not None:
+        answer.multipliers.put(n, point.multipliers)

@@ -11,10 +11,12 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Statement
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
-#: allowance for rounding in a bound, in units of the sum of the magnitudes that enter it
-_ROUNDING = 32 * np.finfo(float).eps
+_EPS = float(np.finfo(float).eps)
+#: roundings of one product of a bound with its data (responses, sectors, multipliers of sum 1), in eps; a sum of n
+#: such products is off by less than n + this times eps of the sum of their magnitudes (Higham 2002, section 3.1)
+_EACH = 16
 
 
 @dataclass(frozen=True)
@@ -47,6 +49,10 @@ class Multipliers:
         """Those of some of the programs of one leading axis."""
         return Multipliers(self.term[programs], self.row[programs], self.ceiling[programs])
 
+    def put(self, n: int, one: "Multipliers") -> None:
+        """Those of program n of one leading axis, in place."""
+        self.term[n], self.row[n], self.ceiling[n] = one.term, one.row, one.ceiling
+
     def admissible(self, statement: Statement) -> "Multipliers":
         """The same multipliers with lam >= 0 and |y| <= 1, without which they prove nothing."""
         row = np.maximum(self.row, 0.0)
@@ -65,21 +71,30 @@ def nothing_proven(statement: Statement) -> Multipliers:
     )
 
 
+@dataclass(frozen=True)
+class _Minorant:
+    """constant + sum_k Re(conj(slope_k) u_k), and the sums of magnitudes that their rounding is a share of."""
+
+    constant: Real  # (...)
+    constant_size: Real
+    slope: Complex  # (..., K)
+    slope_size: Real
+    terms: int  # that a slope is a sum of
+
+
 def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Real:
     """No u within limits and ceilings has a smaller objective than this (...).
 
     -inf where the multipliers of the rows are all 0, which says nothing about the objective.
     """
-    usable = multipliers.admissible(statement)
-    total = np.sum(usable.row, axis=-1)
-    usable = usable.times(1.0 / np.where(total > 0, total, 1.0))
-    constant, slope, noise = _lagrangian(statement, usable)
-    least, rounding = _least_over_limits(slope, np.zeros_like(statement.limits.radius), statement.limits)
-    return np.where(total > 0, constant + least - noise - rounding, -np.inf)
+    usable, known = normalised(statement, multipliers)
+    minorant = _minorant(statement, usable, statement.ceilings.cap)
+    least = _least_over_limits(minorant, 0.0, statement.limits)
+    return np.where(known, minorant.constant + least - _rounding(statement, minorant.constant_size), -np.inf)
 
 
 def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Real) -> Real:
-    """No u within limits and ceilings with P(u) <= target has a smaller total mass than this, kg (...).
+    """Nothing within the limits that counts as keeping the ceilings, with P(u) <= target, is lighter than this (...).
 
     Parameters
     ----------
@@ -88,10 +103,12 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
     target : (...) largest objective that still counts as optimal.
     """
     usable = multipliers.admissible(statement)
-    constant, slope, noise = _lagrangian(statement, usable)
+    ceilings = statement.ceilings
+    minorant = _minorant(statement, usable, ceilings.cap + CEILING_TOLERANCE * ceilings.size)
     charge = np.sum(usable.row, axis=-1) * target
-    least, rounding = _least_over_limits(slope, np.ones_like(statement.limits.radius), statement.limits)
-    return np.maximum(constant - charge + least - noise - rounding - _ROUNDING * np.abs(charge), 0.0)
+    least = _least_over_limits(minorant, 1.0, statement.limits)
+    rounding = _rounding(statement, minorant.constant_size + np.abs(charge))
+    return np.maximum(minorant.constant - charge + least - rounding, 0.0)
 
 
 def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: float) -> Real:
@@ -105,46 +122,76 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     mass_cost : 0 in a bound on the objective, 1 in one on the mass.
     """
     limits = statement.limits
-    _, slope, _ = _lagrangian(statement, multipliers)
+    slope = _minorant(statement, multipliers, statement.ceilings.cap).slope
     return knapsack_price(limits.radius * limits.support(-slope) - mass_cost, limits)
 
 
 def knapsack_price(gain: Real, limits: Limits) -> Real:
     """Gain per kilogram (..., K) of the web at which the budget ends, at least 0; 0 where it does not end (...)."""
     order = np.argsort(-gain, axis=-1, kind="stable")
-    spent = np.cumsum(np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1), axis=-1)
-    unpaid = spent > limits.max_total_mass[..., None]
+    most = np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1)
+    unpaid = most > limits.left(most)
     return np.max(np.where(unpaid, np.take_along_axis(gain, order, axis=-1), 0.0), axis=-1, initial=0.0)
 
 
-def _lagrangian(statement: Statement, multipliers: Multipliers) -> tuple[Real, Complex, Real]:
-    """Constant and slope of the affine minorant, const + sum_k Re(conj(w_k) u_k), and its rounding."""
+def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Real) -> Real:
+    """What an objective bound falls by if it has to hold for all u that exceed the ceilings by this much (...).
+
+    Parameters
+    ----------
+    multipliers : those of the bound.
+    excess : (..., I) in units of the ceilings' size; what is below 0 is none.
+    """
+    usable, known = normalised(statement, multipliers)
+    over = np.maximum(excess, 0.0) * statement.ceilings.size
+    allowance = np.sum(np.where(over > 0, np.abs(usable.ceiling) * over, 0.0), axis=-1)
+    return np.where(known, allowance, 0.0)
+
+
+def normalised(statement: Statement, multipliers: Multipliers) -> tuple[Multipliers, np.ndarray]:
+    """Admissible multipliers whose rows sum to 1, and where there are any (...)."""
+    usable = multipliers.admissible(statement)
+    total = np.sum(usable.row, axis=-1)
+    known = (total > 0) & np.isfinite(total)
+    return usable.times(1.0 / np.where(known, total, 1.0)), known
+
+
+def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Minorant:
+    """The affine minorant of the Lagrangian under some caps of the ceilings."""
     norms, ceilings = statement.norms, statement.ceilings
     fixed = np.concatenate(
         [
             multipliers.row * statement.floor,
             (np.conj(multipliers.term) * norms.constant).real,
             (np.conj(multipliers.ceiling) * ceilings.norms.constant).real,
-            -np.abs(multipliers.ceiling) * ceilings.cap,
+            -np.abs(multipliers.ceiling) * cap,
         ],
         axis=-1,
     )
-    slope = np.sum(norms.influence * multipliers.term[..., :, None], axis=-2)
-    slope = slope + np.sum(ceilings.norms.influence * multipliers.ceiling[..., :, None], axis=-2)
-    return np.sum(fixed, axis=-1), slope, _ROUNDING * np.sum(np.abs(fixed), axis=-1)
+    influence = np.concatenate([norms.influence, ceilings.norms.influence], axis=-2)
+    price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
+    return _Minorant(
+        np.sum(fixed, axis=-1),
+        np.sum(np.abs(fixed), axis=-1),
+        np.sum(influence * price, axis=-2),
+        np.sum(np.abs(influence) * np.abs(price), axis=-2),
+        price.shape[-2],
+    )
 
 
-def _least_over_limits(slope: Complex, mass_cost: Real, limits: Limits) -> tuple[Real, Real]:
-    """Minimum of sum_k (mass_cost_k m_k + Re(conj(w_k) u_k)) over the limits, and its rounding.
+def _rounding(statement: Statement, size: Real) -> Real:
+    """Rounding of a sum over terms, rows and ceilings whose magnitudes sum to ``size``."""
+    return _EPS * (_EACH + statement.row.size + 2 * len(statement.ceilings.names) + statement.floor.shape[-1]) * size
 
-    One kilogram on web k gains at best R_k sigma_k - cost_k; with a budget the webs are filled in
-    falling order of that gain (a fractional knapsack).
+
+def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) -> Real:
+    """Below the minimum of sum_k (mass_cost m_k + Re(conj(slope_k) u_k)) over the limits, by its rounding (...).
+
+    One kilogram on web k gains at best R_k sigma_k - cost; the rounding of the slope is a gain too, so that it counts
+    as far as the limits let the web reach. With a budget the webs are filled in falling order of that gain.
     """
-    gain = np.maximum(limits.radius * limits.support(-slope) - mass_cost, 0.0)
-    order = np.argsort(-gain, axis=-1, kind="stable")
-    gain = np.take_along_axis(gain, order, axis=-1)
-    available = np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1)
-    before = np.cumsum(available, axis=-1) - available
-    left = np.maximum(limits.max_total_mass[..., None] - before, 0.0)
-    least = -np.sum(gain * np.minimum(available, left), axis=-1)
-    return least, _ROUNDING * np.abs(least)
+    slope = minorant.slope
+    support = limits.support(-slope) + _EPS * (_EACH + minorant.terms) * minorant.slope_size
+    gain = np.maximum(limits.radius * support - mass_cost, 0.0)
+    gained = np.sum(gain * limits.filled(gain), axis=-1)
+    return -gained * (1.0 + _EPS * (_EACH + 2 * slope.shape[-1]))

@@ -11,8 +11,8 @@ from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.polish import resting_multipliers
 from optimizer.program.scaling import natural_reach
-from optimizer.program.solution import CEILING_TOLERANCE, NEGLIGIBLE
-from optimizer.program.statement import Statement
+from optimizer.program.solution import NEGLIGIBLE
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 if TYPE_CHECKING:
     from optimizer.program.kernel.interior_point import Programs

@@ -25,7 +25,34 @@ class Limits:
     @property
     def reach(self) -> Real:
         """Largest |u_k| that the limits allow, kg m (..., K)."""
-        return self.radius * np.minimum(self.max_mass, self.max_total_mass[..., None])
+        return self.radius * self.most
+
+    @property
+    def most(self) -> Real:
+        """Largest m_k that the limits allow, kg (..., K)."""
+        return np.minimum(self.max_mass, self.max_total_mass[..., None])
+
+    def filled(self, gain: Real) -> Real:
+        """The masses of largest total gain: webs in falling order of it until the budget is spent, kg (..., K).
+
+        No mass enters that is larger than the budget, so that no digits are lost to a limit that cannot bind.
+
+        Parameters
+        ----------
+        gain : (..., K) >= 0 per kilogram.
+        """
+        if np.all(np.isinf(self.max_total_mass)):
+            return np.broadcast_to(self.max_mass, gain.shape)
+        order = np.argsort(-gain, axis=-1, kind="stable")
+        most = np.take_along_axis(np.broadcast_to(self.max_mass, gain.shape), order, axis=-1)
+        return np.take_along_axis(np.minimum(most, self.left(most)), np.argsort(order, axis=-1), axis=-1)
+
+    def left(self, most: Real) -> Real:
+        """What is left of the budget for each of the masses (..., K) that it is spent on one after the other, kg."""
+        budget = self.max_total_mass[..., None]
+        spent = np.cumsum(np.minimum(most, budget), axis=-1)
+        before = np.concatenate([np.zeros_like(spent[..., :1]), spent[..., :-1]], axis=-1)
+        return np.maximum(budget - before, 0.0)
 
     def into_sectors(self, u: Complex) -> Complex:
         """The nearest unbalance inside the sectors, kg m (..., K)."""
@@ -39,7 +66,7 @@ class Limits:
         """An unbalance within all limits, close to one that is nearly so, kg m (..., K)."""
         u = self.into_sectors(u)
         size = np.abs(u)
-        largest = self.radius * self.max_mass
+        largest = self.reach
         u = u * np.where(size > largest, largest / np.where(size > 0, size, 1.0), 1.0)
         mass = np.sum(np.abs(u) / self.radius, axis=-1)
         over = mass > self.max_total_mass

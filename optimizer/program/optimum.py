@@ -5,14 +5,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.fast import fast
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.reference.solver import Solver
-from optimizer.program.scaling import natural_reach
 from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
 from optimizer.program.statement import Statement
+from optimizer.program.verdict import yardstick
 
 #: the smallest objective is sought this much more sharply than optima are told apart
 _SHARPNESS = 1e-4
@@ -112,7 +112,7 @@ def _better_of(one: Solution | Unreachable, other: Solution, share: float) -> So
     proof = heavier if both_optimal else chosen
     return replace(
         chosen.bounded(bound, one.multipliers),
-        mass_lower_bound=min(proof.mass_lower_bound, chosen.mass),
+        mass_lower_bound=proof.mass_lower_bound,
         mass_multipliers=proof.mass_multipliers,
         mass_target=proof.mass_target,
     )
@@ -152,14 +152,6 @@ def _interior_point(
             mass_target=float(found.mass_target[0]),
         )
     return _Found(smallest, lightest.moved_to(statement, found.unbalance[0]), bool(found.certified[0]))
-
-
-def yardstick(statement: Statement) -> Real:
-    """What gaps are relative to: the objective without counterweights, or what they could change (...)."""
-    rest = statement.objective(np.zeros(statement.limits.radius.shape, complex))
-    reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
-    change = np.sum(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
-    return np.where(rest > 0, rest, change)
 
 
 def _everywhere(u: Complex, webs: np.ndarray) -> Complex:

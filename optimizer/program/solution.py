@@ -6,10 +6,8 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers
-from optimizer.program.statement import Statement
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
-#: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
-CEILING_TOLERANCE = 1e-9
 #: optima are within this share of the objective without counterweights (docs/api.md)
 OPTIMUM_SHARE = 1e-6
 #: counterweights below this share of the largest are left out where the answer stays optimal
@@ -46,7 +44,7 @@ class Solution:
 
     def bounded(self, bound: float, multipliers: Multipliers | None) -> "Solution":
         """The same point with the better of two proofs of its objective."""
-        return self if bound <= self.lower_bound else replace(self, lower_bound=bound, multipliers=multipliers)
+        return replace(self, lower_bound=bound, multipliers=multipliers) if bound > self.lower_bound else self
 
     def weighed(self, bound: float, multipliers: Multipliers | None, target: float) -> "Solution":
         """The same point with the better of two proofs of its mass."""

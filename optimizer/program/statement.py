@@ -16,6 +16,8 @@ from optimizer.response import Response
 
 Part = Literal["co", "counter"]
 
+#: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
+CEILING_TOLERANCE = 1e-9
 #: of a sum, in units of the sum of the magnitudes of its terms
 _ROUNDING = 4 * np.finfo(float).eps
 #: what a term of a weighted peak is the size of: the vector that turns with the shaft, and the one against it

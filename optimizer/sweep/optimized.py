@@ -12,12 +12,12 @@ from optimizer.formulate import weights as weights_of
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import layout as layout_of
-from optimizer.optimize import MASS_GAP
-from optimizer.program.batch import Optima, optima
+from optimizer.program.batch import Optima, joined, optima
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_TOLERANCE, CLOSED_FORM, CONE_PROGRAM
+from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.program.verdict import INFEASIBLE, claim, verdict
 from optimizer.response import Phasors, Response
 from schemas.requests import OptimizeRequest
 
@@ -25,7 +25,6 @@ Columns = dict[str, Any]
 
 #: the limit that is not one of each web
 _WHOLE = "max_total_mass"
-_INFEASIBLE = "no counterweights within the limits keep the ceilings"
 
 
 def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
@@ -83,8 +82,7 @@ def _found(program: Statement, request: OptimizeRequest, solver: Solver) -> Opti
         everywhere[:, webs] = part.unbalance
         parts.append((designs, replace(part, unbalance=everywhere)))
     order = np.argsort(np.concatenate([designs for designs, _ in parts]))
-    names = [field.name for field in fields(Optima)]
-    return Optima(**{name: np.concatenate([getattr(part, name) for _, part in parts])[order] for name in names})
+    return joined([part for _, part in parts], order)
 
 
 def _solved(program: Statement, request: OptimizeRequest, solver: Solver) -> Optima:
@@ -154,30 +152,21 @@ def _certified(
     request: OptimizeRequest, program: Statement, found: Optima, u: Complex, mass: Real, square: Real
 ) -> Columns:
     """What the counterweights are worth, recomputed, and what is proven, as in the answer to one request."""
-    value, rest = program.objective(u), program.objective(np.zeros_like(u))
-    # a bound above the value by rounding, or by what a ceiling is exceeded within its tolerance, is lowered to it
-    bound = np.minimum(found.lower_bound, value)
-    gap = np.where(rest > 0, (value - bound) / np.where(rest > 0, rest, 1.0), 0.0)
     total = np.sum(mass, axis=-1)
-    keeps, close = found.excess <= CEILING_TOLERANCE, gap <= request.accuracy.relative_gap
+    least_mass = request.objective.least_mass
+    mass_bound = found.mass_lower_bound if least_mass else None
+    claimed = claim(program, u, total, found.lower_bound, found.multipliers, mass_bound)
+    judged = verdict(claimed, request.accuracy.relative_gap)
     columns: Columns = {
         "method": found.method,
-        "objective": value * square,
-        "lower_bound": bound * square,
-        "relative_gap": gap,
+        "objective": claimed.value[:, 0] * square,
+        "lower_bound": judged.lower_bound[:, 0] * square,
+        "relative_gap": judged.relative_gap,
+        "yardstick": claimed.yardstick[:, 0] * square,
     }
-    light = np.ones_like(close)
-    if request.objective.least_mass:
-        mass_bound = np.minimum(found.mass_lower_bound, total)
-        mass_gap = np.where(total > 0, (total - mass_bound) / np.where(total > 0, total, 1.0), 0.0)
-        light = mass_gap <= MASS_GAP
-        columns |= {"mass_lower_bound_kg": mass_bound, "mass_relative_gap": mass_gap}
-    status = np.where(keeps & close & light, "optimal", "inaccurate")
-    message = np.select(
-        [keeps & close & light, ~keeps, ~close],
-        ["", "the ceilings are not kept, nor proven out of reach", "the objective is not certified to the asked gap"],
-        "the total mass is not certified to be the least",
-    )
-    columns["status"] = np.where(found.unreachable, "infeasible", status)
-    columns["message"] = np.where(found.unreachable, _INFEASIBLE, message)
+    if least_mass:
+        columns |= {"mass_lower_bound_kg": judged.mass_lower_bound, "mass_relative_gap": judged.mass_gap}
+    columns["status"] = np.where(found.unreachable, "infeasible", judged.status)
+    message = np.where(judged.status == "optimal", "", judged.reason)
+    columns["message"] = np.where(found.unreachable, INFEASIBLE, message)
     return columns

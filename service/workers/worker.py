@@ -1,6 +1,7 @@
 """What runs in a worker: bytes of a request in, bytes of an answer out, one after the other."""
 
 import gc
+import math
 import os
 import resource
 import signal
@@ -143,7 +144,8 @@ def _certified(found: object) -> Certified | None:
     timing = getattr(found, "timing", None)
     if proof is None or timing is None:
         return None
-    return Certified(proof.method, timing.solve_ms / 1000, proof.relative_gap)
+    gap = math.inf if proof.relative_gap is None else proof.relative_gap
+    return Certified(proof.method, timing.solve_ms / 1000, gap)
 
 
 def _resident() -> int:

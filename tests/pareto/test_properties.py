@@ -9,7 +9,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.optimize import MASS_GAP, optimize
+from optimizer.optimize import optimize
+from optimizer.program.verdict import MASS_GAP
 from schemas.pareto import ParetoFront
 from schemas.requests import OptimizeRequest
 from tests.optimize.machines import first_order, random_machine

@@ -6,7 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from optimizer.program.certificate import Multipliers, _least_over_limits, mass_lower_bound, objective_lower_bound
+from optimizer.program.certificate import (
+    Multipliers,
+    _least_over_limits,
+    _Minorant,
+    mass_lower_bound,
+    objective_lower_bound,
+)
 from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement, stacked
 
 
@@ -42,12 +48,14 @@ def test_least_over_limits_is_the_knapsack(seed: int, budget: bool) -> None:
     # independent: the same linear program by HiGHS, over the mass of each web in its best direction
     rng = np.random.default_rng(seed)
     limits = random_limits(rng, 5, sectors=True, budget=budget)
-    slope, cost = rng.normal(size=(5, 2)) @ [1, 1j], rng.uniform(0, 0.5, 5)
-    value = cost - limits.radius * limits.support(-slope)
+    slope = rng.normal(size=(5, 2)) @ [1, 1j]
+    value = 0.2 - limits.radius * limits.support(-slope)
     constraint = {"A_ub": np.ones((1, 5)), "b_ub": [limits.max_total_mass]} if budget else {}
     expected = linprog(value, bounds=[(0, m) for m in limits.max_mass], **constraint).fun
-    least, _ = _least_over_limits(slope, cost, limits)
+    minorant = _Minorant(np.zeros(()), np.zeros(()), slope, np.abs(slope), 1)
+    least = _least_over_limits(minorant, 0.2, limits)
     assert least == pytest.approx(expected, rel=1e-12, abs=1e-12)
+    assert least <= expected + 1e-15 * abs(expected)
 
 
 def test_bounds_broadcast_over_designs() -> None:

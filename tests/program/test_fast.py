@@ -14,8 +14,8 @@ from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS
 from optimizer.program.kernel.interior_point import solve
 from optimizer.program.optimum import Unreachable, optimum, yardstick
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_TOLERANCE, CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
-from optimizer.program.statement import Statement
+from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.scene import prepare
 from schemas.requests import OptimizeRequest
 from tests.hard import stored

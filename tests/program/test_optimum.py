@@ -10,8 +10,8 @@ import pytest
 from optimizer.program.limits import Limits
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CEILING_TOLERANCE, Solution
-from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.program.solution import Solution
+from optimizer.program.statement import CEILING_TOLERANCE, Statement, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, random_statement
 

@@ -99,7 +99,11 @@ def _size(answer: OptimizeAnswer | AnalyzeAnswer, name: str) -> float:
         return answer.total_mass_kg or 0.0
     if name in ("relative_gap", "mass_relative_gap"):
         return 1.0
-    if isinstance(answer, OptimizeAnswer) and answer.certificate is not None and name in ("objective", "lower_bound"):
+    if (
+        isinstance(answer, OptimizeAnswer)
+        and answer.certificate is not None
+        and name in ("objective", "lower_bound", "yardstick")
+    ):
         return answer.certificate.objective_without_counterweights
     if answer.residual is None:
         return 0.0
@@ -129,7 +133,15 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
 
 
 def _certificate_figures(certificate: Certificate) -> Any:
-    for name in ("objective", "lower_bound", "relative_gap", "mass_lower_bound_kg", "mass_relative_gap", "method"):
+    for name in (
+        "objective",
+        "lower_bound",
+        "relative_gap",
+        "yardstick",
+        "mass_lower_bound_kg",
+        "mass_relative_gap",
+        "method",
+    ):
         yield name, getattr(certificate, name)
 
 

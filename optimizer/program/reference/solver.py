@@ -18,8 +18,8 @@ from optimizer.program.polish import (
 )
 from optimizer.program.reference.modelling import CompiledPrograms, ScaledData, ScaledSolution
 from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
-from optimizer.program.solution import CEILING_TOLERANCE, CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
-from optimizer.program.statement import Ceilings, Names, Norms, Statement, Term
+from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
+from optimizer.program.statement import CEILING_TOLERANCE, Ceilings, Names, Norms, Statement, Term
 
 
 class _Attempt(NamedTuple):

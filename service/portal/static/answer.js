@@ -40,6 +40,7 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
   const sentences = [];
   if (bare === 0) sentences.push("Nothing of first order is out of balance: no counterweights are needed.");
   else if (objective <= small) sentences.push(`These counterweights cancel ${how} completely. It was ${figure(bare)} without them.`);
+  else if (bound === null) sentences.push(`Nothing is proven of these counterweights: ${figure(objective, 8)}, without any ${figure(bare, 8)}.`);
   else {
     const near = share(Math.max(0, gap) / Math.max(bound, small));
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `

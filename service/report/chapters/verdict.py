@@ -40,11 +40,14 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
     assert proof is not None  # only an infeasible answer has none
     if not request.machine.webs:
         return Paragraph("The machine has no place for counterweights, so that nothing can be chosen.", "key")
+    if proof.lower_bound is None or proof.relative_gap is None:
+        return Paragraph(f"Nothing is proven of the counterweights below. {answer.status_reason}", "warning")
     if answer.status == "inaccurate":
         return Paragraph(
             "Not certified to the accuracy asked for. The counterweights below keep the limits; how far they may be "
             f"from the best ones is proven: by at most {_percent(proof.relative_gap)} of the objective without "
-            f"counterweights, where {_percent(request.accuracy.relative_gap)} was asked for. See the certificate.",
+            f"counterweights, where {_percent(request.accuracy.relative_gap)} was asked for. {answer.status_reason} "
+            "See the certificate.",
             "warning",
         )
     return Paragraph(
@@ -100,10 +103,16 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         )
     words = (
         f"Without counterweights the objective is {digits(proof.objective_without_counterweights)}. The counterweights "
-        f"bring it to {digits(proof.objective)}, recomputed from their masses and angles. A lower bound in closed form "
-        f"shows that no counterweights within these limits bring it below {digits(proof.lower_bound)}: whatever "
-        f"else is tried, it gains at most {_percent(proof.relative_gap)} of the objective without counterweights."
+        f"bring it to {digits(proof.objective)}, recomputed from their masses and angles. "
     )
+    if proof.lower_bound is None or proof.relative_gap is None:
+        words += "No lower bound is proven."
+    else:
+        words += (
+            "A lower bound in closed form shows that no counterweights within these limits bring it below "
+            f"{digits(proof.lower_bound)}: whatever else is tried, it gains at most {_percent(proof.relative_gap)} of "
+            "the objective without counterweights."
+        )
     blocks: list[Block] = [Paragraph(words), _bound()]
     rows: list[tuple[str, float | str | None]] = [
         ("objective without counterweights", proof.objective_without_counterweights),
@@ -111,6 +120,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         ("lower bound", proof.lower_bound),
         ("gap", proof.gap),
         ("relative gap", proof.relative_gap),
+        ("relative to", proof.yardstick),
     ]
     if proof.mass_lower_bound_kg is not None:
         blocks.append(

@@ -74,6 +74,6 @@ function show(place, machine, point, index, count) {
     h("h3", {}, `Point ${index + 1} of ${count}`),
     table("The chosen point", ["peak force, N", "peak moment, N m", "total mass, kg", "proved to within"],
       [[figure(point.force_peak_N), number(point.moment_peak_Nm), number(point.total_mass_kg),
-        { number: true, text: share(Math.max(0, point.certificate.relative_gap)) }]]),
+        { number: true, text: point.certificate.relative_gap === null ? "none" : share(point.certificate.relative_gap) }]]),
     h("div", { class: "beside" }, front(machine, point.counterweights), counterweightTable(point.counterweights)));
 }

@@ -1,0 +1,147 @@
+"""What an answer may claim: one rule for single answers, sweeps and fronts.
+
+The bound and the value are compared as they are. A bound is lowered to the value where it is above it by no more than
+the rounding with which the value is known; a bound further above contradicts the answer, and then nothing is proven.
+"""
+
+import logging
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers, ceiling_allowance
+from optimizer.program.scaling import natural_reach
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
+
+_LOG = logging.getLogger(__name__)
+#: an answer whose total mass is not certified this closely is called inaccurate
+MASS_GAP = 1e-4
+#: rounding of a mass, relative to it
+_MASS_ROUNDING = 1e-13
+
+OPTIMAL = "The gap to the proven lower bound is within the asked one, and every limit is kept."
+OPTIMAL_LIGHTEST = (
+    "The gap to the proven lower bound is within the asked one, every limit is kept, and the total mass is proven to"
+    " be the least to 1e-4 of itself."
+)
+NOT_KEPT = "The ceilings are not kept, nor proven out of reach: they are on the boundary of what can be reached."
+NOT_CLOSE = "The objective is not certified to the asked gap."
+NOT_LIGHT = "The total mass is not certified to be the least."
+CONTRADICTED = "A bound contradicts the answer, a fault of the service: nothing is proven."
+INFEASIBLE = "It is proven that no counterweights within the limits keep the ceilings."
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is proven of answers; NaN where nothing is."""
+
+    status: np.ndarray  # (...) "optimal" or "inaccurate"
+    reason: np.ndarray  # (...) a sentence
+    lower_bound: Real  # (..., G) of every goal
+    gap: Real  # (..., G) goal minus its bound
+    relative_gap: Real  # (...) the largest gap over its yardstick
+    mass_lower_bound: Real  # (...) kg
+    mass_gap: Real  # (...) relative to the mass
+
+
+@dataclass(frozen=True)
+class Claim:
+    """Goals that were made small, with what is proven: nothing is below the bounds in all of them.
+
+    There is one goal, G = 1, but for the two of a front.
+    """
+
+    value: Real  # (..., G)
+    lower_bound: Real  # (..., G)
+    rounding: Real  # (..., G) of the value
+    yardstick: Real  # (..., G)
+    excess: Real  # (...) largest relative excess over a ceiling, -inf without ceilings
+    mass: Real  # (...) kg
+    mass_lower_bound: Real | None  # (...) kg; None where the least mass was not asked for
+
+
+def claim(
+    statement: Statement,
+    u: Complex,
+    mass: Real,
+    lower_bound: Real,
+    multipliers: Multipliers | None,
+    mass_lower_bound: Real | None,
+) -> Claim:
+    """What counterweights come to, of one goal.
+
+    The bound is made to hold for all that exceed the ceilings by no more than these counterweights do.
+
+    Parameters
+    ----------
+    u : (..., K) kg m.
+    mass : (...) kg, of the counterweights as they are returned.
+    lower_bound, multipliers : of the objective, with its proof; None where there is none.
+    """
+    excess = statement.ceilings.excess(u)
+    allowance = 0.0 if multipliers is None else ceiling_allowance(statement, multipliers, excess)
+    return Claim(
+        statement.objective(u)[..., None],
+        np.asarray(lower_bound - allowance)[..., None],
+        statement.rounding(u)[..., None],
+        yardstick(statement)[..., None],
+        np.max(excess, axis=-1, initial=-np.inf),
+        mass,
+        mass_lower_bound,
+    )
+
+
+def verdict(claim: Claim, asked: float) -> Verdict:
+    """Judge answers.
+
+    Parameters
+    ----------
+    asked : largest gap, in units of the yardsticks, that is certified enough.
+    """
+    over = claim.lower_bound - claim.value
+    # of several goals the bound is a corner below which nothing is in all of them
+    false = np.all(over > claim.rounding, axis=-1)
+    bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
+    relative = np.max(relative_gap(gap, claim.yardstick), axis=-1)
+    mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
+    if claim.mass_lower_bound is not None:
+        false = false | (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING))
+        mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
+        mass_gap = relative_gap(claim.mass - mass_bound, claim.mass)
+        light = mass_gap <= MASS_GAP
+    if np.any(false):
+        _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
+    kept, close = claim.excess <= CEILING_TOLERANCE, relative <= asked
+    nothing = false | ~np.isfinite(relative)
+    why_not = [CONTRADICTED, NOT_KEPT, NOT_CLOSE, NOT_LIGHT]
+    why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
+    reason = np.select([false, ~kept, ~close, ~light], why_not, why)
+    return Verdict(
+        np.where(~false & kept & close & light, "optimal", "inaccurate"),
+        reason,
+        np.where(nothing[..., None], np.nan, bound),
+        np.where(nothing[..., None], np.nan, gap),
+        np.where(nothing, np.nan, relative),
+        np.where(false, np.nan, mass_bound),
+        np.where(false, np.nan, mass_gap),
+    )
+
+
+def relative_gap(gap: Real, yardstick: Real) -> Real:
+    """Gap over yardstick; where the yardstick is 0 any gap is infinitely large, and no gap is none."""
+    return np.where(yardstick > 0, gap / np.where(yardstick > 0, yardstick, 1.0), np.where(gap > 0, np.inf, 0.0))
+
+
+def yardstick(statement: Statement) -> Real:
+    """What gaps are relative to: the objective without counterweights; where that is 0, what they could change (...).
+
+    That is the sum over terms and webs of what the counterweight that cancels everything, or the largest that fits,
+    does to a term.
+    """
+    rest = statement.objective(np.zeros(statement.limits.radius.shape, complex))
+    if np.all(rest > 0):
+        return rest
+    reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
+    change = np.sum(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
+    return np.where(rest > 0, rest, change)
