@@ -16,9 +16,11 @@ from service.guard.access import Access
 from service.guard.hosts import Hosts
 from service.guard.keys import keys
 from service.guard.rates import RateLimits
+from service.guard.shares import Shares
 from service.http import errors
 from service.http.computing import Computing
 from service.http.openapi import Documented
+from service.http.pacing import Pacing
 from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
 from service.routes import computations, effects, examples, health, portal, sweeps
@@ -115,7 +117,8 @@ def create_app(
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(CORSMiddleware, chosen.cors_origins, **CORS),
-            Middleware(Access, keys(chosen), Hosts(chosen.allowed_hosts), RateLimits(chosen)),
+            Middleware(Pacing),
+            Middleware(Access, keys(chosen), Hosts(chosen.allowed_hosts), RateLimits(chosen), Shares(chosen)),
         ),
         title="counterweight",
         version=version("counterweight"),

@@ -47,6 +47,9 @@ class _Network(BaseSettings):
         "comma-separated",
     )
     max_connections: int = Field(1000, ge=1, description="open connections; further ones are answered 503")
+    max_connections_each: int = Field(
+        250, ge=1, description="open connections of one address that is no trusted proxy; further ones are answered 503"
+    )
     headers_timeout_s: float = Field(
         10, gt=0, description="a connection that sends no whole header for longer is closed [s]"
     )
@@ -100,6 +103,19 @@ class _Work(BaseSettings):
     )
 
 
+class _Shares(BaseSettings):
+    """What clients may hold at a time; more is answered 429, but for a first one of each client."""
+
+    held_mb: int = Field(
+        48, ge=1, description="bytes of bodies that are computed or still arrive, and as many of answers not read [MB]"
+    )
+    held_mb_each: int = Field(16, ge=1, description="the same of one client [MB]; 8 times that in files, on disk")
+    event_streams: int = Field(400, ge=1, description="streams of events")
+    event_streams_each: int = Field(100, ge=1, description="streams of events of one client")
+    row_streams: int = Field(24, ge=1, description="streams of rows")
+    row_streams_each: int = Field(8, ge=1, description="streams of rows of one client")
+
+
 class _Access(BaseSettings):
     """Who may ask."""
 
@@ -151,7 +167,7 @@ class _Jobs(BaseSettings):
     max_jobs: int = Field(1000, ge=1, description="sweeps that wait or run at the same time")
 
 
-class Settings(_Network, _Sizes, _Work, _Access, _Watching, _Jobs):
+class Settings(_Network, _Sizes, _Work, _Shares, _Access, _Watching, _Jobs):
     """What an operator can set; the defaults suit one user on one machine."""
 
     model_config = SettingsConfigDict(

@@ -13,6 +13,7 @@ from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, C
 from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
 from service.guard.refusals import Forbidden, ForeignHost, Unauthorized
+from service.guard.shares import Holding, Shares
 from service.http.errors import answered
 
 
@@ -31,14 +32,15 @@ class Access:
 
     Where nobody needs a key, those for hosts that are known.
 
-    Whose request it is goes into ``state["caller"]``, and whose share of the service it takes into ``state["who"]``.
+    Whose request it is goes into ``state["caller"]``, and what of the service it takes into ``state["holding"]``.
     """
 
-    def __init__(self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits) -> None:
+    def __init__(self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits, shares: Shares) -> None:
         self._app = app
         self._keys = keys
         self._hosts = hosts
         self._limits = limits
+        self._shares = shares
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -49,11 +51,22 @@ class Access:
         except (Unauthorized, ForeignHost, TooManyRequests) as error:
             await answered(error, scope["path"])(scope, receive, send)
             return
-        scope.setdefault("state", {}).update(caller=caller, who=_who(scope, caller))
-        await self._app(scope, receive, send)
+        holding = Holding(self._shares, _who(scope, caller))
+        state = scope.setdefault("state", {})
+        state.update(caller=caller, holding=holding, still_admitted=lambda: self._still_admitted(scope, caller))
+        try:
+            await self._app(scope, receive, send)
+        finally:
+            holding.end()
+
+    def _still_admitted(self, scope: Scope, caller: Caller) -> bool:
+        if self._keys is None or caller.key is None:
+            return True
+        now = self._keys.caller(_key(Headers(scope=scope)) or "")
+        return now is not None and now.owner == caller.owner
 
     async def _admitted(self, scope: Scope, keys: Keys | None) -> Caller:
-        path = _own_path(scope)
+        path = own_path(scope)
         if keys is None:
             # who asks for health comes by whatever address there is, and learns nothing else
             if path not in PROBES:
@@ -75,7 +88,8 @@ def _who(scope: Scope, caller: Caller) -> str:
     return f"owner {caller.owner}" if caller.owner is not None else client_network((scope.get("client") or ("",))[0])
 
 
-def _own_path(scope: Scope) -> str:
+def own_path(scope: Scope) -> str:
+    """The path of a request without the prefix that a proxy strips."""
     path, prefix = str(scope["path"]), str(scope.get("root_path", "")).rstrip("/")
     return path[len(prefix) :] if prefix and path.startswith(f"{prefix}/") else path
 

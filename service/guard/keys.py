@@ -92,9 +92,9 @@ def caller_of(request: Request) -> Caller:
     return found
 
 
-def who(request: Request) -> str:
-    """Whose share of the service a request takes: the owner of its key, or the address that it comes from."""
-    found: str = request.state.who
+def still_admitted(request: Request) -> bool:
+    """Whether the key of a request that takes long is still right; it may have been revoked, or have expired."""
+    found: bool = request.state.still_admitted()
     return found
 
 

@@ -33,5 +33,5 @@ class ForeignHost(Exception):
 class TooManyConnections(Exception):
     """As many connections as are allowed are open; a retry may help."""
 
-    def __init__(self, most: int) -> None:
-        super().__init__(f"{most} connections are open already; try again later.")
+    def __init__(self) -> None:
+        super().__init__("No more connections may be open, of this address or altogether; try again later.")

@@ -11,7 +11,7 @@ from starlette.responses import Response
 
 from schemas.base import Model
 from service.computations import Computation, Form
-from service.guard.keys import who
+from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
 from service.http.accept import NotAcceptable, preferred
 from service.http.request_body import read_body
@@ -58,10 +58,10 @@ class Computing:
 
         Raises
         ------
-        NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow
+        NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, OverShare
         """
         self._readiness.require()
-        body = await read_body(request, self._max_body_bytes, self._body_timeout_s)
+        body = await read_body(request, self._max_body_bytes, self._body_timeout_s, holding(request))
         if self._quotes:
             request.state.body = body
         return body
@@ -82,7 +82,7 @@ class Computing:
 
         Raises
         ------
-        NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableJson, InvalidRequest,
+        NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableJson, InvalidRequest, OverShare,
         MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
             all of which have a row in the table of :mod:`service.http.errors`, as those of jobs have.
         """
@@ -98,7 +98,7 @@ class Computing:
 
         task = Task(asked_for, form, body, self.limits)
         with self._tracing.span(asked_for.name):
-            outcome = await _while_connected(request, lambda: self._pool.run(task, who(request)))
+            outcome = await _while_connected(request, lambda: self._pool.run(task, holding(request).who))
         content = self._judged(outcome, asked_for.name).content
         varies = {"Vary": "Accept"} if len(asked_for.forms) > 1 else {}
         headers = {"Cache-Control": "no-store", **dict(form.headers), **varies}

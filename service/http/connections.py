@@ -9,19 +9,26 @@ import h11
 from starlette.types import Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from service.guard.access import own_path
+from service.guard.doors import Doors
+from service.guard.keys import PROBES
 from service.guard.refusals import TooManyConnections
-from service.http.errors import PROBLEM_JSON, Fault, answered, problem
+from service.http.errors import PROBLEM_JSON, Fault, answered, fault, problem
 from service.http.joined import Joined
 from service.settings import Settings
 
+#: what may wait to be read by a client, and what is read of it at a time [bytes]
+_UNREAD_BYTES = 32_768
+_READ_BYTES = 32_768
 _TITLES = {431: "Headers too large", 501: "Not implemented"}
 
 
-def connections(settings: Settings) -> type[asyncio.Protocol]:
-    """The protocol of a server with these settings."""
+def connections(settings: Settings, most: int | None = None) -> type[asyncio.Protocol]:
+    """The protocol of a server with these settings; ``most`` connections if the system allows no more."""
+    altogether = settings.max_connections if most is None else min(most, settings.max_connections)
 
     class Limited(Connection):
-        max_connections = settings.max_connections
+        doors = Doors(altogether, settings.max_connections_each, settings.trusted_proxies)
         headers_timeout_s = settings.headers_timeout_s
         write_timeout_s = settings.write_timeout_s
 
@@ -32,7 +39,7 @@ class Connection(H11Protocol):
     """Closed when its client sends no whole header, goes on with a body that was answered, or reads nothing, for too
     long."""
 
-    max_connections: int
+    doors: Doors
     headers_timeout_s: float
     write_timeout_s: float
 
@@ -40,16 +47,34 @@ class Connection(H11Protocol):
         super().__init__(*args, **kwargs)
         self._headers_timer: asyncio.TimerHandle | None = None
         self._write_timer: asyncio.TimerHandle | None = None
+        self._unread = 0
+        self._counted = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(Joined(transport, self.loop))  # type: ignore[arg-type]
-        if len(self.connections) > self.max_connections:
-            self.app = _refused(self.max_connections)
+        transport.set_write_buffer_limits(high=_UNREAD_BYTES)
+        # what is read at a time: a client that sends more than is asked for fills no more than this
+        transport.max_size = _READ_BYTES  # type: ignore[attr-defined]
+        self._counted = self.doors.enter(self._address)
+        if not self._counted:
+            self.app = _probes_only(self.app)
+            self.doors.probe(self._address, self._give_up)
         self._watch_headers()
+
+    def _give_up(self) -> None:
+        self._refuse(fault(TooManyConnections()))
+
+    @property
+    def _address(self) -> str:
+        return self.client[0] if self.client else ""
 
     def connection_lost(self, exc: Exception | None) -> None:
         _stop(self._headers_timer)
         _stop(self._write_timer)
+        if self._counted:
+            self.doors.leave(self._address)
+        else:
+            self.doors.probed(self._address, self._give_up)
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -97,12 +122,17 @@ class Connection(H11Protocol):
 
     def _watch_writing(self) -> None:
         if self._write_timer is None:
+            self._unread = self.transport.get_write_buffer_size()
             self._write_timer = self.loop.call_later(self.write_timeout_s, self._writing_late)
 
     def _writing_late(self) -> None:
         self._write_timer = None
-        if self.transport.get_write_buffer_size():
+        left = self.transport.get_write_buffer_size()
+        if left and left >= self._unread:
             self.transport.abort()
+        elif left:
+            # it reads, however slowly
+            self._watch_writing()
 
     def send_400_response(self, msg: str) -> None:
         error = sys.exc_info()[1]
@@ -112,6 +142,7 @@ class Connection(H11Protocol):
     def _refuse(self, fault: Fault) -> None:
         content = problem(fault, "").model_dump_json().encode()
         headers = [
+            *((name.encode(), value.encode()) for name, value in fault.headers.items()),
             (b"content-type", PROBLEM_JSON.encode()),
             (b"content-length", str(len(content)).encode()),
             (b"connection", b"close"),
@@ -129,13 +160,18 @@ class Connection(H11Protocol):
         self.transport.close()
 
 
-def _refused(most: int) -> Callable[..., Any]:
-    async def refuse(scope: Scope, receive: Receive, send: Send) -> None:
-        answer = answered(TooManyConnections(most), scope["path"])
-        answer.headers["Connection"] = "close"
-        await answer(scope, receive, send)
+def _probes_only(app: Callable[..., Any]) -> Callable[..., Any]:
+    """The probes of an application; all else is refused, as there is no room."""
 
-    return refuse
+    async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http" and own_path(scope) in PROBES:
+            await app(scope, receive, send)
+            return
+        refusal = answered(TooManyConnections(), scope["path"])
+        refusal.headers["Connection"] = "close"
+        await refusal(scope, receive, send)
+
+    return answer
 
 
 def _stop(timer: asyncio.TimerHandle | None) -> None:

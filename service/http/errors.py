@@ -19,6 +19,7 @@ from schemas.problem import FieldError, Problem
 from service.documents.examples import UnknownExample
 from service.guard.rates import TooManyRequests
 from service.guard.refusals import Forbidden, ForeignHost, TooManyConnections, Unauthorized
+from service.guard.shares import OverShare
 from service.http.accept import NotAcceptable
 from service.http.computing import ClientGone, ComputationFailed
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
@@ -122,6 +123,7 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     TooManyRequests: _too_many("Too many requests"),
     TooManyConnections: _later(503, "Too many connections", 1),
     Busy: _too_many("Busy"),
+    OverShare: _later(429, "Over share", 1),
     TooSlow: _later(503, "Too slow", 5),
     WorkerDied: _later(503, "Worker died", 1),
     WorkersFailed: _later(503, "Workers failed", 5),
@@ -159,11 +161,15 @@ def problem(fault: Fault, instance: str) -> Problem:
     )
 
 
+def fault(error: Exception) -> Fault:
+    """What is said about an exception."""
+    return next(FAULTS[kind] for kind in type(error).__mro__ if kind in FAULTS)(error)
+
+
 def answered(error: Exception, path: str) -> Response:
     """The problem details of an exception as an answer to a request for a path."""
-    describe = next(FAULTS[kind] for kind in type(error).__mro__ if kind in FAULTS)
-    fault = describe(error)
-    return Response(problem(fault, path).model_dump_json(), fault.status, fault.headers, PROBLEM_JSON)
+    said = fault(error)
+    return Response(problem(said, path).model_dump_json(), said.status, said.headers, PROBLEM_JSON)
 
 
 def install(app: FastAPI) -> None:

@@ -5,6 +5,8 @@ import re
 from anyio import fail_after
 from starlette.requests import Request
 
+from service.guard.shares import Holding
+
 _TOKEN = r"[!#$%&'*+.^_`|~0-9A-Za-z-]+"
 #: RFC 9110, 8.3.1 and 5.6.6; a parameter may be empty
 _MEDIA_TYPE = re.compile(rf"[ \t]*({_TOKEN}/{_TOKEN})[ \t]*((?:;.*)?)")
@@ -24,8 +26,8 @@ class BodyTooSlow(Exception):
     """The body did not arrive in time."""
 
 
-async def read_body(request: Request, max_bytes: int, timeout_s: float) -> bytes:
-    """The body, whether its length was announced or not.
+async def read_body(request: Request, max_bytes: int, timeout_s: float, holding: Holding) -> bytes:
+    """The body, whether its length was announced or not; what has come of it is counted for its client.
 
     Raises
     ------
@@ -35,6 +37,8 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float) -> bytes
         if it is, or says it is, larger than ``max_bytes``.
     BodyTooSlow
         if it takes longer than ``timeout_s`` [s].
+    OverShare
+        if the client holds as many bytes of bodies as it may.
     ClientDisconnect
         if it ends early.
     """
@@ -48,9 +52,10 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float) -> bytes
     try:
         with fail_after(timeout_s):
             async for chunk in request.stream():
-                body += chunk
-                if len(body) > max_bytes:
+                if len(body) + len(chunk) > max_bytes:
                     raise too_large
+                holding.take("bodies", len(chunk))
+                body += chunk
     except TimeoutError:
         raise BodyTooSlow(f"The body did not arrive within {timeout_s:g} s.") from None
     return bytes(body)

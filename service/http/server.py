@@ -1,10 +1,15 @@
 """The HTTP server around the application."""
 
 import asyncio
+import errno
+import logging
+import math
 import resource
 import socket
+import sys
 from contextlib import suppress
 from types import FrameType
+from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
@@ -12,7 +17,12 @@ from fastapi import FastAPI
 from service.http.connections import connections
 from service.settings import Settings
 
+_LOG = logging.getLogger(__name__)
 _TO_ANSWER_S = 1.0
+#: files that are no connections: workers, database, log, libraries
+_OTHER_FILES = 128
+_NO_FILES = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
+_SAY_AGAIN_S = 60.0
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -39,10 +49,12 @@ def url(listening: socket.socket) -> str:
 
 def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     """Serve until SIGINT or SIGTERM; open requests get time to end."""
-    _allow_files()
+    most = max(1, _files() - _OTHER_FILES)
+    if most < settings.max_connections:
+        _LOG.warning("the system allows %d open connections, not %d", most, settings.max_connections)
     config = uvicorn.Config(
         app,
-        http=connections(settings),
+        http=connections(settings, most),
         ws="none",
         root_path=settings.root_path,
         forwarded_allow_ips=list(settings.trusted_proxies),
@@ -56,10 +68,26 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
         _Server(config, app).run(sockets=[listening])
 
 
-def _allow_files() -> None:
-    """A connection is a file: as many as the system allows, not as many as it hands out at first."""
+def _files() -> int:
+    """How many files may be open. A connection is one: as many as the system allows, not as it hands out at first."""
     _, most = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (most, most))
+    return sys.maxsize if most == resource.RLIM_INFINITY else most
+
+
+class _Accepting:
+    """Says once in a while that no file is left for a connection; the loop says so thousands of times a second."""
+
+    def __init__(self) -> None:
+        self._said = -math.inf
+
+    def __call__(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        error = context.get("exception")
+        if not (isinstance(error, OSError) and error.errno in _NO_FILES and "socket" in context):
+            loop.default_exception_handler(context)
+        elif loop.time() - self._said > _SAY_AGAIN_S:
+            self._said = loop.time()
+            _LOG.error("connections wait, as no file can be opened: %s", error.strerror)
 
 
 class _Server(uvicorn.Server):
@@ -72,6 +100,10 @@ class _Server(uvicorn.Server):
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         self._app.state.desk.closing.set()
         super().handle_exit(sig, frame)
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        asyncio.get_running_loop().set_exception_handler(_Accepting())
+        await super().startup(sockets)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         # computations that do not end by themselves are answered 503 while there is still time to send it

@@ -13,6 +13,8 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from optimizer.sweep.plan import plan
 from schemas.sweep import SweepEstimate, SweepRequest, SweepState
 from service.guard.access import needs
+from service.guard.keys import still_admitted
+from service.guard.shares import holding
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
@@ -195,6 +197,7 @@ def _stream(request: Request, job: Job, name: Name, content: Iterator[bytes], mo
     media_type = FORMATS[name].media_type
     if request.scope.get("head"):
         return _head(headers, media_type)
+    holding(request).take("rows")
     # what goes wrong at once is answered with a status
     first = next(content, b"")
     return StreamingResponse(chain((first,), content), headers=headers, media_type=media_type)
@@ -223,8 +226,13 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     headers = {**_NO_STORE, "X-Accel-Buffering": "no"}
     if request.scope.get("head"):
         return _head(headers, "text/event-stream")
+    holding(request).take("events")
     where = prefix(request)
-    told = events(lambda: desk.get(id), lambda job: desk.state(job, where), last, desk.closing.is_set)
+
+    def ending() -> bool:
+        return desk.closing.is_set() or not still_admitted(request)
+
+    told = events(lambda: desk.get(id), lambda job: desk.state(job, where), last, ending)
     return StreamingResponse(told, headers=headers, media_type="text/event-stream")
 
 

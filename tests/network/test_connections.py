@@ -106,7 +106,9 @@ def test_a_client_that_reads_nothing_is_let_go(strict: Service) -> None:
 async def too_many(target: Service, others: int, expected: int) -> None:
     held = [await asyncio.open_connection("127.0.0.1", target.port) for _ in range(others)]
     try:
-        reply = await target.ask("GET", "/healthz")
+        # whoever asks for health is answered, however many there are
+        await healthy(target)
+        reply = await target.ask("GET", "/v1/examples")
         assert reply.status == expected
         if expected == 503:
             assert reply.headers["retry-after"] == "1"
