@@ -30,6 +30,10 @@ class _Attempt(NamedTuple):
     ceiling_margin: float  # share by which ceilings are lowered, so that the answer keeps them
     target_margin: float  # least mass: share of the allowance above the optimum that is kept back
 
+    def clip(self, natural: float, largest: float) -> float:
+        """Largest reach worth considering, kg m; where nothing that counts can be changed any is."""
+        return min(self.reach * natural, largest) if natural > 0.0 else largest
+
 
 _ATTEMPTS = (
     _Attempt(1e-12, 10.0, 2e-11, 1e-5),
@@ -75,7 +79,7 @@ class Solver:
             return best
         natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
         for attempt in _ATTEMPTS:
-            clip = min(attempt.reach * natural, largest)
+            clip = attempt.clip(natural, largest)
             data, scaling = scale(statement, "objective", clip, attempt.ceiling_margin)
             best, solved = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
             if solved is not None:
@@ -121,7 +125,7 @@ class Solver:
             best = best.weighed(bound, multipliers, counted)
         for attempt in _MASS_ATTEMPTS:
             inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
-            clip = min(max(attempt.reach * natural, needed), largest)
+            clip = min(max(attempt.clip(natural, largest), needed), largest)
             data, scaling = scale(statement, "mass", clip, attempt.ceiling_margin, inner, first.mass)
             best, solved = self._attempt(
                 statement, best, data, scaling, attempt.tolerance, admit, blend=(first, target)

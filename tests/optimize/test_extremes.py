@@ -1,0 +1,42 @@
+"""Requests at the edges of what the schema accepts are answered like any other."""
+
+import pytest
+
+from optimizer.optimize import optimize
+from optimizer.pareto.pareto import pareto
+from optimizer.sweep import run_chunk
+from schemas.pareto import ParetoRequest
+from schemas.requests import OptimizeRequest
+from tests.hard.bodies import tried
+from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
+from tests.sweep.single import sweep
+
+
+def _without_influence(ceiling: float) -> Body:
+    """The only web is in the plane of moments: it does nothing to the moment, which alone counts."""
+    throws = [throw(-0.2, 0.0, [row(0.0, 10.0)]), throw(0.2, 90.0, [row(0.0, 10.0)])]
+    objective = {"force_weight": 0, "moment_weight": 1, "moment_ceiling_Nm": ceiling}
+    return {"machine": machine(throws, [web("middle", 0.0)]), "objective": objective}
+
+
+@pytest.mark.parametrize(("ceiling", "status"), [(1.0, "infeasible"), (1e9, "optimal"), (0.0, "infeasible")])
+def test_a_web_that_does_nothing_to_what_counts(ceiling: float, status: str) -> None:
+    body = _without_influence(ceiling)
+    found = optimize(OptimizeRequest.model_validate(body))
+    assert found.status == status
+    request = sweep(body, {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]]})
+    assert run_chunk(request.model_dump_json().encode(), 0, 1).to_pylist()[0]["status"] == status
+    assert pareto(ParetoRequest.model_validate(body | {"points": 3})).status == status
+
+
+@pytest.mark.parametrize("weights", [(1e-30, 1e25), (1e25, 1e-30), (1e-30, 1e-30), (1e30, 1e30), (1e-30, 1e30)])
+@pytest.mark.parametrize("combine", ["sum", "max"])
+def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> None:
+    goal = {"force_weight": weights[0], "moment_weight": weights[1], "combine": combine}
+    found = optimize(OptimizeRequest.model_validate({"machine": machine(v_twin(), four_webs()), "objective": goal}))
+    assert found.status == "optimal"
+
+
+@pytest.mark.parametrize("number", range(200))
+def test_random_bodies_raise_nothing(number: int) -> None:
+    tried(number)
