@@ -14,7 +14,8 @@ from schemas.answers import (
     Timing,
 )
 from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
-from schemas.quantities import Count, Kilograms, Mass, Metres, NewtonMetres, Newtons
+from schemas.proof import EndMultipliers, Multipliers
+from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
 from schemas.units import Unit, between
 
@@ -45,6 +46,10 @@ class ParetoRequest(OptimizeRequest):
         description="a front for each of these limits of the total mass, in place of the machine's own"
         " max_total_mass_kg; null is one front with the machine's own",
         examples=[[120.0, 180.0, 240.0]],
+    )
+
+    multipliers: Flag = Field(
+        False, description="the multipliers of every point's certificate, and of the ends'", examples=[False]
     )
 
     @model_validator(mode="after")
@@ -104,6 +109,15 @@ class CornerCertificate(Model):
     mass_relative_gap: float | None = Field(
         description="total mass above that bound, relative to the total mass", examples=[3e-8]
     )
+    mass_force_limit_N: Newtons | None = Field(
+        description="largest weighted peak force that the bound of the mass allows; null if least mass was not asked"
+        " for",
+        examples=[7504.6],
+    )
+    mass_moment_limit_Nm: NewtonMetres | None = Field(
+        description="largest weighted peak moment that the bound of the mass allows; null likewise",
+        examples=[20123.28],
+    )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
 
 
@@ -136,6 +150,12 @@ class ParetoPoint(Model):
         description="limits of the whole machine that the point touches", examples=[["max_total_mass"]]
     )
     certificate: CornerCertificate = Field(description="the proof", examples=[{"relative_gap": 8e-13}])
+    multipliers: Multipliers | None = Field(
+        None,
+        description="the multipliers of corner and mass, if asked for; the rows are the weighted peaks, in 1/N and"
+        " 1/(N m), or kg/N and kg/(N m)",
+        examples=[None],
+    )
 
 
 class Ends(Model):
@@ -153,6 +173,9 @@ class Ends(Model):
         description="certified: no counterweights within the limits have a smaller one", examples=[19948.1]
     )
     force_at_smallest_moment_N: Newtons = Field(description="weighted peak force at the last point", examples=[10006.1])
+    multipliers: EndMultipliers | None = Field(
+        None, description="the multipliers of both bounds, if asked for", examples=[None]
+    )
 
 
 class ParetoFront(Model):

@@ -90,6 +90,36 @@ class Multipliers(Model):
     )
 
 
+class DesignMultipliers(Model):
+    """What a sweep holds of the proof of one design, as JSON text."""
+
+    objective: BoundMultipliers | None = Field(
+        description="of the lower bound of the objective; null if infeasible",
+        examples=[{"rows": [{"name": "sum", "value": 1.0}]}],
+    )
+    mass: BoundMultipliers | None = Field(
+        description="of the lower bound of the total mass; null if infeasible or not asked for",
+        examples=[{"rows": [{"name": "sum", "value": 0.02}]}],
+    )
+    mass_objective_limit: float | None = Field(
+        description="largest objective that counts as an optimum in the bound of the mass", examples=[30345.06]
+    )
+    conflict: BoundMultipliers | None = Field(
+        description="that the ceilings cannot be kept; only if infeasible", examples=[None]
+    )
+
+
+class EndMultipliers(Model):
+    """Multipliers of the smallest peaks of a front."""
+
+    smallest_force: BoundMultipliers = Field(
+        description="of smallest_force_lower_bound_N", examples=[{"rows": [{"name": "force", "value": 1.0}]}]
+    )
+    smallest_moment: BoundMultipliers = Field(
+        description="of smallest_moment_lower_bound_Nm", examples=[{"rows": [{"name": "moment", "value": 1.0}]}]
+    )
+
+
 class InfeasibilityMultipliers(Model):
     """Multipliers that prove what an infeasible answer says."""
 

@@ -11,14 +11,14 @@ from typing import Literal
 import numpy as np
 
 from optimizer.arrays import Complex, Real, Reals
-from optimizer.program.certificate import Multipliers, budget_price, nothing_proven
+from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven
 from optimizer.program.statement import Statement
 from schemas.proof import BoundMultipliers, CeilingMultiplier, RowMultiplier, TermMultiplier
 
 #: |y| <= lambda holds for the printed numbers too, whatever the rounding of the division by omega^2
 _INSIDE = 1.0 - 4 * np.finfo(float).eps
 
-Bounded = Literal["objective", "mass"]
+Bounded = Literal["objective", "mass", "parameter"]
 
 
 @dataclass(frozen=True)
@@ -43,15 +43,15 @@ def physical(
     Parameters
     ----------
     statement : (...) programs, over omega^2.
-    bounded : the rows of a bound on the objective are made to sum to 1.
+    bounded : "objective": in units of the objective, the rows sum to 1; "mass": in kg; "parameter": a plain number.
     omega_squared : (...) rad^2/s^2.
     """
-    usable = multipliers.admissible(statement)
     if bounded == "objective":
-        usable = usable.times(1.0 / np.sum(usable.row, axis=-1))
+        usable, _ = normalised(statement, multipliers)
         price = budget_price(statement, usable, 0.0) * omega_squared
     else:
-        price = budget_price(statement, usable, 1.0)
+        usable = multipliers.admissible(statement)
+        price = budget_price(statement, usable, 1.0 if bounded == "mass" else 0.0)
         usable = usable.times(1.0 / np.asarray(omega_squared))
     term = _no_longer(usable.term, usable.row[..., statement.row])
     return PhysicalMultipliers(term, usable.row, usable.ceiling, price)

@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.pareto.trade import Trade
-from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
@@ -42,6 +42,9 @@ class Point:
 
     solution: Solution
     corner: Real  # (2,) proven: no counterweights are below this in both peaks
+    proof: Multipliers  # of the corner, one row for each peak, of which the corner is what they weigh
+    mass_proof: Multipliers | None  # of the mass likewise; None where the least mass was not asked for
+    mass_limit: Real  # (2,) largest peaks that the bound of the mass allows
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,7 @@ class Front:
     points: tuple[Point, ...]
     ideal: Real  # (2,) proven: no counterweights have a smaller force, none a smaller moment
     size: Real  # (2,) what gaps are relative to (:func:`_size`)
+    ideal_proofs: tuple[Multipliers, Multipliers]  # of the ideal's parts, each with one row
     undecided: bool = False  # the ceilings are on the very boundary; the point comes closest to keeping them
 
 
@@ -78,25 +82,56 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
             return found
         alone.append(found)
     ideal = np.array([_bound(each, found) for each, found in zip(trade.alone, alone, strict=True)])
+    proofs = _of_ends(trade, alone)
     size = _size(trade, np.array([found.unbalance for found in alone]))
     try:
         if not all(found.keeps_ceilings for found in alone):
             raise _Undecided
-        points = _between(trade, ideal, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass, solver)
+        points = _between(trade, ideal, proofs, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass, solver)
     except _Undecided:
-        closest = min(alone, key=lambda found: found.excess)
-        return Front((Point(closest, ideal),), ideal, size, undecided=True)
-    return Front(points, ideal, size)
+        return Front((_closest(trade, alone, ideal, proofs, least_mass),), ideal, size, proofs, undecided=True)
+    return Front(points, ideal, size, proofs)
+
+
+def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipliers]:
+    """Proofs of the smallest peaks, as of the program of both."""
+    force, moment = alone
+    # rest, at least, proves a bound
+    assert force.multipliers is not None
+    assert moment.multipliers is not None
+    usable = normalised(trade.alone[0], force.multipliers)[0], normalised(trade.alone[1], moment.multipliers)[0]
+    return trade.of_one(0, usable[0]), trade.of_one(1, usable[1])
+
+
+def _closest(
+    trade: Trade, alone: list[Solution], ideal: Real, proofs: tuple[Multipliers, Multipliers], least_mass: bool
+) -> Point:
+    """Of the counterweights that make a peak smallest those that come closest to keeping the ceilings."""
+    which = min((0, 1), key=lambda each: alone[each].excess)
+    found = alone[which]
+    # its mass is the least of those that make this peak as small, whatever the other
+    limit = np.where(np.arange(2) == which, found.mass_target, trade.peaks(found.unbalance))
+    of_mass = None
+    if least_mass and found.mass_multipliers is not None:
+        of_mass = trade.of_one(which, found.mass_multipliers.admissible(trade.alone[which]))
+    return Point(found, ideal, proofs[which], of_mass, limit)
 
 
 def _between(
-    trade: Trade, ideal: Real, size: Real, count: int, share: float, least_mass: bool, solver: Solver
+    trade: Trade,
+    ideal: Real,
+    proofs: tuple[Multipliers, Multipliers],
+    size: Real,
+    count: int,
+    share: float,
+    least_mass: bool,
+    solver: Solver,
 ) -> tuple[Point, ...]:
     """The points of the front; a single one where both peaks are smallest together."""
     # half the asked gap for the programs, half for the distance of the point from the ideal
-    together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share, solver), corner=ideal)
+    together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share, solver), corner=ideal, proof=proofs[0])
     alike = np.all(trade.peaks(together.solution.unbalance) - ideal <= max(0.5 * share, _NARROW) * size)
-    ends = [] if alike else [_end(trade, first, ideal, size, share, solver) for first in (0, 1)]
+    ends = [] if alike else [_end(trade, first, ideal, proofs, size, share, solver) for first in (0, 1)]
     if alike or np.any(np.abs(ends[1].peaks - ends[0].peaks) <= _NARROW * size):
         return (together,)
     return _points(trade, (ends[0], ends[1]), size, count, share, least_mass, solver)
@@ -108,6 +143,7 @@ class _End:
 
     peaks: Real  # (2,)
     corner: Real  # (2,)
+    proof: Multipliers  # of the corner
 
 
 def _size(trade: Trade, u: Complex) -> Real:
@@ -143,7 +179,17 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
         if _mass_gap(best) <= MASS_GAP:
             break
     assert best is not None
-    return Point(best, anchor + trade.parameter(_bound(program, best), anchor, unit) * unit)
+    # rest, at least, proves a bound
+    assert best.multipliers is not None
+    usable, _ = normalised(program, best.multipliers)
+    of_mass = best.mass_multipliers
+    return Point(
+        best,
+        anchor + trade.parameter(_bound(program, best), anchor, unit) * unit,
+        trade.per_peak(usable, unit),
+        None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
+        anchor + trade.parameter(best.mass_target, anchor, unit) * unit,
+    )
 
 
 def _bound(statement: Statement, found: Solution) -> float:
@@ -158,7 +204,15 @@ def _mass_gap(solution: Solution) -> float:
     return (solution.mass - solution.mass_lower_bound) / solution.mass if solution.mass > 0 else 0.0
 
 
-def _end(trade: Trade, first: int, ideal: Real, size: Real, share: float, solver: Solver) -> _End:
+def _end(
+    trade: Trade,
+    first: int,
+    ideal: Real,
+    proofs: tuple[Multipliers, Multipliers],
+    size: Real,
+    share: float,
+    solver: Solver,
+) -> _End:
     """The end of the front where peak ``first`` is smallest.
 
     The line starts a little above the smallest value of the first peak, at a value of the other that is proven to be
@@ -169,20 +223,21 @@ def _end(trade: Trade, first: int, ideal: Real, size: Real, share: float, solver
     other = 1 - first
     unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
     anchor = ideal + size * np.where(np.arange(2) == first, _END_SLACK * share, 0.0)
-    peaks, corners = [], [anchor]
+    # at the anchor it is the other peak alone that is too small
+    peaks, corners = [], [(anchor, proofs[other])]
     for _ in range(_END_STEPS):
         point = _meet(trade, anchor, unit, False, share, solver)
         peaks.append(trade.peaks(point.solution.unbalance))
         if point.corner[first] > ideal[first]:
-            corners.append(point.corner)
+            corners.append((point.corner, point.proof))
         rise = point.corner[other] - anchor[other]
         if rise <= share * size[other]:
             break
         anchor = np.where(np.arange(2) == other, point.corner, anchor)
-    corner = max(corners, key=lambda each: float(each[other]))
+    corner, proof = max(corners, key=lambda each: float(each[0][other]))
     # the end cannot be lower than this; the step that comes closest is it
     target = np.where(np.arange(2) == first, ideal, corner)
-    return _End(min(peaks, key=lambda each: float(np.max((each - target) / size))), corner)
+    return _End(min(peaks, key=lambda each: float(np.max((each - target) / size))), corner, proof)
 
 
 def _points(
@@ -202,7 +257,9 @@ def _points(
     spread = _spread(trade, start, step, count, share, solver)
     between = [_meet(trade, start + each * step, span, least_mass, share, solver) for each in spread[1:-1]]
     first, last = (
-        replace(_meet(trade, end.peaks, span, least_mass, _END_SHARE * share, solver), corner=end.corner)
+        replace(
+            _meet(trade, end.peaks, span, least_mass, _END_SHARE * share, solver), corner=end.corner, proof=end.proof
+        )
         for end in ends
     )
     return (first, *between, last)

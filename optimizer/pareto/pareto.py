@@ -9,6 +9,7 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, floor
+from optimizer.figures.proof import named, physical
 from optimizer.formulate import ceilings
 from optimizer.optimize import optimize, proven_or_null
 from optimizer.pareto.front import Front, Point, front
@@ -30,6 +31,7 @@ from schemas.pareto import (
     Scale,
     Status,
 )
+from schemas.proof import EndMultipliers, Multipliers
 from schemas.requests import OptimizeRequest
 
 #: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
@@ -113,6 +115,7 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded
         smallest_moment_Nm=last.weighted_moment_peak_Nm,
         smallest_moment_lower_bound_Nm=float(ideal[1]),
         force_at_smallest_moment_N=last.weighted_force_peak_N,
+        multipliers=_of_ends(traded, found, square) if request.multipliers else None,
     )
     excess = max(
         (ends.smallest_force_N - ends.smallest_force_lower_bound_N) / scale[0],
@@ -155,6 +158,7 @@ def _point(
         request.accuracy.relative_gap,
     )
     plain = scene.first_order(u)
+    limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
     weighted: Real = peaks * square
     proven: Real = judged.lower_bound * square
     return ParetoPoint(
@@ -174,9 +178,29 @@ def _point(
             yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
             mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if request.objective.least_mass else None,
             mass_relative_gap=proven_or_null(judged.mass_gap) if request.objective.least_mass else None,
+            mass_force_limit_N=limit[0],
+            mass_moment_limit_Nm=limit[1],
             method=solution.method,
         ),
+        multipliers=_of_point(traded, point, square) if request.multipliers else None,
     )
+
+
+def _of_point(traded: Trade, point: Point, omega_squared: float) -> Multipliers:
+    """The proofs of a point: of its corner, and of its mass."""
+    of_mass = point.mass_proof
+    return Multipliers(
+        objective=named(traded.both, physical(traded.both, point.proof, "parameter", omega_squared)),
+        mass=None if of_mass is None else named(traded.both, physical(traded.both, of_mass, "mass", omega_squared)),
+    )
+
+
+def _of_ends(traded: Trade, found: Front, omega_squared: float) -> EndMultipliers:
+    """The proofs of both smallest peaks."""
+    force, moment = (
+        named(traded.both, physical(traded.both, each, "objective", omega_squared)) for each in found.ideal_proofs
+    )
+    return EndMultipliers(smallest_force=force, smallest_moment=moment)
 
 
 def undominated(points: Sequence[ParetoPoint]) -> list[ParetoPoint]:

@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.formulate import ceilings, limits
+from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Norms, Statement, statement, weighted_peak
 from optimizer.response import Response
 from schemas.machine import Machine
@@ -63,6 +64,16 @@ class Trade:
     def parameter(self, objective: float, anchor: Real, unit: Real) -> float:
         """t of an objective of :meth:`along`."""
         return objective + self._shift(anchor, unit)
+
+    def per_peak(self, multipliers: Multipliers, unit: Real) -> Multipliers:
+        """Multipliers of :meth:`along`, rows summing to 1 or in kg, as those of :attr:`both`, per unit of a peak."""
+        return Multipliers(multipliers.term / unit[self.both.row], multipliers.row / unit, multipliers.ceiling)
+
+    def of_one(self, which: int, multipliers: Multipliers) -> Multipliers:
+        """Admissible multipliers of the program of peak ``which`` alone as those of :attr:`both`."""
+        term = np.zeros_like(self.both.norms.constant)
+        term[self.both.row == which] = multipliers.term
+        return Multipliers(term, np.where(np.arange(2) == which, multipliers.row, 0.0), multipliers.ceiling)
 
     def _shift(self, anchor: Real, unit: Real) -> float:
         return float(np.max((self.at_rest - anchor) / unit)) - 1.0

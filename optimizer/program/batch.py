@@ -29,6 +29,9 @@ class Optima:
     unreachable: np.ndarray  # (N,) bool: proven that no counterweights keep the ceilings
     method: np.ndarray  # (N,) str
     multipliers: Multipliers  # (N, ...), those of the lower bound
+    mass_multipliers: Multipliers  # (N, ...), those of the lower bound of the mass
+    mass_target: Real  # (N,) largest objective that this bound counts as an optimum
+    conflict: Multipliers  # (N, ...), those of the excess over the ceilings where they are unreachable, 0 elsewhere
 
 
 def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
@@ -51,6 +54,9 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
         np.zeros(share.shape, bool),
         np.full(share.shape, INTERIOR_POINT, dtype=object),
         found.multipliers,
+        found.mass_multipliers,
+        found.mass_target,
+        _no_conflict(statement),
     )
     for n in map(int, np.flatnonzero(~found.certified)):
         _put(answer, n, statement.chosen(n), optimum(statement.chosen(n), relative_gap, least_mass, solver))
@@ -70,10 +76,16 @@ def joined(parts: Sequence[Optima], order: np.ndarray) -> Optima:
     return whole
 
 
+def _no_conflict(statement: Statement) -> Multipliers:
+    ceilings = statement.ceilings.cap.shape
+    return Multipliers(np.zeros(ceilings, complex), np.zeros(ceilings), np.zeros((*ceilings[:-1], 0), complex))
+
+
 def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreachable) -> None:
     point = found
     if isinstance(point, Unreachable):
         answer.unreachable[n] = True
+        answer.conflict.put(n, point.multipliers)
         nowhere = Solution(point.closest, np.inf, -np.inf, np.inf, 0.0, np.inf)
         point = nowhere.moved_to(statement, point.closest)
     answer.unbalance[n], answer.objective[n], answer.lower_bound[n] = (
@@ -85,3 +97,6 @@ def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreach
     answer.excess[n], answer.method[n] = point.excess, point.method
     if point.multipliers is not None:
         answer.multipliers.put(n, point.multipliers)
+    if point.mass_multipliers is not None:
+        answer.mass_multipliers.put(n, point.mass_multipliers)
+        answer.mass_target[n] = point.mass_target

@@ -19,7 +19,9 @@ from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.program.statement import Statement, statement, weighted_peak
 from optimizer.program.verdict import INFEASIBLE, claim, verdict
 from optimizer.response import Phasors, Response
+from optimizer.sweep.proofs import multipliers_as_text
 from schemas.requests import OptimizeRequest
+from schemas.sweep.columns import MULTIPLIERS
 
 Columns = dict[str, Any]
 
@@ -34,12 +36,15 @@ def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
     return sum((np.broadcast_to(fact, (count,)) << k for k, fact in enumerate(facts)), np.zeros(count, dtype=np.int64))
 
 
-def optimized(request: OptimizeRequest, count: int, solver: Solver) -> tuple[Columns, Complex]:
+def optimized(
+    request: OptimizeRequest, count: int, solver: Solver, multipliers: bool = False
+) -> tuple[Columns, Complex]:
     """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m.
 
     Parameters
     ----------
     request : of columns (count,); its designs have one shape of program.
+    multipliers : whether the proofs are wanted, as text.
     """
     layout = layout_of(request.machine)
     baseline = rotating(layout).plus(reciprocating(layout, 1))
@@ -50,6 +55,8 @@ def optimized(request: OptimizeRequest, count: int, solver: Solver) -> tuple[Col
     u = unbalance(mass, angle, program.limits.radius)
     columns = _certified(request, program, found, u, mass, square) | first_order_peaks(layout, baseline, u)
     columns["total_mass_kg"] = np.sum(mass, axis=-1)
+    if multipliers:
+        columns[MULTIPLIERS] = multipliers_as_text(program, found, square, request.objective.least_mass)
     for k, web in enumerate(request.machine.webs):
         columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
     columns = {

@@ -59,7 +59,7 @@ def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[s
     table.put(np.arange(stop - start), {pointer(t.path): v for t, v in zip(request.targets, values, strict=True)})
     inside = _refuse(table, np.arange(stop - start), range_findings(request.targets, values))
     for designs in _same_nulls(values, inside):
-        _fill(table, Group(request, values), designs, solver)
+        _fill(table, Group(request, values), designs, solver, request.multipliers)
     return table.columns
 
 
@@ -86,7 +86,7 @@ class Group:
         return with_fields(self._base, contents)
 
 
-def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multipliers: bool) -> None:
     designs = _refuse(table, designs, rule_findings(group.of(designs)))
     if designs.size:
         designs = _refuse(table, designs, input_findings(group.of(designs), group.one(designs[0])))
@@ -103,7 +103,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         alike = designs[keys == key]
         part = group.of(alike)
         assert isinstance(part, OptimizeRequest)  # all designs of a sweep are
-        found, unbalance = optimized(part, alike.size, solver)
+        found, unbalance = optimized(part, alike.size, solver, multipliers)
         table.put(alike, found)
         _fill_outputs(table, group, alike, unbalance)
 

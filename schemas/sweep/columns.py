@@ -70,14 +70,21 @@ _CERTIFICATE = (
     Column("mass_lower_bound_kg", "number", "kg", "no optimum has a smaller total mass"),
     Column("mass_relative_gap", "number", None, "total mass above that bound, relative to the total mass"),
 )
+#: column of the proofs, which comes only if asked for
+MULTIPLIERS = "multipliers"
 _TOTAL_MASS = Column("total_mass_kg", "number", "kg", "total mass of the counterweights")
 
 
-def result_columns(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> tuple[Column, ...]:
+def result_columns(
+    base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target], multipliers: bool = False
+) -> tuple[Column, ...]:
     """All columns of a sweep, in the order of the result: index, axes, status, figures, counterweights."""
     found: dict[str, Column] = {}
     for column in _columns(base, targets):
         found.setdefault(column.name, column)
+    if multipliers:
+        meaning = "multipliers of the certificate, or of the conflict of the ceilings, as JSON"
+        found[MULTIPLIERS] = Column(MULTIPLIERS, "text", None, meaning)
     return tuple(found.values())
 
 

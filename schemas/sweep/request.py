@@ -10,7 +10,7 @@ from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
 from schemas.quantities import Count, Flag
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.axes import MAX_DESIGNS, Axis
-from schemas.sweep.columns import OUTPUT_COLUMNS, Column, result_columns
+from schemas.sweep.columns import MULTIPLIERS, OUTPUT_COLUMNS, Column, result_columns
 from schemas.sweep.target import BadPointer, Path, Target, find_target
 
 MAX_AXES = 64
@@ -62,8 +62,8 @@ class SweepRequest(Model):
     columns: tuple[ColumnName, ...] | None = Field(
         None,
         max_length=4096,
-        description="columns of the result; null is all. The index, the status and what top and pareto compare "
-        "always come along",
+        description="columns of the result; null is all. The index, the status, what top and pareto compare and "
+        "multipliers that are asked for always come along",
         examples=[["force_peak_N", "total_mass_kg"]],
     )
     top: TopFilter | None = Field(
@@ -73,6 +73,11 @@ class SweepRequest(Model):
         None,
         description="keep the designs that no other beats in all these columns, each to be small; null keeps all",
         examples=[["force_peak_N", "moment_peak_Nm"]],
+    )
+    multipliers: Flag = Field(
+        False,
+        description="a column of the multipliers of the certificates, as JSON text; serves only to optimize",
+        examples=[False],
     )
     dry_run: Flag = Field(
         False, description="only count the designs and estimate the size of the result", examples=[False]
@@ -117,7 +122,7 @@ class SweepRequest(Model):
     @property
     def all_columns(self) -> tuple[Column, ...]:
         """Every column that the result could have."""
-        return result_columns(self.base, self.targets)
+        return result_columns(self.base, self.targets, self.multipliers)
 
     @property
     def chosen_columns(self) -> tuple[Column, ...]:
@@ -127,9 +132,13 @@ class SweepRequest(Model):
         wanted = {"index", "status", *self.columns, *(self.pareto or ())}
         if self.top is not None:
             wanted.add(self.top.by)
+        if self.multipliers:
+            wanted.add(MULTIPLIERS)
         return tuple(column for column in self.all_columns if column.name in wanted)
 
     def _output_problems(self) -> Iterator[FieldProblem]:
+        if self.multipliers and self.task != "optimize":
+            yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")

@@ -4,6 +4,7 @@ Independent of the package: the machine is summed up from the definitions of the
 of docs/mathematics.md section 5. Bodies carry plain numbers here, no strings with units.
 """
 
+import json
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
@@ -185,11 +186,7 @@ def of_answer(request: JSON, answer: JSON) -> dict[str, tuple[mpf, float]]:
     """
     body, objective = request["machine"], request["objective"]
     plane = answer["reference_plane_m"]
-    ceilings = {
-        name: objective[field]
-        for name, field in (("force", "force_ceiling_N"), ("moment", "moment_ceiling_Nm"))
-        if objective[field] is not None
-    }
+    ceilings = ceilings_of(objective)
     if answer["status"] == "infeasible":
         told = answer["infeasibility"]
         proofs = told["multipliers"]
@@ -205,18 +202,78 @@ def of_answer(request: JSON, answer: JSON) -> dict[str, tuple[mpf, float]]:
             ),
         }
     certificate = answer["certificate"]
-    across = (objective["direction_weights"]["x"], objective["direction_weights"]["y"])
+    return of_certificate(request, plane, certificate["multipliers"], certificate)
+
+
+def of_certificate(request: JSON, plane: float, proofs: JSON, told: JSON) -> dict[str, tuple[mpf, float]]:
+    """Both bounds: by hand, and as told."""
+    body, objective = request["machine"], request["objective"]
+    across, ceilings = directions_of(objective), ceilings_of(objective)
     weight = {name: each for name, each in weights(body, objective, plane).items() if each > 0}
-    found = {}
-    proofs, reaches = certificate["multipliers"], certificate.get("implied_max_mass_kg")
+    found, reaches = {}, told.get("implied_max_mass_kg")
     first = proofs["objective"]
     rows = mp.fsum(row["value"] for row in first["rows"])
     least = bound(body, plane, first, weight, across, ceilings, 0, reaches) / rows
-    if certificate["lower_bound"] is not None:
-        found["objective"] = least, certificate["lower_bound"]
-    if proofs["mass"] is not None:
-        second = proofs["mass"]
-        limit = mp.fsum(row["value"] for row in second["rows"]) * certificate["mass_objective_limit"]
-        lightest = bound(body, plane, second, weight, across, ceilings, 1, reaches) - limit
-        found["mass"] = max(lightest, mp.mpf(0)), certificate["mass_lower_bound_kg"]
+    if told["lower_bound"] is not None:
+        found["objective"] = least, told["lower_bound"]
+    if proofs["mass"] is not None and told["mass_lower_bound_kg"] is not None:
+        allowed = weighed(proofs["mass"], *[told["mass_objective_limit"]] * len(proofs["mass"]["rows"]))
+        lightest = bound(body, plane, proofs["mass"], weight, across, ceilings, 1, reaches) - allowed
+        found["mass"] = max(lightest, mp.mpf(0)), told["mass_lower_bound_kg"]
     return found
+
+
+def weighed(multipliers: JSON, *values: float) -> mpf:
+    """What the rows weigh: sum of row times value."""
+    return mp.fsum(mp.mpf(row["value"]) * value for row, value in zip(multipliers["rows"], values, strict=True))
+
+
+def ceilings_of(objective: JSON) -> dict[str, float]:
+    given = {"force": objective["force_ceiling_N"], "moment": objective["moment_ceiling_Nm"]}
+    return {name: ceiling for name, ceiling in given.items() if ceiling is not None}
+
+
+def directions_of(objective: JSON) -> tuple[float, float]:
+    return objective["direction_weights"]["x"], objective["direction_weights"]["y"]
+
+
+def of_front(request: JSON, front: JSON, plane: float) -> dict[str, tuple[mpf, float]]:
+    """Every bound of a front without infeasibility: by hand, and as printed.
+
+    A corner is proven by what its rows weigh: sum of row times corner.
+    """
+    body = {**request["machine"], "max_total_mass_kg": front["max_total_mass_kg"]}
+    objective, ones = request["objective"], {"force": 1, "moment": 1}
+    ceilings, across = ceilings_of(objective), directions_of(objective)
+    ends = front["ends"]
+    found = {
+        name: (
+            bound(body, plane, ends["multipliers"][name], ones, across, ceilings),
+            ends[f"{name}_lower_bound_{unit}"],
+        )
+        for name, unit in (("smallest_force", "N"), ("smallest_moment", "Nm"))
+    }
+    for k, point in enumerate(front["points"]):
+        proofs, told = point["multipliers"], point["certificate"]
+        corner = weighed(proofs["objective"], told["force_N"], told["moment_Nm"])
+        found[f"corner {k}"] = bound(body, plane, proofs["objective"], ones, across, ceilings), corner
+        if proofs["mass"] is not None:
+            allowed = weighed(proofs["mass"], told["mass_force_limit_N"], told["mass_moment_limit_Nm"])
+            lightest = bound(body, plane, proofs["mass"], ones, across, ceilings, 1) - allowed
+            found[f"mass {k}"] = max(lightest, mp.mpf(0)), told["mass_lower_bound_kg"]
+    return found
+
+
+def of_row(request: JSON, plane: float, row: JSON) -> dict[str, tuple[mpf, float]]:
+    """Every bound of a row of a sweep: by hand, and as printed.
+
+    Parameters
+    ----------
+    request : that of the design, with its defaults filled in.
+    """
+    proofs = json.loads(row["multipliers"])
+    body, objective = request["machine"], request["objective"]
+    ceilings = ceilings_of(objective)
+    if row["status"] == "infeasible":
+        return {"conflict": (bound(body, plane, proofs["conflict"], {}, ceilings=ceilings), 0.0)}
+    return of_certificate(request, plane, proofs, {**row, **proofs})
