@@ -9,8 +9,8 @@ from accuracy_conclusions import on_effects, on_ladders
 from optimizer.accuracy.measure import accuracy
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
 from service.accuracy_picture import draw
-from service.accuracy_tables import method_name, scientific
 from service.documents.examples import load
+from service.report.chapters.accuracy import method_name
 
 DOCS = Path(__file__).parent
 DOCUMENT = DOCS / "accuracy.md"
@@ -18,6 +18,10 @@ EXAMPLES = ("single-horizontal", "2d12", "v8-cross-plane", "m-type-four")
 REPEATS = 20
 #: what the effects are shown for: with gas, and with inertia alone
 EFFECTS = ("2d12", "v8-cross-plane")
+
+
+def _scientific(value: float | None) -> str:
+    return "-" if value is None else f"{value:.1e}"
 
 
 def tables(name: str, answer: AccuracyAnswer) -> Iterator[tuple[str, str]]:
@@ -28,7 +32,7 @@ def tables(name: str, answer: AccuracyAnswer) -> Iterator[tuple[str, str]]:
     ]
     for row in answer.ladder:
         times = (f"{value:.2f}" if value is not None else "-" for value in (row.time_ms, row.first_ms))
-        errors = map(scientific, (row.relative_error, row.as_drawn_error, row.certified_gap))
+        errors = map(_scientific, (row.relative_error, row.as_drawn_error, row.certified_gap))
         cells = (method_name(row.method), row.setting, *times, *errors, "yes" if row.on_frontier else "")
         lines.append(f"| {' | '.join(cells)} |")
     yield f"ladder {name}", "\n".join(lines)
@@ -36,7 +40,7 @@ def tables(name: str, answer: AccuracyAnswer) -> Iterator[tuple[str, str]]:
         lines = ["| figure | method | setting | time, ms | error |", "|---|---|---|--:|--:|"]
         for one in answer.effects_ladder:
             cells = (one.quantity.replace("_", " "), method_name(one.method), one.setting)
-            lines.append(f"| {' | '.join(cells)} | {one.time_ms:.2f} | {scientific(one.relative_error)} |")
+            lines.append(f"| {' | '.join(cells)} | {one.time_ms:.2f} | {_scientific(one.relative_error)} |")
         yield f"effects {name}", "\n".join(lines)
 
 

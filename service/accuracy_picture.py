@@ -3,11 +3,12 @@
 matplotlib is needed by nothing else in the package: it comes with ``counterweight[pictures]``.
 """
 
+from collections.abc import Callable
 from io import StringIO
 from itertools import groupby
 
 from schemas.accuracy import AccuracyAnswer, AccuracyRow
-from service.accuracy_tables import method_name
+from service.report.chapters.accuracy import method_name
 
 #: distinct for the colour-blind as well
 _COLOURS = ("#000000", "#0072b2", "#56b4e9", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#882255")
@@ -21,8 +22,8 @@ class NoMatplotlib(RuntimeError):
         super().__init__("a picture needs matplotlib: install counterweight[pictures]")
 
 
-def require() -> None:
-    """Check that pictures can be drawn.
+def artist() -> Callable[[str, AccuracyAnswer], str]:
+    """What draws an answer.
 
     Raises
     ------
@@ -33,6 +34,7 @@ def require() -> None:
         import matplotlib  # noqa: F401
     except ImportError:
         raise NoMatplotlib from None
+    return draw
 
 
 def draw(title: str, answer: AccuracyAnswer) -> str:
@@ -43,7 +45,7 @@ def draw(title: str, answer: AccuracyAnswer) -> str:
     NoMatplotlib
         if matplotlib is not installed.
     """
-    require()
+    artist()
     from matplotlib import rc_context
     from matplotlib.backends.backend_svg import FigureCanvasSVG
     from matplotlib.figure import Figure

@@ -48,8 +48,12 @@ class Computation:
     request, answer : models; an answer that is a document has none.
     compute : request -> answer.
     summary, remark : one line and some sentences for OpenAPI.
+    help : one line for the command line.
+    chapters : request, answer -> what a terminal shows; None where the command has a file of its own.
     tag : the group of operations in OpenAPI.
     forms : in which the answer is there; of several the header `Accept` chooses, the first for those who take all.
+    options : fields of the request that the command line may give in place of the file.
+    picture : () -> (title, answer) -> SVG, for the command line.
     examples : folder of example bodies.
     long : takes seconds: such computations never occupy all workers.
     later : may be asked for as a job, by `Prefer: respond-async`.
@@ -63,6 +67,10 @@ class Computation:
     compute: Reference
     summary: str
     remark: str
+    help: str = ""
+    chapters: Reference | None = None
+    options: tuple[str, ...] = ()
+    picture: Reference | None = None
     tag: str = "counterweights"
     forms: tuple[Form, ...] = (JSON,)
     examples: str = ""
@@ -113,6 +121,9 @@ COMPUTATIONS: dict[str, Computation] = {
             compute="optimizer.optimize:optimize",
             summary="Counterweights that minimise the first-order peaks, with a certificate",
             remark="An infeasible machine is answered with 200 too: `status` says so, `infeasibility` says why.",
+            help="Choose the counterweights of a machine.",
+            chapters="service.report.chapters.answers:optimized",
+            options=("outputs",),
             later=True,
         ),
         Computation(
@@ -123,6 +134,9 @@ COMPUTATIONS: dict[str, Computation] = {
             compute="optimizer.analyze:analyze",
             summary="Forces and moments of a machine as it stands, or with given counterweights",
             remark="`outputs` says what the answer shall hold; only the effects that they need are simulated.",
+            help="Say what a machine does as it stands, or with given counterweights.",
+            chapters="service.report.chapters.answers:analyzed",
+            options=("outputs",),
         ),
         Computation(
             name="pareto",
@@ -133,6 +147,9 @@ COMPUTATIONS: dict[str, Computation] = {
             summary="The certified trade-off of peak force, peak moment and total mass",
             remark="Every point is the lightest set of counterweights that no other set beats in both peaks, with a "
             "proof.",
+            help="Trade peak force against peak moment: points that no counterweights beat in both.",
+            chapters="service.report.chapters.pareto:traded",
+            options=("points", "total_mass_budgets_kg"),
             long=True,
             later=True,
         ),
@@ -144,6 +161,10 @@ COMPUTATIONS: dict[str, Computation] = {
             compute="optimizer.accuracy.measure:accuracy",
             summary="What accuracy costs in time on a machine: a ladder of methods and settings",
             remark="Times are those of this machine at this moment; errors and gaps do not depend on it.",
+            help="Show what accuracy costs in time on a machine.",
+            chapters="service.report.chapters.accuracy:measured",
+            options=("repeats",),
+            picture="service.accuracy_picture:artist",
             long=True,
             later=True,
         ),
@@ -155,6 +176,8 @@ COMPUTATIONS: dict[str, Computation] = {
             compute="optimizer.pins.answer:pin_loads",
             summary="Loads of the anti-rotation pins of a scroll over a turn",
             remark="Where the pins cannot hold the scroll at some angle, `equilibrium` and `dead_points_deg` say so.",
+            help="Say what the anti-rotation pins of a scroll carry over a turn.",
+            chapters="service.report.chapters.pins:loaded",
             tag="scroll",
             examples="pin-loads",
         ),
@@ -166,6 +189,8 @@ COMPUTATIONS: dict[str, Computation] = {
             compute="optimizer.rating.rate:rate",
             summary="Thermal design of a compressor: sizes, pressures, loads and powers",
             remark="Figures out of their customary range are answered with 200 too; `warnings` names them.",
+            help="Size the cylinders of a compressor, and say what they deliver and need.",
+            chapters="service.report.chapters.rating:rated",
             tag="rating",
             examples="rating",
         ),

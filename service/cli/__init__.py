@@ -6,36 +6,34 @@ the commands that need them, so that ``--help`` answers at once.
 
 import typer
 
-from service.cli.accuracy import accuracy
 from service.cli.catalogue import effects, examples, schema
-from service.cli.compute import analyze, optimize, pin_loads, rating
+from service.cli.compute import command
 from service.cli.key import key
-from service.cli.pareto import pareto
 from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
 from service.cli.verify import verify
+from service.computations import COMPUTATIONS
 
-app = typer.Typer(
-    help="Certified optimum counterweights for reciprocating and scroll machines.",
-    no_args_is_help=True,
-    add_completion=False,
-    pretty_exceptions_enable=False,
-)
-app.command()(optimize)
-app.command()(analyze)
-app.command(name="pin-loads")(pin_loads)
-app.command()(rating)
-app.command()(pareto)
-app.command()(accuracy)
-app.command()(sweep)
-app.command()(report)
-app.command()(verify)
-app.command()(effects)
-app.command()(examples)
-app.command()(schema)
-app.command()(serve)
-app.add_typer(key, name="key")
+
+def command_line() -> typer.Typer:
+    """All commands."""
+    made = typer.Typer(
+        help="Certified optimum counterweights for reciprocating and scroll machines.",
+        no_args_is_help=True,
+        add_completion=False,
+        pretty_exceptions_enable=False,
+    )
+    for one in COMPUTATIONS.values():
+        if one.chapters is not None:
+            made.command(name=one.title)(command(one))
+    for other in (sweep, report, verify, effects, examples, schema, serve):
+        made.command()(other)
+    made.add_typer(key, name="key")
+    return made
+
+
+app = command_line()
 
 
 def main() -> None:

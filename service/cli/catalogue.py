@@ -14,9 +14,9 @@ def effects(as_json: AsJson = False) -> None:
     if as_json:
         put(catalogue().model_dump_json())
     else:
-        from service.tables import effects_report
+        from service.report.chapters.catalogue import effects as chapters
 
-        show(effects_report(catalogue()))
+        show(chapters(catalogue()))
 
 
 def examples(
@@ -34,9 +34,9 @@ def examples(
     elif as_json:
         put(catalogue().model_dump_json())
     else:
-        from service.tables import names_report
+        from service.report.chapters.catalogue import names
 
-        show(names_report("examples", [(one.name, one.title) for one in catalogue().examples]))
+        show(names("Examples", [(one.name, one.title) for one in catalogue().examples]))
 
 
 def schema(
@@ -49,9 +49,9 @@ def schema(
 
     known = documents()
     if name is None:
-        from service.tables import names_report
+        from service.report.chapters.catalogue import names
 
-        show(names_report("documents", [(key, document.meaning) for key, document in known.items()]))
+        show(names("Documents", [(key, document.meaning) for key, document in known.items()]))
     elif name in known:
         put(json.dumps(known[name].json_schema(), indent=2))
     else:

@@ -1,65 +1,90 @@
-"""Commands that compute an answer to a request in a file."""
+"""The commands that compute, one for each entry of the table of computations whose answer a terminal can show."""
+
+from collections.abc import Callable
+from inspect import Parameter, Signature
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import Annotated, Any
 
 import typer
 
-from service.cli.terminal import AsJson, File, Outputs, answer, put, question, show
+from service.cli.terminal import AsJson, File, answer, fail, put, question, show
+from service.computations import Computation
+
+#: statuses that say that the answer is not what was asked for
+_UNMET = ("infeasible", "inaccurate")
+_OPTIONS: dict[str, Any] = {
+    "outputs": Annotated[
+        list[str] | None,
+        typer.Option("--output", help="What the answer shall hold, in place of `outputs` in the file; repeatable."),
+    ],
+    "points": Annotated[int | None, typer.Option(help="Number of points, in place of `points` in the file.")],
+    "total_mass_budgets_kg": Annotated[
+        list[str] | None,
+        typer.Option(
+            "--budget",
+            metavar="KG",
+            help="A front under this total mass, a number or a text such as '200 lb', in place of"
+            " `total_mass_budgets_kg` in the file; repeatable.",
+        ),
+    ],
+    "repeats": Annotated[int | None, typer.Option(help="Rounds of timing, in place of `repeats` in the file.")],
+}
+_Picture = Annotated[
+    Path | None, typer.Option(metavar="FILE.svg", help="Draw the answer; needs counterweight\\[pictures].")
+]
 
 
-def optimize(file: File, as_json: AsJson = False, output: Outputs = None) -> None:
-    """Choose the counterweights of a machine."""
-    from optimizer.optimize import optimize as compute
-    from schemas.requests import OptimizeRequest
+def command(one: Computation) -> Callable[..., None]:
+    """The command of a computation, with the options that its entry names."""
 
-    request = question(OptimizeRequest, file, output)
-    found = answer(compute, request)
-    if as_json:
-        put(found.model_dump_json())
-    else:
-        from service.tables import optimize_report
+    def run(file: str, as_json: bool, picture: Path | None = None, **given: Any) -> None:
+        draw = _artist(one) if picture is not None else None
+        request = question(one.asks, file, {name: _read(value) for name, value in given.items() if value})
+        found = answer(one.function, request)
+        name = getattr(getattr(request, "machine", request), "name", None) or one.title
+        if draw is not None and picture is not None:
+            try:
+                picture.write_text(draw(name, found))
+            except OSError as error:
+                fail(f"cannot write {picture}: {error.strerror}")
+        status = getattr(found, "status", None)
+        if as_json:
+            put(found.model_dump_json())
+        else:
+            show(resolve_name(one.chapters or "")(request, found), name, status)
+        raise typer.Exit(1 if status in _UNMET else 0)
 
-        show(optimize_report(request.machine.name or "machine", request.objective, found))
-    raise typer.Exit(0 if found.status == "optimal" else 1)
-
-
-def analyze(file: File, as_json: AsJson = False, output: Outputs = None) -> None:
-    """Say what a machine does as it stands, or with given counterweights."""
-    from optimizer.analyze import analyze as compute
-    from schemas.requests import AnalyzeRequest
-
-    request = question(AnalyzeRequest, file, output)
-    found = answer(compute, request)
-    if as_json:
-        put(found.model_dump_json())
-    else:
-        from service.tables import analyze_report
-
-        show(analyze_report(request.machine.name or "machine", found))
-
-
-def pin_loads(file: File, as_json: AsJson = False) -> None:
-    """Say what the anti-rotation pins of a scroll carry over a turn."""
-    from optimizer.pins.answer import pin_loads as compute
-    from schemas.scroll import PinLoadsRequest
-
-    found = answer(compute, question(PinLoadsRequest, file))
-    if as_json:
-        put(found.model_dump_json())
-    else:
-        from service.pin_tables import pin_loads_report
-
-        show(pin_loads_report(found))
+    options = {"file": File, **{name: _OPTIONS[name] for name in one.options}, "as_json": AsJson}
+    if one.picture is not None:
+        options["picture"] = _Picture
+    defaults = {"file": Parameter.empty, "as_json": False}
+    run.__doc__ = one.help
+    run.__annotations__ = options
+    run.__signature__ = Signature(  # type: ignore[attr-defined]
+        [
+            Parameter(name, Parameter.KEYWORD_ONLY, default=defaults.get(name), annotation=option)
+            for name, option in options.items()
+        ]
+    )
+    return run
 
 
-def rating(file: File, as_json: AsJson = False) -> None:
-    """Size the cylinders of a compressor, and say what they deliver and need."""
-    from optimizer.rating.rate import rate
-    from schemas.rating import RatingRequest
+def _artist(one: Computation) -> Callable[[str, Any], str]:
+    from service.accuracy_picture import NoMatplotlib
 
-    request = question(RatingRequest, file)
-    found = answer(rate, request)
-    if as_json:
-        put(found.model_dump_json())
-    else:
-        from service.rating_tables import rating_report
+    try:
+        found: Callable[[str, Any], str] = resolve_name(one.picture or "")()
+    except NoMatplotlib as error:
+        fail(str(error))
+    return found
 
-        show(rating_report(request.name or "compressor", found))
+
+def _read(given: Any) -> Any:
+    """Numbers as numbers; texts with a unit as they stand."""
+    if isinstance(given, list):
+        return [_read(each) for each in given]
+    try:
+        return float(given) if isinstance(given, str) else given
+    except ValueError:
+        return given

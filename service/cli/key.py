@@ -54,15 +54,20 @@ def create(
 @key.command(name="list")
 def list_keys(file: File = None) -> None:
     """Show the keys: owners, scopes and times, never the keys themselves."""
-    from rich.table import Table
+    from service.report.blocks import Chapter, table
 
-    table = Table("id", "owner", "scopes", "made", "expires", "rate")
-    for record in _read(_file(file)):
-        expires = "never" if record.expires is None else _moment(record.expires)
-        table.add_row(
-            record.id, record.owner, ", ".join(record.scopes), record.created, expires, record.rate_limit or ""
+    rows = [
+        (
+            record.id,
+            record.owner,
+            ", ".join(record.scopes),
+            record.created,
+            "never" if record.expires is None else _moment(record.expires),
+            record.rate_limit or "",
         )
-    show(table)
+        for record in _read(_file(file))
+    ]
+    show([Chapter("Keys", (table("", ["id", "owner", "scopes", "made", "expires", "rate"], rows),))])
 
 
 @key.command()

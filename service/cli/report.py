@@ -6,9 +6,13 @@ from typing import Annotated
 
 import typer
 
-from service.cli.terminal import File, Outputs, answer, fail, question
+from service.cli.terminal import File, answer, fail, question
 from service.computations import COMPUTATIONS
 
+Outputs = Annotated[
+    list[str] | None,
+    typer.Option("--output", help="What the document shall hold, in place of `outputs` in the file; repeatable."),
+]
 Target = Annotated[Path, typer.Option("-o", "--to", metavar="FILE", help="Document to write: .html or .pdf.")]
 
 
@@ -18,7 +22,7 @@ def report(file: File, to: Target, output: Outputs = None) -> None:
     form = next((form for form in one.forms if form.suffix == to.suffix.lower()), None)
     if form is None:
         fail(f"the name of the document must end in {' or '.join(form.suffix for form in one.forms)}")
-    made = answer(one.function, question(one.asks, file, output))
+    made = answer(one.function, question(one.asks, file, {"outputs": output} if output else {}))
     try:
         to.write_bytes(resolve_name(form.write)(made))
     except OSError as error:

@@ -78,9 +78,9 @@ def _estimate(asked: "SweepRequest", as_json: bool) -> None:
     if as_json:
         put(found.model_dump_json())
     else:
-        from service.sweep_tables import estimate_report
+        from service.report.chapters.sweep import estimated
 
-        show(estimate_report(found))
+        show(estimated(found))
 
 
 def _require_writable(output: Path) -> None:
@@ -173,10 +173,10 @@ def _finish(desk: "Desk", job: "Job", asked: "SweepRequest", output: Path, as_js
     if as_json:
         put(desk.state(job).model_dump_json())
     else:
-        from service.sweep_tables import sweep_report
+        from service.report.chapters.sweep import swept
 
         best, title = _best(desk, job, asked)
-        show(sweep_report(counts, best, tuple(axis.path for axis in asked.axes), title))
+        show(swept(counts, best, tuple(axis.path for axis in asked.axes), title))
         put(f"{output}: {desk.state(job).rows} rows")
     return counts
 
@@ -201,10 +201,10 @@ def _best(desk: "Desk", job: "Job", asked: "SweepRequest") -> "tuple[pa.Table, s
 
     schema = desk.schema(job)
     if desk.keeps(job):
-        return desk.kept(job).slice(0, _SHOWN), "first rows"
+        return desk.kept(job).slice(0, _SHOWN), "First rows"
     if "force_peak_N" not in schema.names:
         return schema.empty_table(), ""
     top = Top(TopFilter(by="force_peak_N", count=_SHOWN), schema)
     for batch in desk.rows(job, schema, 0, None):
         top.add(pa.Table.from_batches([batch]))
-    return top.table(), "smallest peak force"
+    return top.table(), "Smallest peak force"

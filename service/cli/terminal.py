@@ -2,39 +2,38 @@
 
 import os
 import sys
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, NoReturn, TypeVar
 
 import typer
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
-
     from schemas.base import FieldProblem, Model
+    from service.report.blocks import Chapter
 
     Question = TypeVar("Question", bound=Model)
     Answer = TypeVar("Answer")
 
 BAD_INPUT = 2
+_STYLES = {
+    **dict.fromkeys(("optimal", "measured", "held"), "bold green"),
+    **dict.fromkeys(("infeasible", "broken"), "bold red"),
+}
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="JSON file, or - for standard input.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the exact answer of the REST service.")]
-Outputs = Annotated[
-    list[str] | None,
-    typer.Option("--output", help="What the answer shall hold, in place of `outputs` in the file; repeatable."),
-]
 
 
-def question(model: "type[Question]", file: str, outputs: Sequence[str] | None = None) -> "Question":
-    """The request in a file, with other outputs if they were given."""
+def question(model: "type[Question]", file: str, given: Mapping[str, object] | None = None) -> "Question":
+    """The request in a file, with fields given on the command line in place of those in it."""
     from service.http.validation import InvalidRequest, UnreadableJson, check, read_json
 
     source = "standard input" if file == "-" else file
     try:
         body = read_json(_read(file))
-        if outputs and isinstance(body, dict):
-            body = {**body, "outputs": outputs}
+        if given and isinstance(body, dict):
+            body = {**body, **given}
         return check(model, body)
     except OSError as error:
         fail(f"cannot read {source}: {error.strerror}")
@@ -75,14 +74,21 @@ def fail(*lines: str) -> NoReturn:
     raise typer.Exit(BAD_INPUT)
 
 
-def show(content: "RenderableType") -> None:
-    from rich.console import Console
+def show(chapters: "Iterable[Chapter]", name: str | None = None, status: str | None = None) -> None:
+    """Print chapters, under the name of what they are about and how it ended."""
+    from rich.console import Console, Group
+    from rich.text import Text
 
+    from service.report.plain import plain
+    from service.report.terminal import terminal
+
+    ending = (f": {status}", _STYLES.get(status, "bold yellow")) if status else ""
+    heading = [] if name is None else [Text.assemble(plain(name), ending)]
     console = Console()
     if not console.is_terminal:
         console.width = 160
     with console.capture() as rendered:
-        console.print(content)
+        console.print(Group(*heading, terminal(chapters)))
     put(rendered.get().rstrip("\n"))
 
 

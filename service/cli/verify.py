@@ -25,7 +25,7 @@ def verify(file: File, answer: Answer, as_json: AsJson = False) -> None:
     if as_json:
         put(found.model_dump_json())
     else:
-        from service.tables import verify_report
+        from service.report.chapters.verification import verified
 
-        show(verify_report(found))
+        show(verified(found), "answer", found.verdict)
     raise typer.Exit(1 if found.verdict == "broken" else 0)

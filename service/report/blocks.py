@@ -1,10 +1,11 @@
 """What a document is made of: chapters of paragraphs, tables, figures and listings.
 
-Chapters build these blocks; HTML and PDF are written from the same blocks, so that they say the same.
+Chapters build these blocks; HTML, PDF and the terminal are written from the same blocks, so that they say the same.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import Literal, NamedTuple
 
 from service.report.drawing import Drawing
@@ -73,11 +74,22 @@ class Table:
 
 
 @dataclass(frozen=True)
+class Samples:
+    """Values over the turn, for those who cannot see a drawing of them."""
+
+    title: str
+    unit: str
+    angle_deg: Sequence[float]
+    lines: Sequence[tuple[str, Sequence[float | None]]]
+
+
+@dataclass(frozen=True)
 class Figure:
-    """Drawings side by side, and what they show."""
+    """Drawings side by side, and what they show; with samples where they are worth reading."""
 
     drawings: tuple[Drawing, ...]
     caption: str
+    samples: Samples | None = None
 
 
 @dataclass(frozen=True)
@@ -141,6 +153,16 @@ def table(title: str, columns: Sequence[str], rows: Sequence[Sequence[Cell | flo
         Column(column.lstrip("#<"), numeric=column.startswith("#"), wide=column.startswith("<")) for column in columns
     )
     return Table(title, heads, tuple(tuple(_cell(cell) for cell in row) for row in rows))
+
+
+def extremes(title: str, angle_deg: Sequence[float], series: Iterable[tuple[str, Sequence[float | None]]]) -> Table:
+    """Largest and smallest sample of every series, and where first."""
+    rows = []
+    for name, values in series:
+        known = [(value, angle) for value, angle in zip(values, angle_deg, strict=True) if value is not None]
+        found = (*max(known, key=itemgetter(0)), *min(known, key=itemgetter(0))) if known else (None,) * 4
+        rows.append((name, *found))
+    return table(title, ["", "#largest", "#at, deg", "#smallest", "#at, deg"], rows)
 
 
 def facts(title: str, rows: Sequence[tuple[str, Cell | float | None]]) -> Table:

@@ -81,7 +81,7 @@ def chart(
     ----------
     ticks : marks of the axis across; chosen if not given.
     """
-    longest = max(len(line.name) for line in lines)
+    longest = max((len(line.name) for line in lines), default=0)
     beside = 4 if longest <= 20 else 2
     rows = -(-len(lines) // beside) if len(lines) > 1 else 0
     top, left = 24.0 + 16.0 * rows, 66.0

@@ -11,8 +11,7 @@ from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts
 from service.report.chapters import balance, inputs, reproduction, verdict
-from service.report.chapters.dynamics import dynamics
-from service.report.chapters.pins import pin_loads
+from service.report.chapters.answers import outputs
 
 _STATUS = {
     "optimal": "optimal, certified",
@@ -89,10 +88,6 @@ def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[F
     yield balance.counterweights(answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
-    if answer.orders is not None:
-        yield balance.orders(answer.orders)
-    yield from dynamics(request.machine, answer)
-    if answer.pin_loads is not None:
-        yield pin_loads(answer.pin_loads)
+    yield from outputs(request.machine, answer)
     yield reproduction.effects(answer.effects, request.outputs)
     yield reproduction.appendix(request)

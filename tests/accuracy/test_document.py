@@ -8,7 +8,7 @@ import pytest
 
 from optimizer.accuracy.measure import accuracy
 from schemas.accuracy import AccuracyAnswer
-from service.accuracy_tables import method_name
+from service.report.chapters.accuracy import method_name
 from tests.accuracy.problems import request
 
 DOCS = Path(__file__).parents[2] / "docs"

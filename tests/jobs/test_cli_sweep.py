@@ -52,7 +52,7 @@ def test_a_table_and_a_file(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     assert pq.read_table(out).equals(expected(optimisations()))
     assert "optimal" in done.stdout
-    assert "smallest peak force" in done.stdout
+    assert "Smallest peak force" in done.stdout
     assert f"{out.name}: 6 rows" in done.stdout.replace("\n", "")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["rows.parquet", "sweep.json"]
 

@@ -12,14 +12,21 @@ from tests.service.test_cli import refused, run
 from tests.service.test_dynamics import OVER_THE_TURN
 
 SHOWN = {
-    "kinematics": ("motion", "I: velocity, m/s", "7.47575", "460.582"),
-    "gas": ("suction opens, deg", "36.873", "286.5", "indicated power, W", "all rows", "gas force over the turn, N"),
+    "kinematics": ("Motion", "I: velocity, m/s", "7.47575", "460.582"),
+    "gas": ("suction opens, deg", "36.873", "286.5", "indicated power, W", "machine", "gas force over the turn, N"),
     "piston_force": ("I: gas", "II: inertia", "I: sum", "piston force over the turn, N"),
-    "rod_loads": ("sudden stop", "governs: 24", "tangential", "largest rod force of the machine"),
-    "torque": ("mean of I, N m", "shaft power, W", "fluctuation energy, J", "±", "tangential force, N", "│ 330 "),
-    "flywheel": ("irregularity", "inertia J, kg m2", "inertia MD^2, kg m2"),
-    "overturning": ("overturning couple, N m", "all rows", "largest overturning couple"),
-    "main_bearings": ("main bearings (simple spans)", "peak before, N", "peak after, N", "largest bending moment"),
+    "rod_loads": ("sudden stop", "(governs)", "tangential", "largest rod force of the machine"),
+    "torque": (
+        "Mean torque of the rows",
+        "shaft power, W",
+        "ΔE, J",
+        "of its error, J",
+        "tangential force, N",
+        " 330 │",
+    ),
+    "flywheel": ("irregularity", "moment of inertia J", "MD2 = 4 J, kg m2"),
+    "overturning": ("Overturning couple", "machine", "largest couple among the samples, N m"),
+    "main_bearings": ("every span simply supported", "peak without", "peak with", "Largest bending moment"),
 }
 
 
@@ -39,7 +46,7 @@ def test_tables(command: str, output: str) -> None:
     for text in SHOWN[output]:
         assert text in result.stdout
     # samples are summed up, not dumped
-    assert len(result.stdout.splitlines()) < 80
+    assert len(result.stdout.splitlines()) < 140
 
 
 def test_all_tables_together() -> None:
@@ -51,8 +58,8 @@ def test_an_infeasible_machine_has_loads_before_alone(body: dict[str, Any]) -> N
     body["objective"] = {"force_ceiling_N": 1}
     result = run("optimize", "-", "--output", "main_bearings", given=json.dumps(body).encode())
     assert result.exit_code == 1
-    assert "before" in result.stdout
-    assert "│ after " not in result.stdout
+    assert "│ without counterweights " in result.stdout
+    assert "│ with counterweights " not in result.stdout
 
 
 @pytest.mark.parametrize("step_deg", [0.5, 7.2, 30, 72, 120])
@@ -61,19 +68,19 @@ def test_whatever_the_samples(body: dict[str, Any], step_deg: float) -> None:
     result = run("analyze", "-", *asked(OVER_THE_TURN), given=given)
     assert result.exit_code == 0
     # regression: twelve angles at the most, or a few more where 30 degrees are no whole number of steps
-    assert sum(line.startswith("│ ") for line in result.stdout.splitlines()) < 100
+    assert sum(line.startswith("│ ") for line in result.stdout.splitlines()) < 120
 
 
 def test_rows_are_told_apart(body: dict[str, Any]) -> None:
     for throw in body["machine"]["throws"]:
         throw["rows"][0]["name"] = "[b]R"
     stdout = run("analyze", "-", "--output", "kinematics", given=json.dumps(body).encode()).stdout
-    assert "throw 1 row 1 [b]R: velocity" in stdout
-    assert "throw 2 row 1 [b]R: velocity" in stdout
+    assert "│ 1-[b]R: velocity" in stdout
+    assert "│ 2-[b]R: velocity" in stdout
     for throw in body["machine"]["throws"]:
         del throw["rows"][0]["name"]
     stdout = run("analyze", "-", "--output", "kinematics", given=json.dumps(body).encode()).stdout
-    assert "throw 2 row 1: velocity" in stdout
+    assert "│ 2-1: velocity" in stdout
 
 
 def test_a_machine_without_rows(body: dict[str, Any]) -> None:
@@ -100,8 +107,8 @@ def test_rating() -> None:
     assert result.exit_code == 0
     for text in (
         "2D12-90/2-20",
-        "┃ I ",
-        "┃ II ",
+        " I ┃",
+        " II ┃",
         "in cylinder",
         "discharge temperature, K",
         "delivery coefficient",
@@ -110,7 +117,7 @@ def test_rating() -> None:
         "0.73 ",
         "gas load at inner dead centre, N",
         "motor power, W",
-        "warning, stage I: ",
+        "stage I: the gas leaves the cylinder at",
     ):
         assert text in result.stdout
 
@@ -139,7 +146,7 @@ def test_bad_input_of_a_rating() -> None:
 def test_effects(client: Any) -> None:
     result = run("effects")
     assert result.exit_code == 0
-    for text in ("outputs", "effects", "torque_integrals", "machine.flywheel", "machine.bearings"):
+    for text in ("Outputs", "Effects", "torque_integrals", "machine.flywheel", "machine.bearings"):
         assert text in result.stdout
     assert run("effects", "--json").stdout == client.get("/v1/effects").text + "\n"
     EffectCatalogue.model_validate_json(run("effects", "--json").stdout)

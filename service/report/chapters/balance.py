@@ -1,11 +1,13 @@
 """What was found: layout, stages, counterweights, first order before and after, orders."""
 
+import math
 from collections.abc import Iterator, Sequence
 
 from optimizer.formulate import span
-from schemas.answers import Counterweight, FirstOrder, OptimizeAnswer
+from schemas.answers import Counterweight, FirstOrder, Floor, OptimizeAnswer
 from schemas.base import FieldProblem
-from schemas.outputs import OrdersComparison, Stage
+from schemas.machine import Machine
+from schemas.outputs import Hodographs, OrdersComparison, Stage
 from schemas.requests import OptimizeRequest
 from service.http.validation import pointer
 from service.report import charts
@@ -15,6 +17,7 @@ from service.report.blocks import (
     Equation,
     Figure,
     Paragraph,
+    Table,
     number,
     table,
 )
@@ -112,12 +115,17 @@ def stages(found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Ch
 
 def _rules(found: Sequence[Stage]) -> Iterator[Block]:
     rows = [
-        (one.stage, rule.name, rule.total_mass_radius_kg_m, rule.peak, one.unit)
+        (
+            one.stage, rule.name, rule.transferred_share, rule.total_mass_radius_kg_m, rule.peak, one.unit,
+            rule.source,
+        )
         for one in found
         for rule in one.rules_of_thumb
-    ]
+    ]  # fmt: skip
     if rows:
-        heads = ["stage", "<rule of thumb", "#mass times radius, kg m", "#peak that it leaves", "unit"]
+        heads = [
+            "stage", "<rule of thumb", "#share", "#mass times radius, kg m", "#peak that it leaves", "unit", "source",
+        ]  # fmt: skip
         yield table("Customary partial balances, for comparison", heads, rows)
 
 
@@ -133,8 +141,13 @@ def counterweights(answer: OptimizeAnswer) -> Chapter:
     blocks.append(
         Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
     )
-    blocks.append(
-        table(
+    blocks.append(places(fitted))
+    return Chapter("Counterweights", (*blocks, *_prices(answer)))
+
+
+def places(fitted: Sequence[Counterweight]) -> Table:
+    """Masses and angles, one row for each web."""
+    return table(
             "",
             ["web", "#mass, kg", "#angle, deg", "#mass times radius, kg m", "#x, kg m", "#y, kg m", "limits reached"],
             [
@@ -144,9 +157,7 @@ def counterweights(answer: OptimizeAnswer) -> Chapter:
                 )
                 for one in fitted
             ],
-        )
     )  # fmt: skip
-    return Chapter("Counterweights", (*blocks, *_prices(answer)))
 
 
 def _prices(answer: OptimizeAnswer) -> Iterator[Block]:
@@ -173,9 +184,20 @@ def limits(names: Sequence[str]) -> str:
 
 
 def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
-    """First-order force and moment: ellipses as figures and as hodographs."""
-    was, (_, left) = answer.residual.before, shown(answer)
-    floors = {"peak_N": answer.floor.force_N, "peak_Nm": answer.floor.moment_Nm}
+    """First-order force and moment, and what the counterweights leave."""
+    _, left = shown(answer)
+    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer))
+
+
+def first_order(machine: Machine, was: FirstOrder, left: FirstOrder | None, floor: Floor, label: str) -> Chapter:
+    """First-order force and moment: ellipses as figures and as hodographs.
+
+    Parameters
+    ----------
+    left : with counterweights, if there are any.
+    label : what these are.
+    """
+    floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
     rows = [
         (
             title,
@@ -185,7 +207,7 @@ def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapte
         )
         for title, vector, name in _FIRST_ORDER
     ]
-    name = f"{which(answer)}: peak"
+    name = f"{label}: peak"
     force, moment = was.force, was.moment
     forces = [charts.before(force.peak_N, force.minor_N, force.major_axis_deg)]
     moments = [charts.before(moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg)]
@@ -193,15 +215,15 @@ def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapte
         force, moment = left.force, left.moment
         forces.append(charts.after(name, force.peak_N, force.minor_N, force.major_axis_deg))
         moments.append(charts.after(name, moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg))
-    length = float(span(request.machine)) or 1.0
+    length = float(span(machine)) or 1.0
     reach = _VISIBLE * (was.force.peak_N + was.moment.peak_Nm / length)
-    forces.append(charts.floor(answer.floor.force_N))
-    moments.append(charts.floor(answer.floor.moment_Nm))
+    forces.append(charts.floor(floor.force_N))
+    moments.append(charts.floor(floor.moment_Nm))
     return Chapter(
         "First order before and after",
         (
             Equation(formula("F(theta) = f e^{j s theta} + b e^{-j s theta},   peak |f| + |b|,   floor |b|")),
-            table("", ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"], rows),
+            table("", ["quantity", "#without counterweights", f"#{label}", "#floor"], rows),
             Figure(
                 (
                     charts.hodograph("force", "N", forces, reach),
@@ -231,3 +253,16 @@ def orders(found: OrdersComparison) -> Chapter:
     heads = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
     words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
     return Chapter("Orders", (Paragraph(words), table("", heads, rows)))
+
+
+def hodograph(found: Hodographs) -> Chapter:
+    """Between which values force and moment run over the turn; the answer itself holds every sample."""
+    rows = [
+        (name, min(force), max(force), min(moment), max(moment))
+        for name, one in (("without counterweights", found.before), ("with counterweights", found.after))
+        if one is not None
+        for force in [list(map(math.hypot, one.force_x_N, one.force_y_N))]
+        for moment in [list(map(math.hypot, one.moment_x_Nm, one.moment_y_Nm))]
+    ]
+    heads = ["", "#smallest force, N", "#largest force, N", "#smallest moment, N m", "#largest moment, N m"]
+    return Chapter("Hodograph", (table(f"Over {len(found.angle_deg)} shaft angles", heads, rows),))

@@ -2,6 +2,8 @@
 
 import math
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from operator import itemgetter
 from typing import TypeVar
 
 from schemas.answers import Outputs
@@ -14,11 +16,12 @@ from schemas.dynamics import (
     Overturning,
     PistonForce,
     RodLoads,
+    RowPistonForce,
     RowSeries,
     Torque,
 )
 from schemas.machine import Machine
-from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, facts, table
+from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Samples, extremes, facts, table
 from service.report.chapters.inputs import row_name
 from service.report.charts import MAX_LINES, Line, chart, over_turn
 from service.report.formula import formula
@@ -28,6 +31,7 @@ Row = TypeVar("Row", bound=RowSeries)
 _CASES = {"running": "running", "no_load": "no load", "sudden_stop": "sudden stop"}
 #: rows whose piston forces are drawn part by part
 _MAX_APART = 4
+_EXTREMES = "Extremes among the samples"
 _SIGNS = "Forces are positive in rod tension, torques against rotation."
 
 
@@ -51,13 +55,21 @@ def dynamics(machine: Machine, answer: Outputs) -> Iterator[Chapter]:
         yield from _main_bearings(answer.main_bearings)
 
 
-def figure(title: str, unit: str, angle_deg: Sequence[float], lines: Sequence[Line], caption: str) -> Figure:
-    """Lines over the turn; of too many, those with the largest values."""
+def figure(
+    title: str, unit: str, angle_deg: Sequence[float], lines: Sequence[Line], caption: str, *, tabled: bool = False
+) -> Figure:
+    """Lines over the turn; of too many, those with the largest values.
+
+    Parameters
+    ----------
+    tabled : whether the samples are worth reading where there are no drawings.
+    """
+    samples = Samples(title, unit, angle_deg, lines) if tabled else None
     if len(lines) > MAX_LINES:
         largest = sorted(lines, key=lambda line: -max(abs(value or 0.0) for value in line.values))[:MAX_LINES]
         caption += f" Drawn are the {MAX_LINES} of {len(lines)} with the largest values."
         lines = [line for line in lines if line in largest]
-    return Figure((over_turn(title, unit, angle_deg, lines),), caption)
+    return Figure((over_turn(title, unit, angle_deg, lines),), caption, samples)
 
 
 def _lines(machine: Machine, rows: Sequence[Row], values: Callable[[Row], Sequence[float]]) -> list[Line]:
@@ -65,27 +77,22 @@ def _lines(machine: Machine, rows: Sequence[Row], values: Callable[[Row], Sequen
 
 
 def _kinematics(machine: Machine, found: Kinematics) -> Chapter:
-    rows = [
-        (
-            row_name(machine, row.throw, row.row),
-            max(row.displacement_m),
-            max(map(abs, row.velocity_m_s)),
-            max(row.acceleration_m_s2),
-            min(row.acceleration_m_s2),
-        )
+    parts = [
+        (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
         for row in found.rows
+        for quantity, values in (
+            ("displacement, m", row.displacement_m),
+            ("velocity, m/s", row.velocity_m_s),
+            ("acceleration, m/s2", row.acceleration_m_s2),
+        )
     ]
-    heads = [
-        "row", "#largest displacement, m", "#largest speed, m/s", "#largest acceleration, m/s2",
-        "#smallest acceleration, m/s2",
-    ]  # fmt: skip
     series: tuple[tuple[str, str, list[Line]], ...] = (
         ("displacement from outer dead centre", "m", _lines(machine, found.rows, lambda row: row.displacement_m)),
         ("velocity towards the shaft", "m/s", _lines(machine, found.rows, lambda row: row.velocity_m_s)),
         ("acceleration towards the shaft", "m/s²", _lines(machine, found.rows, lambda row: row.acceleration_m_s2)),
     )
     figures = [figure(title, unit, found.angle_deg, lines, f"{title.capitalize()}.") for title, unit, lines in series]
-    return Chapter("Motion", (table("Extremes among the samples", heads, rows), *figures))
+    return Chapter("Motion", (extremes(_EXTREMES, found.angle_deg, parts), *figures))
 
 
 def _gas(machine: Machine, found: Gas) -> Chapter:
@@ -93,6 +100,8 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
         (
             row_name(machine, row.throw, row.row),
             chamber.side,
+            min(chamber.pressure_Pa),
+            max(chamber.pressure_Pa),
             chamber.suction_opens_deg,
             chamber.discharge_opens_deg,
             chamber.indicated_work_J,
@@ -107,37 +116,44 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
     ]
     powers = [(row_name(machine, row.throw, row.row), row.indicated_power_W) for row in found.rows]
     forces = _lines(machine, found.rows, lambda row: row.force_N)
-    heads = ["row", "side", "#suction opens, deg", "#discharge opens, deg", "#indicated work a turn, J"]
+    heads = [
+        "row", "side", "#lowest, Pa", "#highest, Pa", "#suction opens, deg", "#discharge opens, deg",
+        "#indicated work a turn, J",
+    ]  # fmt: skip
     return Chapter(
         "Gas",
         (
-            table("Chambers, angles from the row's own outer dead centre", heads, chambers),
+            table("Chambers: pressures, work, and angles from the row's own outer dead centre", heads, chambers),
             table(
                 "Indicated power",
                 ["row", "#indicated power, W"],
                 [*powers, ("machine", found.indicated_power_W)],
             ),
+            extremes("Gas force on the piston, N", found.angle_deg, forces),
             figure("pressure", "Pa", found.angle_deg, pressures, "Absolute pressure in the chambers."),
-            figure("gas force", "N", found.angle_deg, forces, f"Gas force on the pistons. {_SIGNS}"),
+            figure("gas force", "N", found.angle_deg, forces, f"Gas force on the pistons. {_SIGNS}", tabled=True),
         ),
     )
 
 
 def _piston_force(machine: Machine, found: PistonForce) -> Chapter:
-    rows = [(row_name(machine, row.throw, row.row), row.peak_tension_N, row.peak_compression_N) for row in found.rows]
+    named = [(row_name(machine, row.throw, row.row), _parts(row)) for row in found.rows]
+    series = [(f"{name}: {part.name}", part.values) for name, parts in named for part in parts]
     total = _lines(machine, found.rows, lambda row: row.total_N)
-    figures = [figure("piston force", "N", found.angle_deg, total, f"Sum of gas, inertia and friction. {_SIGNS}")]
-    for row in found.rows if len(found.rows) <= _MAX_APART else ():
-        name = row_name(machine, row.throw, row.row)
-        parts = [
-            Line("gas", row.gas_N),
-            Line("inertia", row.inertia_N),
-            Line("friction", row.friction_N),
-            Line("sum", row.total_N),
-        ]
+    words = f"Sum of gas, inertia and friction. {_SIGNS}"
+    figures = [figure("piston force", "N", found.angle_deg, total, words, tabled=True)]
+    for name, parts in named if len(named) <= _MAX_APART else ():
         figures.append(figure(f"row {name}", "N", found.angle_deg, parts, f"Forces on the piston of row {name}."))
-    heads = ["row", "#largest, N", "#smallest, N"]
-    return Chapter("Piston forces", (table("Extremes among the samples", heads, rows), *figures))
+    return Chapter("Piston forces", (extremes(f"{_EXTREMES}, N", found.angle_deg, series), *figures))
+
+
+def _parts(row: RowPistonForce) -> list[Line]:
+    return [
+        Line("gas", row.gas_N),
+        Line("inertia", row.inertia_N),
+        Line("friction", row.friction_N),
+        Line("sum", row.total_N),
+    ]
 
 
 def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
@@ -153,6 +169,11 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
         for row in found.rows
         for case in row.cases
     ]
+    others = [
+        (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
+        for row in found.rows
+        for quantity, values in (("side", row.side_N), ("tangential", row.tangential_N), ("radial", row.radial_N))
+    ]
     heads = ["row", "load case", "#tension, N", "#at, deg", "#compression, N", "#at, deg"]
     series: tuple[tuple[str, str, list[Line]], ...] = (
         ("rod force", "Force in the connecting rods.", _lines(machine, found.rows, lambda row: row.rod_N)),
@@ -166,6 +187,7 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
         (
             facts("", [("largest rod force of the machine, N", found.governing_load_N)]),
             table("Rod force by load case, at shaft angles among the samples", heads, cases),
+            extremes("Forces on guide and crank pin, N", found.angle_deg, others),
             *(figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}") for title, caption, lines in series),
         ),
     )
@@ -173,11 +195,12 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
 
 def _torque(machine: Machine, found: Torque) -> Chapter:
     rows = [(row_name(machine, row.throw, row.row), row.mean_torque_Nm) for row in found.rows]
-    lines = [
-        Line("machine", found.torque_Nm),
-        Line("mean", [found.mean_torque_Nm] * len(found.angle_deg)),
-        *(_lines(machine, found.rows, lambda row: row.torque_Nm) if len(found.rows) <= MAX_LINES - 2 else ()),
-    ]
+    by_row = _lines(machine, found.rows, lambda row: row.torque_Nm)
+    total = Line("machine", found.torque_Nm)
+    mean = Line("mean", [found.mean_torque_Nm] * len(found.angle_deg))
+    tangential = [] if found.tangential_N is None else [Line("tangential force, N", found.tangential_N)]
+    lines = [total, mean, *(by_row if len(by_row) <= MAX_LINES - 2 else ())]
+    drawn = figure("torque", "N m", found.angle_deg, lines, f"Torque of the shaft. {_SIGNS}")
     return Chapter(
         "Torque",
         (
@@ -198,7 +221,8 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
                 ],
             ),
             table("Mean torque of the rows", ["row", "#mean torque, N m"], rows),
-            figure("torque", "N m", found.angle_deg, lines, f"Torque of the shaft. {_SIGNS}"),
+            extremes(f"{_EXTREMES}: torque of rows and machine, N m", found.angle_deg, [*by_row, total, *tangential]),
+            replace(drawn, samples=Samples("torque", "N m", found.angle_deg, [*by_row, total, *tangential])),
         ),
     )
 
@@ -214,15 +238,15 @@ def _flywheel(found: Flywheel) -> Chapter:
 
 
 def _overturning(machine: Machine, found: Overturning) -> Chapter:
-    lines = [Line("machine", found.couple_Nm)]
-    if 1 < len(found.rows) < MAX_LINES:
-        lines += _lines(machine, found.rows, lambda row: row.couple_Nm)
+    rows = _lines(machine, found.rows, lambda row: row.couple_Nm)
+    lines = [Line("machine", found.couple_Nm), *(rows if 1 < len(rows) < MAX_LINES else ())]
     words = "Side forces of the crossheads turn the frame with the rotation; the couple equals the torque of the rows."
     return Chapter(
         "Overturning couple",
         (
             Paragraph(words),
             facts("", [("largest couple among the samples, N m", found.peak_Nm)]),
+            extremes(f"{_EXTREMES}, N m", found.angle_deg, [*rows, Line("machine", found.couple_Nm)]),
             figure("overturning couple", "N m", found.angle_deg, lines, "Overturning couple on the frame."),
         ),
     )
@@ -250,10 +274,13 @@ def _main_bearings(found: MainBearings) -> Iterator[Chapter]:
     bending = [Line("without counterweights", found.bending.before_Nm)]
     if found.bending.after_Nm is not None:
         bending.append(Line("with counterweights", found.bending.after_Nm))
+    planes = found.bending.position_m
+    largest = [(line.name, *max(zip(line.values, planes, strict=True), key=itemgetter(0))) for line in bending]
     drawn = chart("bending moment", "N m", "plane along the shaft z, m", found.bending.position_m, bending)
     blocks: list[Block] = [
         Paragraph(f"Taken as {shaft[found.shaft]}; loads from rows, rotating masses and counterweights."),
         table("Peaks among the samples", heads, rows),
+        table("Largest bending moment", ["", "#moment, N m", "#in the plane z, m"], largest),
         figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
         Figure((drawn,), "Largest bending moment inside the shaft over the turn, plane by plane."),
     ]

@@ -2,11 +2,16 @@
 
 from collections.abc import Iterator
 
-from schemas.scroll import PinLoadsAnswer
+from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
 from service.report.blocks import Block, Chapter, Equation, Paragraph, digits, facts, table
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line
 from service.report.formula import formula
+
+
+def loaded(_: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
+    """The answer to a request about pins alone."""
+    yield pin_loads(answer)
 
 
 def pin_loads(found: PinLoadsAnswer) -> Chapter:

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from schemas.answers import Certificate, Infeasibility, OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.requests import Objective, OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
 from service.report.chapters.balance import limits, shown, which
 from service.report.formula import formula
@@ -15,7 +15,7 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     """The answer in plain words and a few figures."""
     was, (_, left) = answer.residual.before, shown(answer)
     if answer.infeasibility is not None:
-        words: list[Block] = list(_refusal(request, answer.infeasibility))
+        words: list[Block] = list(reachable(request.objective, answer.infeasibility))
     else:
         words = [_certified(request, answer)]
     rows = [
@@ -62,7 +62,8 @@ def _percent(share: float) -> str:
     return "less than 0.00001 %" if 0 < share < 1e-7 else f"{100 * share:.2g} %"
 
 
-def _refusal(request: OptimizeRequest, why: Infeasibility) -> Iterator[Block]:
+def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
+    """Which ceilings cannot be met, and what can be reached."""
     names = " and ".join(_CEILINGS[name] for name in why.conflict)
     together = "cannot be met together" if len(why.conflict) > 1 else "cannot be met"
     yield Paragraph(
@@ -71,7 +72,7 @@ def _refusal(request: OptimizeRequest, why: Infeasibility) -> Iterator[Block]:
         "smallest.",
         "warning",
     )
-    goal, closest = request.objective, why.closest.first_order
+    closest = why.closest.first_order
     yield table(
         "What can be reached",
         ["case", "#peak force, N", "#peak moment, N m"],

@@ -1,17 +1,12 @@
-"""The thermal design of a compressor as readable tables: the stages side by side, the totals, the warnings."""
+"""The thermal design of a compressor: the stages side by side, the totals, the warnings."""
 
 from collections.abc import Callable, Iterator
 
-from rich.console import Group, RenderableType
-from rich.table import Table
-from rich.text import Text
-
+from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingAnswer, StageRating
-from service.cells import Cell, add, table
+from service.report.blocks import Chapter, Paragraph, facts, table
 
-Figure = Callable[[StageRating], Cell]
-
-_FIGURES: tuple[tuple[str, str, Figure], ...] = (
+_FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
     ("cylinders", "", lambda one: one.cylinders),
     ("suction pressure, Pa", "nominal", lambda one: one.nominal.suction_pressure_Pa),
     ("", "corrected", lambda one: one.corrected.suction_pressure_Pa),
@@ -45,33 +40,30 @@ _FIGURES: tuple[tuple[str, str, Figure], ...] = (
 )
 
 
-def rating_report(title: str, answer: RatingAnswer) -> Group:
+def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
     """Stages, totals and warnings."""
-    return Group(Text(title), _stages(answer), _totals(answer), *_warnings(answer))
-
-
-def _stages(answer: RatingAnswer) -> Table:
     names = (one.name or str(place) for place, one in enumerate(answer.stages, 1))
-    found = table("stages", "", "", *names)
-    for name, level, figure in _FIGURES:
-        add(found, name, level, *map(figure, answer.stages))
-    return found
+    rows = [(name, level, *map(figure, answer.stages)) for name, level, figure in _FIGURES]
+    yield Chapter("Stages", (table("", ["", "", *(f"#{name}" for name in names)], rows),))
+    totals = facts(
+        "",
+        [
+            ("pressure ratio", answer.total_pressure_ratio),
+            ("mean piston speed, m/s", answer.mean_piston_speed_m_s),
+            ("capacity, m3/min", answer.capacity_m3_per_min),
+            ("capacity over that asked for", answer.capacity_share),
+            ("largest gas load of a rod, N", answer.largest_rod_load_N),
+            ("indicated power, W", answer.indicated_power_W),
+            ("shaft power, W", answer.shaft_power_W),
+            ("motor power, W", answer.motor_power_W),
+        ],
+    )
+    yield Chapter("Machine", (totals,))
+    if answer.warnings:
+        yield Chapter("Warnings", tuple(_warnings(answer)))
 
 
-def _totals(answer: RatingAnswer) -> Table:
-    found = table("machine", "", "value")
-    add(found, "pressure ratio", answer.total_pressure_ratio)
-    add(found, "mean piston speed, m/s", answer.mean_piston_speed_m_s)
-    add(found, "capacity, m3/min", answer.capacity_m3_per_min)
-    add(found, "capacity over that asked for", answer.capacity_share)
-    add(found, "largest gas load of a rod, N", answer.largest_rod_load_N)
-    add(found, "indicated power, W", answer.indicated_power_W)
-    add(found, "shaft power, W", answer.shaft_power_W)
-    add(found, "motor power, W", answer.motor_power_W)
-    return found
-
-
-def _warnings(answer: RatingAnswer) -> Iterator[RenderableType]:
+def _warnings(answer: RatingAnswer) -> Iterator[Paragraph]:
     for one in answer.warnings:
         place = "machine" if one.stage is None else f"stage {answer.stages[one.stage - 1].name or one.stage}"
-        yield Text.assemble(("warning", "bold yellow"), f", {place}: {one.message}")
+        yield Paragraph(f"{place}: {one.message}", "warning")

@@ -1,0 +1,101 @@
+"""What accuracy costs in time: the ladder of methods, the ladder of effects, and what they were measured with."""
+
+from collections.abc import Iterator
+
+from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, number, table
+
+_METHODS = {
+    "service": "the service",
+    "interior_point": "interior point, compiled",
+    "interior_point_batch": "interior point, one of 1000",
+    "interior_point_interpreted": "interior point, finer numbers",
+    "cone_program": "cone program",
+    "cone_program_matrices": "cone program, matrices",
+    "sampled_angles": "sampled angles",
+    "polygonal_cones": "polygonal cones",
+    "panels": "panels between kinks",
+    "search": "search between kinks",
+    "samples": "equal steps",
+}
+_EMPTY = {
+    "nothing_to_choose": "No web can carry a counterweight, or the objective is 0 without any: nothing to measure.",
+    "infeasible": "No counterweights satisfy the ceilings; `counterweight optimize` says why.",
+}
+
+
+def measured(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
+    """Both ladders, and what stands behind the figures."""
+    yield Chapter("What the smallest objective costs (least mass is off)", tuple(_ladder(answer)))
+    if answer.effects_ladder:
+        yield Chapter("What the figures of the turn cost", (_effects(answer.effects_ladder),))
+    yield Chapter("Measured with", (Paragraph(_measured_with(answer)),))
+
+
+def method_name(method: str) -> str:
+    """A method in words; one that is not known here by its own name."""
+    return _METHODS.get(method, method.replace("_", " "))
+
+
+def _ladder(answer: AccuracyAnswer) -> Iterator[Block]:
+    if answer.status != "measured":
+        yield Paragraph(_EMPTY[answer.status], "warning")
+    else:
+        heads = ["method", "setting", "#time, ms", "#first, ms", "#error", "#as drawn", "#certified gap", "#claim", ""]
+        yield table("", heads, [_rung(row) for row in answer.ladder])
+        for row in answer.ladder:
+            if row.skipped:
+                yield Paragraph(f"{method_name(row.method)}, {row.setting}: {row.skipped}")
+    if answer.reference is not None:
+        yield Paragraph(
+            f"Certified: no counterweights within the limits bring the objective below "
+            f"{digits(answer.reference.lower_bound)}; the best found bring it to {digits(answer.reference.objective)}. "
+            f"Errors are relative to {digits(answer.reference.objective_without_counterweights)}, the objective "
+            f"without any, and known to {answer.reference.resolution:.0e}."
+        )
+
+
+def _rung(row: AccuracyRow) -> tuple[Cell, ...]:
+    errors = map(_error, (row.relative_error, row.as_drawn_error, row.certified_gap, row.claim_error))
+    return method_name(row.method), row.setting, _time(row.time_ms), _time(row.first_ms), *errors, _remark(row)
+
+
+def _remark(row: AccuracyRow) -> str:
+    if row.skipped:
+        return "skipped"
+    broken = f"ceilings broken by {row.excess:.1e}" if row.excess is not None and row.excess > 1e-9 else ""
+    return "frontier" if row.on_frontier else broken
+
+
+def _effects(rows: tuple[EffectRow, ...]) -> Table:
+    return table(
+        "",
+        ["figure", "method", "setting", "#time, ms", "#error"],
+        [
+            (
+                row.quantity.replace("_", " "),
+                method_name(row.method),
+                row.setting,
+                _time(row.time_ms),
+                _error(row.relative_error),
+            )
+            for row in rows
+        ],
+    )
+
+
+def _time(value: float | None) -> Cell:
+    return number(None) if value is None else Number(value, f"{value:.2f}")
+
+
+def _error(value: float | None) -> Cell:
+    return number(None) if value is None else Number(value, f"{value:.1e}")
+
+
+def _measured_with(answer: AccuracyAnswer) -> str:
+    size, versions = answer.size, ", ".join(f"{name} {value}" for name, value in answer.environment.versions.items())
+    return (
+        f"{size.webs} webs, {size.norm_terms} norms, {size.ceilings} ceilings; median of {answer.repeats} rounds, "
+        f"largest error over {answer.positions} positions of grid or polygon; {versions}; "
+        f"{answer.environment.cpus} processors, one for each solve."
+    )

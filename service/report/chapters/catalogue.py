@@ -1,0 +1,19 @@
+"""What can be asked for: outputs and effects, and lists of names."""
+
+from collections.abc import Iterator, Sequence
+
+from schemas.effects import EffectCatalogue
+from service.report.blocks import Chapter, table
+
+
+def names(title: str, named: Sequence[tuple[str, str]]) -> Iterator[Chapter]:
+    """Names with what they stand for."""
+    yield Chapter(title, (table("", ["name", ""], named),))
+
+
+def effects(catalogue: EffectCatalogue) -> Iterator[Chapter]:
+    """What can be asked for, and what is simulated and read for it."""
+    heads = ["name", "", "needs", "inputs beyond masses and geometry"]
+    for title, entries in (("Outputs", catalogue.outputs), ("Effects", catalogue.effects)):
+        rows = [(one.name, one.meaning, ", ".join(one.needs), ", ".join(one.inputs)) for one in entries]
+        yield Chapter(title, (table("", heads, rows),))

@@ -1,0 +1,85 @@
+"""The trade-off of peak force and peak moment, front by front."""
+
+from collections.abc import Iterator
+
+from schemas.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
+from schemas.requests import Objective
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, table
+from service.report.chapters.balance import limits
+from service.report.chapters.verdict import reachable
+
+_REASONS: dict[Reason, str] = {
+    "reached_together": "Force and moment are both smallest at the same counterweights: nothing has to be traded.",
+    "resolution": "Points that rounding could not tell apart were left out.",
+    "undecided": "The ceilings are on the very boundary of what can be reached; the point comes closest to them.",
+}
+
+
+def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
+    """The points of every front, what is proven of its ends, and its knee; or why there are none."""
+    yield Chapter("Machine", (_bounds(answer),))
+    for front in answer.fronts:
+        budget = front.max_total_mass_kg
+        limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
+        yield Chapter(f"Front, {limit}: {front.status}", tuple(_front(request.objective, front)))
+
+
+def _bounds(answer: ParetoAnswer) -> Table:
+    before, floor = answer.without_counterweights, answer.floor
+    return table(
+        "",
+        ["", "#peak force, N", "#peak moment, N m"],
+        [
+            ("without counterweights", before.force.peak_N, before.moment.peak_Nm),
+            ("floor of any counterweights", floor.force_N, floor.moment_Nm),
+        ],
+    )
+
+
+def _front(objective: Objective, front: ParetoFront) -> Iterator[Block]:
+    if front.infeasibility is not None:
+        yield from reachable(objective, front.infeasibility)
+    if front.points:
+        yield _points(front, (objective.direction_weights.x, objective.direction_weights.y) != (1.0, 1.0))
+    if front.reason is not None:
+        yield Paragraph(_REASONS[front.reason])
+    if front.ends is not None:
+        yield Paragraph(
+            f"Proven: no counterweights reach below {digits(front.ends.smallest_force_lower_bound_N)} N"
+            f" or below {digits(front.ends.smallest_moment_lower_bound_Nm)} N m."
+        )
+
+
+def _points(front: ParetoFront, weighted: bool) -> Table:
+    heads = ["point", "#peak force, N", "#peak moment, N m"]
+    heads += ["#weighted force, N", "#weighted moment, N m"] if weighted else []
+    heads += ["#mass, kg", "#relative gap", "limits reached", ""]
+    return table("", heads, [_point(front, index, point, weighted) for index, point in enumerate(front.points)])
+
+
+def _point(front: ParetoFront, index: int, point: ParetoPoint, weighted: bool) -> tuple[Cell | float | None, ...]:
+    return (
+        str(index),
+        point.force_peak_N,
+        point.moment_peak_Nm,
+        *((point.weighted_force_peak_N, point.weighted_moment_peak_Nm) if weighted else ()),
+        point.total_mass_kg,
+        _gap(point),
+        _reached(point),
+        "knee" if index == front.knee else "",
+    )
+
+
+def _gap(point: ParetoPoint) -> Cell:
+    gap, known = point.certificate.relative_gap, "" if point.status == "optimal" else " inaccurate"
+    return f"none{known}" if gap is None else Number(gap, f"{gap:.1e}{known}")
+
+
+def _reached(point: ParetoPoint) -> str:
+    """Limits of the machine, and those of webs with their names."""
+    webs: dict[str, list[str]] = {}
+    for one in point.counterweights:
+        for limit in one.active_limits:
+            webs.setdefault(limits([limit]), []).append(one.web)
+    machine = [limits([limit]) for limit in point.active_limits]
+    return "; ".join([*machine, *(f"{name} of {', '.join(of)}" for name, of in webs.items())])

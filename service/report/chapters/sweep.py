@@ -1,0 +1,44 @@
+"""A sweep: what it would be, and how it ended."""
+
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING
+
+from schemas.sweep import SweepEstimate
+from service.report.blocks import Chapter, facts, table
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+#: figures that are shown of the best designs, if the result has them
+_FIGURES = ("force_peak_N", "moment_peak_Nm", "total_mass_kg")
+
+
+def estimated(found: SweepEstimate) -> Iterator[Chapter]:
+    """What a sweep would be."""
+    size = [
+        ("designs", found.total),
+        ("chunks", found.chunks),
+        ("designs a chunk", found.chunk_rows),
+        ("result, about MB", found.bytes / 1e6),
+    ]
+    yield Chapter("Sweep, not run", (facts("", size),))
+    columns = [(column.name, column.unit or "", column.meaning) for column in found.columns]
+    yield Chapter("Columns", (table("", ["name", "unit", "meaning"], columns),))
+
+
+def swept(counts: Mapping[str, int], best: "pa.Table", axes: tuple[str, ...], title: str) -> Iterator[Chapter]:
+    """How the designs ended, and some of them.
+
+    Parameters
+    ----------
+    counts : number of designs by status.
+    best : rows to show.
+    axes : names of the columns that vary.
+    """
+    statuses = sorted(counts.items(), key=lambda one: -one[1])
+    yield Chapter("Designs", (table("", ["status", "#count"], statuses),))
+    if best.num_rows:
+        shown = [name for name in ("index", *axes, "status", *_FIGURES) if name in best.schema.names]
+        heads = [name if name == "status" else f"#{name}" for name in shown]
+        rows = [tuple(row[name] for name in shown) for row in best.select(shown).to_pylist()]
+        yield Chapter(title, (table("", heads, rows),))

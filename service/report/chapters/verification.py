@@ -1,0 +1,16 @@
+"""What became of the claims of an answer."""
+
+from collections.abc import Iterator
+
+from schemas.verify import Claim, VerifyAnswer
+from service.report.blocks import Cell, Chapter, Number, table
+
+
+def verified(answer: VerifyAnswer) -> Iterator[Chapter]:
+    """One row for each claim."""
+    rows = [(one.claim, one.verdict, _margin(one), one.where) for one in answer.claims]
+    yield Chapter("Claims", (table("", ["claim", "verdict", "#margin", "where"], rows),))
+
+
+def _margin(one: Claim) -> Cell:
+    return "" if one.margin is None else Number(one.margin, f"{one.margin:.1e}")

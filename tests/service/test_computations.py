@@ -1,0 +1,82 @@
+"""One entry in the table is all that it takes: routes, scopes, OpenAPI, metrics, documents and commands read it."""
+
+import json
+from collections.abc import Iterator
+from pathlib import Path
+from pkgutil import resolve_name
+
+import pytest
+from starlette.testclient import TestClient
+from typer.testing import CliRunner
+
+from service.app import create_app
+from service.cli import command_line
+from service.computations import COMPUTATIONS, Computation
+from service.documents.catalogue import documents
+from service.guard import keys
+from service.settings import Settings
+from tests.service.toy import TOY, ToyAnswer, ToyRequest
+
+_BODY = {"one": 2.0, "other": 0.5}
+
+
+@pytest.fixture(autouse=True)
+def added(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(COMPUTATIONS, TOY.name, TOY)
+
+
+@pytest.fixture
+def made() -> dict[str, tuple[str, keys.KeyRecord]]:
+    return {"may": keys.make("a", ("sweeps", "metrics")), "may not": keys.make("a", ("compute",))}
+
+
+@pytest.fixture
+def client(tmp_path: Path, made: dict[str, tuple[str, keys.KeyRecord]]) -> Iterator[TestClient]:
+    file = tmp_path / "keys"
+    keys.write(file, [record for _, record in made.values()])
+    settings = Settings(keys_file=file, data_dir=tmp_path / "data")
+    with TestClient(create_app(settings, warm_up=lambda: None)) as client:
+        yield client
+
+
+def test_it_is_a_route_with_its_scope_its_metric_and_its_description(
+    client: TestClient, made: dict[str, tuple[str, keys.KeyRecord]]
+) -> None:
+    allowed, refused = ({"X-API-Key": made[name][0]} for name in ("may", "may not"))
+    assert client.post(TOY.path, json=_BODY, headers=allowed).json() == {"total": 2.5}
+    wrong = client.post(TOY.path, json={"one": "x"}, headers=allowed)
+    assert (wrong.status_code, wrong.json()["errors"][0]["pointer"]) == (422, "/one")
+    assert client.post(TOY.path, json=_BODY, headers=refused).status_code == 403
+    told = client.get("/metrics", headers=allowed).text
+    assert 'counterweight_computation_seconds_count{computation="toy_sum"} 1.0' in told
+    document = client.get("/openapi.json").json()
+    operation = document["paths"][TOY.path]["post"]
+    assert (operation["operationId"], operation["summary"]) == ("toy_sum", "A sum")
+    content = operation["requestBody"]["content"]["application/json"]
+    assert content["schema"] == {"$ref": "#/components/schemas/ToyRequest"}
+    assert {"ToyRequest", "ToyAnswer"} <= set(document["components"]["schemas"])
+
+
+def test_its_request_and_answer_are_documents() -> None:
+    known = documents()
+    assert (known["toy-sum"].model, known["toy-sum-answer"].model) == (ToyRequest, ToyAnswer)
+
+
+def test_it_is_a_command() -> None:
+    run, app = CliRunner(), command_line()
+    exact = run.invoke(app, ["toy-sum", "-", "--json"], input=json.dumps(_BODY))
+    assert (exact.exit_code, exact.stdout) == (0, '{"total":2.5}\n')
+    shown = run.invoke(app, ["toy-sum", "-"], input=json.dumps(_BODY))
+    assert (shown.exit_code, "│ the sum │ 2.5 │" in shown.stdout) == (0, True)
+    assert run.invoke(app, ["toy-sum", "-"], input='{"one": "x"}').exit_code == 2
+    assert "Add two numbers." in run.invoke(app, ["--help"]).stdout
+    assert json.loads(run.invoke(app, ["schema", "toy-sum"]).stdout)["title"] == "ToyRequest"
+
+
+@pytest.mark.parametrize("one", COMPUTATIONS.values(), ids=lambda one: one.name)
+def test_everything_an_entry_names_is_there(one: Computation) -> None:
+    assert one.asks.model_json_schema()
+    assert callable(one.function)
+    assert set(one.options) <= set(one.asks.model_fields)
+    for reference in (one.chapters, one.picture, *(form.write for form in one.forms)):
+        assert reference is None or callable(resolve_name(reference))
