@@ -2,7 +2,15 @@
 
 
 def warm_up() -> None:
-    """Import cvxpy and clarabel, and solve a small machine once, both stages."""
+    """Solve a small machine by the compiled method, both stages, and one that only the reference solver can answer.
+
+    The second loads cvxpy and clarabel: that ceilings cannot be kept is its finding alone.
+
+    Raises
+    ------
+    RuntimeError
+        if either is answered with another status than it has.
+    """
     from optimizer.optimize import optimize
     from schemas.requests import OptimizeRequest
 
@@ -17,4 +25,7 @@ def warm_up() -> None:
         for name, position in (("a", -0.1), ("b", 0.1))
     ]
     machine = {"kind": "reciprocating", "speed_rpm": 1000.0, "throws": [throw], "webs": webs}
-    optimize(OptimizeRequest.model_validate({"machine": machine}))
+    for objective, status in (({}, "optimal"), ({"force_ceiling_N": 1.0}, "infeasible")):
+        answer = optimize(OptimizeRequest.model_validate({"machine": machine, "objective": objective}))
+        if answer.status != status:
+            raise RuntimeError(f"the warm-up was answered {answer.status} where {status} is right")

@@ -1,0 +1,30 @@
+"""What is loaded before a service says that it is ready."""
+
+import subprocess
+import sys
+
+import pytest
+
+from optimizer import optimize as module
+from optimizer.warm_up import warm_up
+
+_SOLVERS = {"numba", "cvxpy", "clarabel"}
+
+
+def test_both_solvers_are_loaded_and_have_run() -> None:
+    """In a process of its own, as nothing may be loaded by another test."""
+    code = (
+        "import sys; from optimizer.warm_up import warm_up; before = set(sys.modules); warm_up(); "
+        f"print(sorted({_SOLVERS} & set(sys.modules) - before))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
+    assert ran.stdout.strip() == str(sorted(_SOLVERS))
+
+
+def test_a_wrong_answer_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
+    def always(request: object) -> object:
+        return type("Answer", (), {"status": "inaccurate"})
+
+    monkeypatch.setattr(module, "optimize", always)
+    with pytest.raises(RuntimeError, match="answered inaccurate where optimal is right"):
+        warm_up()
