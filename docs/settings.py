@@ -29,6 +29,9 @@ COMPOSE = """
 #COUNTERWEIGHT_PUBLISH=127.0.0.1:8000
 # image, if it is not built here
 #COUNTERWEIGHT_IMAGE=counterweight:latest
+# most memory and processors of a container
+#COUNTERWEIGHT_MEMORY=6g
+#COUNTERWEIGHT_CPUS=2
 # processes of the dask worker
 #COUNTERWEIGHT_DASK_WORKERS=2
 """

@@ -2,6 +2,7 @@
 
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
+from functools import partial
 from importlib.metadata import version
 from typing import Any
 
@@ -17,6 +18,7 @@ from service.guard.hosts import Hosts
 from service.guard.keys import keys
 from service.guard.rates import RateLimits
 from service.guard.shares import Shares
+from service.guard.threads import Threads
 from service.http import errors
 from service.http.computing import Computing
 from service.http.openapi import Documented
@@ -27,6 +29,7 @@ from service.routes import computations, effects, examples, health, portal, swee
 from service.routes import metrics as metrics_route
 from service.settings import Settings
 from service.watch.metrics import Metrics
+from service.watch.needs import database, disk
 from service.watch.readiness import Readiness
 from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
@@ -87,7 +90,6 @@ def create_app(
         address that other machines reach.
     """
     chosen = settings or Settings()
-    readiness = Readiness()
     desk = jobs or Desk(chosen)
     pool = Pool(
         chosen.concurrent_solves,
@@ -95,6 +97,10 @@ def create_app(
         chosen.queue_length_each,
         chosen.request_timeout_s,
         chosen.solve_memory_mb,
+        chosen.data_dir,
+    )
+    readiness = Readiness(
+        {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)}
     )
     metrics = Metrics(pool, desk.counts)
     traces = tracing(chosen)
@@ -104,6 +110,7 @@ def create_app(
         async with create_task_group() as tasks:
             tasks.start_soon(readiness.warm, warm_up or pool.open)
             desk.open()
+            tasks.start_soon(readiness.watch)
             yield
             # not on the loop: events that are still open may need it to end
             await to_thread.run_sync(desk.close)
@@ -131,6 +138,7 @@ def create_app(
     app.state.readiness = readiness
     app.state.desk = desk
     app.state.pool = pool
+    app.state.threads = Threads()
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
     errors.install(app)

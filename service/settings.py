@@ -163,6 +163,9 @@ class _Jobs(BaseSettings):
     lease_s: float = Field(
         15, ge=0.5, description="work of a service that says nothing for longer is done by another [s]"
     )
+    min_free_mb: int = Field(
+        200, ge=0, description="the service is not ready when less is free where the jobs are kept [MB]"
+    )
     results_keep_days: float = Field(30, ge=0, description="how long results are kept [days]; 0 is for ever")
     max_jobs: int = Field(1000, ge=1, description="sweeps that wait or run at the same time")
 

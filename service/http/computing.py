@@ -1,13 +1,14 @@
 """A computation behind a route: bytes in, bytes out, in a worker process and only so many at a time."""
 
 import logging
-from collections.abc import Awaitable, Callable, Sequence
-from typing import Annotated, TypeVar
+from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
+from contextlib import ExitStack
+from typing import Annotated, BinaryIO, TypeVar
 
-from anyio import create_task_group, get_cancelled_exc_class, to_thread
+from anyio import CapacityLimiter, create_task_group, get_cancelled_exc_class, to_thread
 from fastapi import Depends
 from starlette.requests import Request
-from starlette.responses import Response
+from starlette.responses import Response, StreamingResponse
 
 from schemas.base import Model
 from service.computations import Computation, Form
@@ -28,6 +29,9 @@ Question = TypeVar("Question", bound=Model)
 Result = TypeVar("Result")
 
 _LOG = logging.getLogger(__name__)
+#: of a large answer that is in a file, read at a time [bytes], by so many threads
+_PIECE_BYTES = 65_536
+_READERS = 4
 
 
 class ClientGone(Exception):
@@ -51,6 +55,7 @@ class Computing:
         self._pool = pool
         self._metrics = metrics
         self._tracing = tracing
+        self._readers = CapacityLimiter(_READERS)
         self.limits = SizeLimits.of(settings)
 
     async def body(self, request: Request) -> bytes:
@@ -99,10 +104,25 @@ class Computing:
         task = Task(asked_for, form, body, self.limits)
         with self._tracing.span(asked_for.name):
             outcome = await _while_connected(request, lambda: self._pool.run(task, holding(request).who))
-        content = self._judged(outcome, asked_for.name).content
+        found = self._judged(outcome, asked_for.name)
         varies = {"Vary": "Accept"} if len(asked_for.forms) > 1 else {}
         headers = {"Cache-Control": "no-store", **dict(form.headers), **varies}
-        return Response(content, media_type=form.media_type, headers=headers)
+        if found.file is None:
+            return Response(found.content, media_type=form.media_type, headers=headers)
+        with ExitStack() as refused:
+            refused.enter_context(found.file)
+            holding(request).take("files", found.size)
+            refused.pop_all()
+        content = self._read(found.file)
+        return StreamingResponse(
+            content, media_type=form.media_type, headers={**headers, "Content-Length": str(found.size)}
+        )
+
+    async def _read(self, file: BinaryIO) -> AsyncIterator[bytes]:
+        """What is in a file, as far as the client has read what was before."""
+        with file:
+            while piece := await to_thread.run_sync(file.read, _PIECE_BYTES, limiter=self._readers):
+                yield piece
 
     def _judged(self, outcome: Outcome, name: str) -> Answer:
         if isinstance(outcome, Refused):
@@ -154,7 +174,7 @@ async def _while_connected(request: Request, work: Callable[[], Awaitable[Result
     return results[0]
 
 
-def computing(request: Request) -> Computing:
+async def computing(request: Request) -> Computing:
     """The application's :class:`Computing`."""
     found: Computing = request.app.state.computing
     return found

@@ -62,7 +62,11 @@ class Connection(H11Protocol):
         self._watch_headers()
 
     def _give_up(self) -> None:
-        self._refuse(fault(TooManyConnections()))
+        if self.cycle is not None and not self.cycle.response_complete:
+            # its answer would come after the refusal
+            self.transport.abort()
+        else:
+            self._refuse(fault(TooManyConnections()))
 
     @property
     def _address(self) -> str:

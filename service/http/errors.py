@@ -31,7 +31,7 @@ from service.jobs.results import UnknownColumn
 from service.jobs.store import KeyReused, TooManyJobs, UnknownJob
 from service.watch.readiness import NotReady
 from service.workers.pool import Busy, TooSlow, WorkerDied, WorkersFailed
-from service.workers.worker import OutOfMemory
+from service.workers.worker import NoRoom, OutOfMemory
 
 PROBLEM_JSON = "application/problem+json"
 _LONGEST_PATH = 200
@@ -127,6 +127,7 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     TooSlow: _later(503, "Too slow", 5),
     WorkerDied: _later(503, "Worker died", 1),
     WorkersFailed: _later(503, "Workers failed", 5),
+    NoRoom: _later(503, "No room", 30),
     OutOfMemory: _fixed(422, "Out of memory"),
     UnknownExample: _fixed(404, "Unknown example", "There is no example of this name; GET /v1/examples lists them."),
     UnknownJob: _fixed(404, "Unknown sweep", "There is no sweep of this id, or its results have expired."),

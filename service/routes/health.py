@@ -31,5 +31,5 @@ async def healthz() -> Alive:
 
 @router.get("/readyz", operation_id="readyz", summary="Can the service compute?", responses=problems(503))
 async def readyz(request: Request) -> Ready:
-    request.app.state.readiness.require()
+    request.app.state.readiness.require_all()
     return Ready()

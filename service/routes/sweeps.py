@@ -15,6 +15,7 @@ from schemas.sweep import SweepEstimate, SweepRequest, SweepState
 from service.guard.access import needs
 from service.guard.keys import still_admitted
 from service.guard.shares import holding
+from service.guard.threads import Threads, in_threads
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
@@ -27,7 +28,13 @@ from service.jobs.results import chosen, description, fitted
 
 router = APIRouter(tags=["sweeps"])
 
-Jobs = Annotated[Desk, Depends(desk_of)]
+
+async def _jobs(request: Request) -> Desk:
+    # not a thread for that
+    return desk_of(request)
+
+
+Jobs = Annotated[Desk, Depends(_jobs)]
 #: a job may also come from a computing route, with Prefer: respond-async
 _SEES = [needs("sweeps", "read", "compute")]
 _ENDS = [needs("sweeps", "compute")]
@@ -62,7 +69,8 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
             return Response(plan(asked).estimate.model_dump_json(), 200, _NO_STORE, "application/json")
         return accepted(request, *desk.sweep(asked, key))
 
-    return await to_thread.run_sync(work)
+    threads: Threads = request.app.state.threads
+    return await threads.run(holding(request).who, work)
 
 
 @router.get(
@@ -72,6 +80,7 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     summary="All sweeps, newest first",
     responses=problems(404, 422, 503),
 )
+@in_threads
 def list_sweeps(
     request: Request,
     desk: Jobs,
@@ -91,6 +100,7 @@ def list_sweeps(
     response_model=SweepState,
     responses=problems(404, 503),
 )
+@in_threads
 def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     return _state(request, desk, desk.get(id))
 
@@ -103,6 +113,7 @@ def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     response_model=SweepState,
     responses={204: {"description": "removed, with its results"}, **problems(404, 503)},
 )
+@in_threads
 def delete_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """A cancelled sweep keeps the rows that are finished; delete it once more to remove them."""
     cancelled = desk.end(id)
@@ -118,6 +129,7 @@ def delete_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
     response_model=SweepState,
     responses=problems(404, 503),
 )
+@in_threads
 def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """Finished rows are kept; a sweep that runs or is done stays as it is."""
     return accepted(request, desk.resume(id), new=True)
@@ -131,7 +143,8 @@ def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
     response_class=JSONResponse,
     responses=problems(404, 503),
 )
-def describe_sweep(desk: Jobs, id: str) -> Response:  # noqa: A002
+@in_threads
+def describe_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """What a file of Parquet or Arrow holds itself, for CSV and NDJSON."""
     job = desk.get(id)
     return JSONResponse(description(desk.schema(job)) if job.columns else {"kind": job.kind})
@@ -148,6 +161,7 @@ def describe_sweep(desk: Jobs, id: str) -> Response:  # noqa: A002
         **problems(404, 409, 422, 503),
     },
 )
+@in_threads
 def read_results(
     request: Request,
     desk: Jobs,

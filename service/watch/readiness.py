@@ -1,12 +1,19 @@
-"""Whether the service can compute yet: the solver takes seconds to load, and that happens in the background."""
+"""Whether the service can compute yet, and whether it can do all that it is for.
+
+The solver takes seconds to load, and that happens in the background. Threads, database and disk are looked at every few
+seconds, so that who asks is answered at once.
+"""
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Literal
 
-from anyio import to_thread
+from anyio import fail_after, sleep, to_thread
 
 State = Literal["warming", "ready", "failed"]
+_LOOK_S = 3.0
+#: longer than a database that is locked for a while may take
+_PATIENCE_S = 10.0
 _LOG = logging.getLogger(__name__)
 
 
@@ -19,10 +26,17 @@ class NotReady(Exception):
 
 
 class Readiness:
-    """State of the warm-up: warming, then ready or failed."""
+    """State of the warm-up: warming, then ready or failed; and of what else is needed.
 
-    def __init__(self) -> None:
+    Parameters
+    ----------
+    checks : by name; each raises :class:`NotReady` where something is missing.
+    """
+
+    def __init__(self, checks: Mapping[str, Callable[[], None]]) -> None:
         self.state: State = "warming"
+        self._checks = checks
+        self._missing: dict[str, NotReady] = {}
 
     async def warm(self, warm_up: Callable[[], None]) -> None:
         """Run the warm-up in a thread; its failure is logged and kept as a state."""
@@ -34,6 +48,43 @@ class Readiness:
             _LOG.exception("the warm-up failed")
         else:
             self.state = "ready"
+
+    async def watch(self) -> None:
+        """Look after everything that is needed, until cancelled."""
+        while True:
+            for name, check in self._checks.items():
+                found = await self._looked(check)
+                known = self._missing.pop(name, None)
+                if found is not None:
+                    self._missing[name] = found
+                if (found is None) != (known is None):
+                    _LOG.warning("%s: %s", name, found or "all is well again")
+            await sleep(_LOOK_S)
+
+    async def _looked(self, check: Callable[[], None]) -> NotReady | None:
+        try:
+            # in a thread of those that all share: that there is one is looked at too
+            with fail_after(_PATIENCE_S):
+                await to_thread.run_sync(check, abandon_on_cancel=True)
+        except NotReady as missing:
+            return missing
+        except TimeoutError:
+            return NotReady(f"No thread has answered within {_PATIENCE_S:g} s.", retry_after_s=5)
+        except Exception:
+            _LOG.exception("readiness could not be looked at")
+            return NotReady("Whether the service is ready cannot be found out; its log says why.", retry_after_s=5)
+        return None
+
+    def require_all(self) -> None:
+        """Go on only if the service can compute, and has all else that it needs.
+
+        Raises
+        ------
+        NotReady
+        """
+        self.require()
+        for missing in self._missing.values():
+            raise missing
 
     def require(self) -> None:
         """Go on only if the service can compute.

@@ -2,18 +2,23 @@
 
 import logging
 import multiprocessing
-from collections.abc import Callable
-from contextlib import suppress
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext, suppress
 from dataclasses import dataclass, field
+from multiprocessing import forkserver
 from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
+from pathlib import Path
+from threading import Lock, Timer
 from typing import Any, TypeVar
 
 from anyio import CancelScope, CapacityLimiter, fail_after, get_cancelled_exc_class, move_on_after, to_thread
 from anyio import wait_readable as readable
 
 from service.workers.turns import Full, Turns
-from service.workers.worker import Crashed, Outcome, Task, serve
+from service.workers.worker import Answer, Crashed, Outcome, Task, receive, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -22,6 +27,10 @@ _PRELOAD = ["service.workers.preload", "service.cli"]
 _GRACE_S = 0.1
 #: what a connection takes without waiting for its reader
 _AT_ONCE_BYTES = 32_000
+#: a fork takes a hundredth of a second, and seconds where the process it comes from has to be loaded anew
+_START_S = 30.0
+#: for a killed worker to be gone; one whose parent has stopped is not said to be
+_END_S = 1.0
 _MB = 1_000_000
 
 Result = TypeVar("Result")
@@ -71,18 +80,18 @@ class _Dead(Exception):
 
 
 class _Worker:
-    def __init__(self, memory_bytes: int) -> None:
+    def __init__(self, memory_bytes: int, folder: Path | None) -> None:
         context = multiprocessing.get_context("forkserver")
         ours, theirs = context.Pipe()
         self._connection: Connection = ours
         self._process: BaseProcess = context.Process(
-            target=serve, args=(theirs, memory_bytes), name="solver", daemon=True
+            target=serve, args=(theirs, memory_bytes, folder), name="solver", daemon=True
         )
         try:
             self._process.start()
             theirs.close()
             failure = self.receive()
-        except _Dead:
+        except (_Dead, OSError, EOFError):
             self.end()
             raise WorkersFailed("a worker died at its start") from None
         if failure is not None:
@@ -107,21 +116,71 @@ class _Worker:
 
     def receive(self) -> Any:
         try:
-            return self._connection.recv()
+            return receive(self._connection)
         except (EOFError, OSError) as error:
             raise _Dead from error
 
     def kill(self) -> None:
         """Kill it; who waits for its answer is told that it is dead."""
-        with suppress(OSError, ValueError):
+        with suppress(OSError, ValueError, AttributeError):
             self._process.kill()
 
     def end(self) -> None:
         """Kill it; nobody may be waiting for its answer."""
         self.kill()
-        with suppress(OSError, ValueError):
-            self._process.join(5)
+        with suppress(OSError, ValueError, AssertionError):
+            self._process.join(_END_S)
         self._connection.close()
+
+
+class _Start:
+    """The start of a worker in a thread; whoever waits for it may leave, and then it is kept for the next one.
+
+    It is not waited for then: a process that workers are forked from may have stopped.
+    """
+
+    def __init__(self, start: Callable[[], _Worker], keep: Callable[[_Worker], None]) -> None:
+        self._start = start
+        self._keep = keep
+        self._lock = Lock()
+        self._started: _Worker | None = None
+        self._left = False
+
+    def __call__(self) -> _Worker:
+        worker = self._start()
+        with self._lock:
+            self._started = worker
+            if self._left:
+                self._keep(worker)
+        return worker
+
+    def leave(self) -> None:
+        """Keep the worker for somebody else."""
+        with self._lock:
+            self._left = True
+            if self._started is not None:
+                self._keep(self._started)
+
+
+@contextmanager
+def _watched() -> Iterator[None]:
+    """A start that takes longer than any does ends the process that workers are forked from; the next makes another."""
+    watch = Timer(_START_S, _end_fork_server)
+    watch.daemon = True
+    watch.start()
+    try:
+        yield
+    finally:
+        watch.cancel()
+
+
+def _end_fork_server() -> None:
+    # multiprocessing has no public way to it
+    pid = getattr(getattr(forkserver, "_forkserver", None), "_forkserver_pid", None)
+    if pid is not None:
+        _LOG.error("the process that workers are forked from does not answer, and is ended")
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
 
 
 @dataclass
@@ -135,6 +194,7 @@ class Pool:
     each : requests of one owner that may wait.
     timeout_s : for waiting and computing [s].
     memory_mb : of one worker [MB].
+    folder : for large answers while they are read; that of the system for such files if not given.
     """
 
     size: int
@@ -142,6 +202,7 @@ class Pool:
     each: int
     timeout_s: float
     memory_mb: int
+    folder: Path | None = None
     counts: PoolCounts = field(default_factory=PoolCounts)
 
     def __post_init__(self) -> None:
@@ -245,7 +306,9 @@ class Pool:
     async def _abandon(self, worker: _Worker, grace_s: float) -> None:
         with suppress(_Dead, OSError), move_on_after(grace_s):
             await worker.answered()
-            await self._in_thread(worker.receive)
+            left = await self._in_thread(worker.receive)
+            if isinstance(left, Answer) and left.file is not None:
+                left.file.close()
             self._idle.append(worker)
             return
         self.counts.ended_gone += 1
@@ -262,20 +325,30 @@ class Pool:
         return await self._fresh()
 
     async def _fresh(self) -> _Worker:
-        # shielded: a worker that starts while its client leaves must not get lost
-        with CancelScope(shield=True):
-            started = await self._in_thread(self._start)
-        return started  # noqa: RET504 - the scope may swallow an exception, says the type checker
+        start = _Start(self._start, self._spare)
+        try:
+            return await self._in_thread(start)
+        except get_cancelled_exc_class():
+            start.leave()
+            raise
 
     def _start(self) -> _Worker:
         if not self._closed:
             multiprocessing.set_forkserver_preload(_PRELOAD)
-            worker = _Worker(self.memory_mb * _MB)
+            # the first start loads the optimiser and compiles it, later ones fork
+            with _watched() if self.counts.started else nullcontext():
+                worker = _Worker(self.memory_mb * _MB, self.folder)
             self.counts.started += 1
             if not self._closed:
                 return worker
             worker.end()
         raise WorkersFailed("The service ends.")
+
+    def _spare(self, worker: _Worker) -> None:
+        if len(self._idle) < self.size and not self._closed:
+            self._idle.append(worker)
+        else:
+            worker.end()
 
     async def _keep(self, worker: _Worker, outcome: Outcome) -> None:
         resident = getattr(outcome, "resident", 0)

@@ -1,5 +1,6 @@
 """What runs in a worker: bytes of a request in, bytes of an answer out, one after the other."""
 
+import errno
 import gc
 import math
 import os
@@ -9,10 +10,13 @@ import sys
 import time
 import traceback
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from multiprocessing import reduction
 from multiprocessing.connection import Connection
 from pathlib import Path
 from pkgutil import resolve_name
+from tempfile import TemporaryFile
+from typing import BinaryIO
 
 from optimizer.errors import MissingInput
 from optimizer.rating.errors import OutOfRange
@@ -22,12 +26,18 @@ from service.http.validation import InvalidRequest, UnreadableJson, check, read_
 
 #: below the event loop, above the workers of sweeps
 _NICENESS = 5
+#: an answer that is larger goes to the service in a file
+LARGE_BYTES = 262_144
 #: faults of the request; anything else is a fault of the service
 REFUSALS = (UnreadableJson, InvalidRequest, MissingInput, OutOfRange)
 
 
 class OutOfMemory(Exception):
     """The computation needs more memory than it is given."""
+
+
+class NoRoom(Exception):
+    """There is no room on disk for a large answer; a retry may help."""
 
 
 @dataclass(frozen=True)
@@ -53,15 +63,19 @@ class Certified:
 class Answer:
     """What a task came to.
 
-    content : JSON, or a document as it is.
+    content : JSON, or a document as it is; empty if it is in a file.
+    size : of the content, wherever it is [bytes].
     seconds : time of the whole computation.
     resident : memory that the worker holds now [bytes].
+    file : of a large content, without a name: it is gone when nobody reads it any more.
     """
 
     content: bytes
+    size: int
     seconds: float
     certified: Certified | None
     resident: int
+    file: BinaryIO | None = None
 
 
 @dataclass(frozen=True)
@@ -94,8 +108,8 @@ class Crashed:
 Outcome = Answer | Refused | Crashed
 
 
-def serve(connection: Connection, memory_bytes: int) -> None:
-    """Answer tasks until the service ends."""
+def serve(connection: Connection, memory_bytes: int, folder: Path | None) -> None:
+    """Answer tasks until the service ends; large answers go into files of a folder."""
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(_NICENESS)
@@ -109,11 +123,37 @@ def serve(connection: Connection, memory_bytes: int) -> None:
         connection.send(getattr(preload, "failure", None))
         while True:
             task: Task = connection.recv()
-            outcome: Outcome = perform(task)
+            _send(connection, perform(task), folder)
             del task
-            connection.send(outcome)
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
+
+
+def _send(connection: Connection, outcome: Outcome, folder: Path | None) -> None:
+    """Hand over an outcome; of a large answer an open file, which the service need not hold in memory."""
+    if not (isinstance(outcome, Answer) and outcome.size > LARGE_BYTES):
+        connection.send(outcome)
+        return
+    try:
+        if folder is not None:
+            folder.mkdir(parents=True, exist_ok=True)
+        with TemporaryFile(dir=folder) as file:
+            file.write(outcome.content)
+            file.seek(0)
+            connection.send(replace(outcome, content=b""))
+            reduction.send_handle(connection, file.fileno(), os.getppid())
+    except OSError as error:
+        if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.ENOTDIR, errno.EACCES):
+            raise
+        connection.send(Refused.because(NoRoom("There is no room on disk for so large an answer; try again later.")))
+
+
+def receive(connection: Connection) -> Outcome | str | None:
+    """What a worker has sent: an outcome, and before the first one what went wrong at its start."""
+    found: Outcome | str | None = connection.recv()
+    if isinstance(found, Answer) and found.size > LARGE_BYTES:
+        return replace(found, file=os.fdopen(reduction.recv_handle(connection), "rb"))
+    return found
 
 
 def perform(task: Task) -> Outcome:
@@ -124,7 +164,7 @@ def perform(task: Task) -> Outcome:
         task.limits.require(asked)
         found = task.computation.function(asked)
         content = resolve_name(task.form.write)(found)
-        return Answer(content, time.perf_counter() - begun, _certified(found), _resident())
+        return Answer(content, len(content), time.perf_counter() - begun, _certified(found), _resident())
     except REFUSALS as error:
         return Refused.because(error)
     except MemoryError:

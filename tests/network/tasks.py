@@ -54,6 +54,10 @@ def deadly_once(asked: OptimizeRequest) -> Problem:
     return _DONE
 
 
+def large(_: OptimizeRequest) -> Problem:
+    return Problem(**{**_DONE.model_dump(), "title": "x" * 5_000_000})
+
+
 def task(compute: Callable[[OptimizeRequest], Problem], name: str = "x", long: bool = False) -> Task:
     """A task that has the machine of an example, with another name."""
     body = json.loads(load("w60"))

@@ -1,14 +1,18 @@
 """The pool of workers: what becomes of tasks that are slow, hungry, faulty, deadly, or nobody's any more."""
 
+import os
+import signal
 import time
 from collections.abc import Iterator
+from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import anyio
+import psutil
 import pytest
 
 from service.workers.pool import Busy, Pool, TooSlow, WorkerDied, WorkersFailed
-from service.workers.worker import Answer, Crashed, Outcome, OutOfMemory, Refused
+from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused
 from tests.network import tasks
 from tests.network.tasks import task
 
@@ -133,6 +137,67 @@ def test_a_task_whose_caller_is_gone_is_ended(pool: Pool) -> None:
     anyio.run(leave)
     assert time.monotonic() - begun < 5
     assert pool.counts.ended_gone == 1
+
+
+def test_a_large_answer_comes_in_a_file_that_is_gone_when_it_is_read(pool: Pool, tmp_path: Path) -> None:
+    pool.folder = tmp_path
+    large, small = run(pool, task(tasks.large), task(tasks.quick))
+    assert isinstance(large, Answer)
+    assert isinstance(small, Answer)
+    assert large.file is not None
+    assert small.file is None
+    assert list(tmp_path.iterdir()) == []
+    with large.file as file:
+        content = file.read()
+    assert (len(content), content.count(b"x")) == (large.size, 5_000_000)
+
+
+def test_a_large_answer_that_finds_no_room_is_refused(pool: Pool, tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    pool.folder = tmp_path / "file" / "folder"
+    [found] = run(pool, task(tasks.large))
+    assert isinstance(found, Refused)
+    assert isinstance(found.error, NoRoom)
+    assert isinstance(run(pool, task(tasks.quick))[0], Answer)
+
+
+def stopped(pid: int) -> None:
+    os.kill(pid, signal.SIGSTOP)
+
+
+def fork_server() -> int:
+    [found] = [child for child in psutil.Process().children() if "forkserver" in " ".join(child.cmdline())]
+    return found.pid
+
+
+def test_a_worker_that_has_stopped_is_given_up_at_the_time_limit(pool: Pool) -> None:
+    run(pool, task(tasks.quick))
+    pool.timeout_s = 1
+    stopped(*pool.pids)
+    begun = time.monotonic()
+    assert isinstance(run(pool, task(tasks.quick))[0], TooSlow)
+    assert time.monotonic() - begun < 10
+    pool.timeout_s = 60
+    assert isinstance(run(pool, task(tasks.quick))[0], Answer)
+
+
+def test_a_process_to_fork_from_that_has_stopped_is_given_up_and_replaced(
+    pool: Pool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("service.workers.pool._START_S", 3.0)
+    run(pool, task(tasks.quick))
+    pool.close()
+    pool._closed = False
+    stopped(fork_server())
+    pool.timeout_s = 1
+    begun = time.monotonic()
+    assert isinstance(run(pool, task(tasks.quick))[0], TooSlow)
+    assert time.monotonic() - begun < 2.9
+    pool.timeout_s = 60
+    monkeypatch.setattr("service.workers.pool._START_S", 60.0)
+    deadline = time.monotonic() + 60
+    while not isinstance(run(pool, task(tasks.quick))[0], Answer):
+        assert time.monotonic() < deadline
 
 
 def test_a_closed_pool_starts_nothing(pool: Pool) -> None:

@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from pathlib import Path
 from threading import Event
 
 import pytest
@@ -9,6 +10,8 @@ from starlette.testclient import TestClient
 
 from service.app import create_app
 from service.settings import Settings
+from service.watch import needs, readiness
+from service.watch.readiness import NotReady
 
 
 def wait_until(condition: Callable[[], bool]) -> None:
@@ -48,6 +51,45 @@ def test_a_warm_up_that_fails_is_reported_and_logged(caplog: pytest.LogCaptureFi
         assert client.post("/v1/analyze", json={}).status_code == 503
         assert client.get("/healthz").status_code == 200
     assert "no solver in here" in caplog.text
+
+
+def test_ready_means_database_and_disk_and_threads_too(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(readiness, "_LOOK_S", 0.05)
+    monkeypatch.setattr(readiness, "_PATIENCE_S", 0.5)
+    trouble: list[str] = []
+    go = Event()
+
+    def check() -> None:
+        if trouble == ["no thread"]:
+            go.wait(10)
+        elif trouble:
+            raise NotReady(trouble[0], retry_after_s=5)
+
+    app = create_app(Settings(data_dir=tmp_path), warm_up=lambda: None)
+    app.state.readiness._checks = {"one": check}
+    with TestClient(app) as client:
+        for said, expected in (("no disk", "no disk"), ("no thread", "No thread has answered within 0.5 s.")):
+            wait_until(lambda: client.get("/readyz").status_code == 200)
+            go.clear()
+            trouble[:] = [said]
+            wait_until(lambda: client.get("/readyz").status_code == 503)
+            answer = client.get("/readyz")
+            assert (answer.json()["detail"], answer.headers["retry-after"]) == (expected, "5")
+            # what needs no more than the solver goes on
+            assert client.post("/v1/optimize", json={}).status_code == 422
+            assert client.get("/healthz").status_code == 200
+            trouble.clear()
+            go.set()
+        wait_until(lambda: client.get("/readyz").status_code == 200)
+
+
+def test_what_is_needed(tmp_path: Path) -> None:
+    needs.database(lambda: {})
+    needs.disk(tmp_path / "not" / "yet", 0)
+    with pytest.raises(NotReady, match="database"):
+        needs.database(lambda: None)
+    with pytest.raises(NotReady, match="MB are free"):
+        needs.disk(tmp_path, 10**9)
 
 
 def test_a_shutdown_does_not_wait_for_the_warm_up() -> None:

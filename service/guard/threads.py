@@ -1,0 +1,48 @@
+"""Threads for what takes time though it computes nothing, so many for each client."""
+
+from collections import Counter
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar
+
+from anyio import CapacityLimiter, to_thread
+from starlette.requests import Request
+
+from service.guard.shares import holding
+
+Result = TypeVar("Result")
+_ALTOGETHER = 24
+_EACH = 4
+
+
+class Threads:
+    """Some threads, apart from those that all else shares; who uses as many as it may waits for its own to end."""
+
+    def __init__(self, altogether: int = _ALTOGETHER, each: int = _EACH) -> None:
+        self._each = each
+        self._all = CapacityLimiter(altogether)
+        self._own: dict[str, CapacityLimiter] = {}
+        self._using: Counter[str] = Counter()
+
+    async def run(self, who: str, work: Callable[[], Result]) -> Result:
+        """The result of some work of a client."""
+        own = self._own.setdefault(who, CapacityLimiter(self._each))
+        self._using[who] += 1
+        try:
+            async with own:
+                return await to_thread.run_sync(work, limiter=self._all)
+        finally:
+            self._using[who] -= 1
+            if not self._using[who]:
+                del self._using[who], self._own[who]
+
+
+def in_threads(work: Callable[..., Result]) -> Callable[..., Any]:
+    """An endpoint that reads or writes jobs, in the threads that are for that; it takes ``request``."""
+
+    @wraps(work)
+    async def endpoint(*, request: Request, **given: Any) -> Result:
+        threads: Threads = request.app.state.threads
+        return await threads.run(holding(request).who, lambda: work(request=request, **given))
+
+    return endpoint

@@ -1,0 +1,36 @@
+"""What the service needs besides its solver: a database that answers, and a disk with room."""
+
+import os
+import shutil
+from pathlib import Path
+
+from service.watch.metrics import SweepCounts
+from service.watch.readiness import NotReady
+
+_MB = 1_000_000
+
+
+def database(counts: SweepCounts) -> None:
+    """Go on only if the database of the jobs answers.
+
+    Raises
+    ------
+    NotReady
+    """
+    if counts() is None:
+        raise NotReady("The database of the jobs does not answer.", retry_after_s=5)
+
+
+def disk(folder: Path, least_mb: int) -> None:
+    """Go on only if a folder, or that in which it will be made, can be written to and has room.
+
+    Raises
+    ------
+    NotReady
+    """
+    found = next(there for there in (folder, *folder.absolute().parents) if there.exists())
+    if not os.access(found, os.W_OK):
+        raise NotReady("The folder of the jobs cannot be written to.", retry_after_s=60)
+    free_mb = shutil.disk_usage(found).free // _MB
+    if free_mb < least_mb:
+        raise NotReady(f"{free_mb} MB are free where the jobs are kept, of {least_mb} at least.", retry_after_s=60)

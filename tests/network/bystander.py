@@ -1,0 +1,226 @@
+"""Legal traffic that costs as much as it can, beside a client who only wants his answers.
+
+``python -m tests.network.bystander`` prints, for each kind of traffic, what became of the bystander's requests and how
+much memory the service took above rest; it fails if one of his was refused or the memory is over its limit. All clients
+are on this machine: the bystander has an address of his own (127.0.0.2), those who press the service share another.
+"""
+
+import argparse
+import asyncio
+import json
+import sys
+import time
+from collections import Counter
+from collections.abc import AsyncIterator, Awaitable, Callable
+from contextlib import asynccontextmanager, suppress
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+import psutil
+
+from service.documents.examples import bodies
+from tests.network.load import start_sweep
+from tests.network.serving import Service, read, request, service
+
+#: most that all processes of the service may hold above rest [MB]; computations apart, which have a limit of their own
+CEILING_MB = 150.0
+_PRESSING, _BYSTANDER = "127.0.0.3", "127.0.0.2"
+_MB = 1e6
+MACHINES = bodies()
+ORDINARY = (
+    request("POST", "/v1/optimize", json.dumps(MACHINES["w60"]).encode()),
+    request("GET", "/healthz"),
+    request("GET", "/readyz"),
+    request("GET", "/v1/examples"),
+    request("GET", "/v1/sweeps"),
+)
+
+
+@dataclass
+class Outcome:
+    """What became of the bystander, and what the service held above rest [MB]."""
+
+    statuses: Counter[int] = field(default_factory=Counter)
+    seconds: list[float] = field(default_factory=list)
+    held_mb: float = 0.0
+
+    @property
+    def refused(self) -> int:
+        """Requests of his that were not answered with what he asked for."""
+        return self.statuses.total() - self.statuses[200]
+
+
+@asynccontextmanager
+async def connected(target: Service, address: str) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
+    """A connection from an address of this machine."""
+    reader, writer = await asyncio.open_connection("127.0.0.1", target.port, local_addr=(address, 0))
+    try:
+        yield reader, writer
+    finally:
+        writer.transport.abort()
+
+
+def largest(throws: int) -> bytes:
+    """A machine with as many throws and webs as asked for, as large as is legal at 500."""
+    body: dict[str, Any] = json.loads(json.dumps(MACHINES["2d12"]))
+    machine = body["machine"]
+    throw, web = machine["throws"][0], machine["webs"][0]
+    machine["throws"] = [
+        {**throw, "name": str(k), "position_m": 0.1 * k, "crank_angle_deg": 7.0 * k, "rows": throw["rows"][:1]}
+        for k in range(throws)
+    ]
+    machine["webs"] = [{**web, "name": f"w{k}", "position_m": 0.1 * k + 0.05} for k in range(throws)]
+    return json.dumps(body).encode()
+
+
+Press = Callable[[Service, int], Awaitable[None]]
+
+
+async def stalled_body(target: Service, _: int) -> None:
+    """Announces a body, sends all of it but the end, and waits."""
+    async with connected(target, _PRESSING) as (reader, writer):
+        writer.write(request("POST", "/v1/optimize", headers={"Content-Length": "1000000"}) + b" " * 999_000)
+        with suppress(ConnectionError):
+            await writer.drain()
+        await read(reader)
+
+
+async def stopped_reader(target: Service, number: int) -> None:
+    """Asks for answers of megabytes, again and again on one connection, and reads nothing."""
+    wanted = json.dumps({"machine": MACHINES["2d12"]["machine"], "outputs": ["torque"], "angles": {"step_deg": 0.05}})
+    asked = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", wanted.encode())
+    async with connected(target, _PRESSING) as (reader, writer):
+        reader._transport.pause_reading()  # type: ignore[attr-defined]
+        writer.write(asked.replace(b"Connection: close", b"Connection: keep-alive") * 5)
+        await asyncio.sleep(600)
+
+
+async def largest_machine(target: Service, _: int) -> None:
+    """Asks for the optimum of a machine of hundreds of webs, again and again."""
+    while True:
+        async with connected(target, _PRESSING) as (reader, writer):
+            writer.write(request("POST", "/v1/optimize", largest(300)))
+            with suppress(ConnectionError):
+                await writer.drain()
+            await read(reader)
+        await asyncio.sleep(0.2)
+
+
+async def stream(target: Service, _: int) -> None:
+    """Watches a sweep."""
+    async with connected(target, _PRESSING) as (reader, writer):
+        writer.write(request("GET", f"{target.sweep}/events"))  # type: ignore[attr-defined]
+        while await reader.read(1000):
+            pass
+
+
+async def silent(target: Service, _: int) -> None:
+    """Says nothing."""
+    while True:
+        async with connected(target, _PRESSING) as (reader, _):
+            await reader.read()
+        await asyncio.sleep(0.2)
+
+
+async def state(target: Service, _: int) -> None:
+    """Asks for the state of a sweep, again and again."""
+    while True:
+        async with connected(target, _PRESSING) as (reader, writer):
+            writer.write(request("GET", target.sweep))  # type: ignore[attr-defined]
+            await read(reader)
+
+
+PRESSES: dict[str, Press] = {
+    "stalled bodies": stalled_body,
+    "stopped readers": stopped_reader,
+    "largest machines": largest_machine,
+    "streams of events": stream,
+    "silent connections": silent,
+    "states of a sweep": state,
+}
+
+
+async def mixed(target: Service, number: int) -> None:
+    """One of all, by chance."""
+    await Random(number).choice(list(PRESSES.values()))(target, number)
+
+
+def held_mb(target: Service) -> float:
+    """Memory of the service itself [MB]: what clients make it hold; workers have limits of their own."""
+    return psutil.Process(target.process.pid).memory_info().rss / _MB
+
+
+async def beside(target: Service, press: Press, clients: int, seconds: float) -> Outcome:
+    """What becomes of a bystander while so many clients press the service."""
+    outcome = Outcome()
+    rest = held_mb(target)
+
+    async def pressing(number: int) -> None:
+        while True:
+            with suppress(OSError):
+                await press(target, number)
+            await asyncio.sleep(0.5)
+
+    async def watching() -> None:
+        while True:
+            outcome.held_mb = max(outcome.held_mb, await asyncio.to_thread(held_mb, target) - rest)
+            await asyncio.sleep(0.1)
+
+    pressed = [asyncio.create_task(watching()), *(asyncio.create_task(pressing(number)) for number in range(clients))]
+    try:
+        await asyncio.sleep(min(2.0, seconds / 2))
+        end = time.monotonic() + seconds
+        while time.monotonic() < end or not outcome.statuses:
+            for asked in ORDINARY:
+                begun = time.perf_counter()
+                async with asyncio.timeout(60), connected(target, _BYSTANDER) as (reader, writer):
+                    writer.write(asked)
+                    outcome.statuses[(await read(reader)).status] += 1
+                outcome.seconds.append(time.perf_counter() - begun)
+            await asyncio.sleep(0.05)
+    finally:
+        for task in pressed:
+            task.cancel()
+        await asyncio.gather(*pressed, return_exceptions=True)
+    return outcome
+
+
+def quantile_ms(seconds: list[float], share: float) -> float:
+    """The time that a share of the answers took at most [ms]."""
+    ordered = sorted(seconds)
+    return 1000 * ordered[min(len(ordered) - 1, int(share * len(ordered)))]
+
+
+def main() -> int:
+    """Every kind of traffic, at full length unless told otherwise."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--clients", type=int, default=1000)
+    parser.add_argument("--seconds", type=float, default=60.0)
+    given = parser.parse_args()
+    failures = 0
+    presses: dict[str, tuple[Press, int]] = {
+        "nobody": (silent, 0),
+        **{name: (press, min(300, given.clients)) for name, press in PRESSES.items()},
+        "a mix of all": (mixed, given.clients),
+    }
+    with service(log_level="warning", rate_limit="") as target:
+        target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]
+        print(f"at rest: {held_mb(target):.0f} MB")
+        for name, (press, clients) in presses.items():
+            outcome = asyncio.run(beside(target, press, clients, given.seconds))
+            p50, p99 = (quantile_ms(outcome.seconds, share) for share in (0.5, 0.99))
+            print(
+                f"{name:<20}{clients:>5} clients  bystander: {outcome.statuses.total():>5} requests, {outcome.refused} "
+                f"refused, p50 {p50:6.1f} ms, p99 {p99:7.1f} ms  above rest: {outcome.held_mb:5.0f} MB",
+                flush=True,
+            )
+            failures += outcome.refused + (outcome.held_mb > CEILING_MB)
+        faults = target.log().count('"level": "ERROR"')
+        asyncio.run(target.ask("DELETE", target.sweep))  # type: ignore[attr-defined]
+    print(f"{failures} refused or over {CEILING_MB:g} MB, {faults} faults logged")
+    return 1 if failures or faults else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

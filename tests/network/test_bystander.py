@@ -1,0 +1,30 @@
+"""Legal traffic that costs much harms no bystander; ``python -m tests.network.bystander`` is the long form."""
+
+import asyncio
+from collections.abc import Iterator
+
+import pytest
+
+from tests.network.bystander import CEILING_MB, PRESSES, beside, mixed
+from tests.network.load import start_sweep
+from tests.network.serving import Service, service
+
+
+@pytest.fixture(scope="module")
+def pressed() -> Iterator[Service]:
+    # so few connections that they run out
+    with service(
+        max_connections=120, max_connections_each=100, event_streams_each=20, queue_length=16, queue_length_each=8,
+        held_mb=16, held_mb_each=8, sweep_workers=1, rate_limit="", log_level="warning",
+    ) as made:  # fmt: skip
+        made.sweep = asyncio.run(start_sweep(made))  # type: ignore[attr-defined]
+        yield made
+        asyncio.run(made.ask("DELETE", made.sweep))  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize("press", [PRESSES["stalled bodies"], PRESSES["streams of events"], mixed])
+def test_a_bystander_is_answered(pressed: Service, press: object) -> None:
+    outcome = asyncio.run(beside(pressed, press, 150, 2.0))  # type: ignore[arg-type]
+    assert outcome.refused == 0, outcome.statuses
+    assert outcome.held_mb < CEILING_MB
+    assert [line for line in pressed.log().splitlines() if '"ERROR"' in line] == []
