@@ -122,6 +122,9 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     mass_cost : 0 in a bound on the objective, 1 in one on the mass.
     """
     limits = statement.limits
+    ends = np.sum(limits.max_mass, axis=-1) > limits.max_total_mass
+    if not np.any(ends):
+        return np.zeros(ends.shape)
     slope = _minorant(statement, multipliers, statement.ceilings.cap).slope
     return knapsack_price(limits.radius * limits.support(-slope) - mass_cost, limits)
 
