@@ -4,9 +4,8 @@ import time
 
 import numpy as np
 
-from optimizer.figures.counterweights import counterweights, unbalance
-from optimizer.outputs import outputs
-from optimizer.scene import prepare
+from optimizer.figures.counterweights import as_given, counterweights, unbalance
+from optimizer.outputs import fields, prepare
 from schemas.answers import AnalyzeAnswer, Timing
 from schemas.requests import AnalyzeRequest
 
@@ -22,14 +21,11 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     start = time.perf_counter()
     scene = prepare(request)
     reporting = time.perf_counter()
-    given = {counterweight.web: counterweight for counterweight in request.counterweights}
-    fitted = [given.get(web.name) for web in request.machine.webs]
-    mass = np.array([one.mass_kg if one else 0.0 for one in fitted], dtype=float)
-    angle = np.array([one.angle_deg % 360.0 if one else 0.0 for one in fitted], dtype=float)
-    fields = outputs(scene, unbalance(mass, angle, scene.layout.webs.radius))
+    mass, angle = as_given(request)
+    found = fields(scene, unbalance(mass, angle, scene.layout.webs.radius))
     end = time.perf_counter()
     return AnalyzeAnswer(
-        **fields,
+        **found,
         counterweights=counterweights(request.machine, mass, angle),
         total_mass_kg=float(np.sum(mass)),
         reference_plane_m=float(scene.layout.reference_plane),

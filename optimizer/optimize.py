@@ -10,14 +10,15 @@ from optimizer.figures.first_order import first_order
 from optimizer.figures.proof import conflict, named, named_conflict, physical
 from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import ceilings, formulate, smallest_peak, weights
-from optimizer.outputs import outputs
+from optimizer.outputs import fields as answered
+from optimizer.outputs import prepare
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE, claim, verdict
-from optimizer.scene import Prepared, prepare
+from optimizer.scene import Prepared
 from schemas.answers import (
     Certificate,
     Closest,
@@ -32,6 +33,8 @@ from schemas.proof import Multipliers as NamedMultipliers
 from schemas.requests import OptimizeRequest
 
 _TOUCHED = 1e-4
+#: outputs that every answer holds
+_ALWAYS = ("residual",)
 
 # compiled programs of this process; they are lent to one thread at a time
 _SOLVER = Solver()
@@ -48,7 +51,7 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
         if the machine lacks what a requested output needs.
     """
     start = time.perf_counter()
-    scene = prepare(request, always=("residual",))
+    scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
     statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
     outcome = optimum(statement, request.accuracy.relative_gap, request.objective.least_mass, solver)
@@ -130,7 +133,7 @@ def _certified(
             method=solution.method,
             multipliers=_multipliers(statement, solution, square),
         ),
-        **outputs(scene, u),
+        **answered(scene, u, _ALWAYS),
     }
 
 
@@ -204,5 +207,5 @@ def _infeasible(
                 smallest_moment=proofs["moment"],
             ),
         ),
-        **outputs(scene, None),
+        **answered(scene, None, _ALWAYS),
     }

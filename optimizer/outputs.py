@@ -1,83 +1,127 @@
-"""The outputs of a scene without and with counterweights, as they were asked for."""
+"""All outputs: what they need, and what they come to in an answer and in a sweep."""
 
-from collections.abc import Callable
+from collections.abc import Sequence
 from typing import Any
 
-from optimizer.arrays import Complex
-from optimizer.figures import dynamics
-from optimizer.figures.bearings import main_bearings
-from optimizer.figures.first_order import first_order, floor, hodograph
-from optimizer.figures.orders import order
-from optimizer.figures.stages import stages
-from optimizer.mechanics.inertia import Wrench
-from optimizer.scene import Prepared
-from schemas.answers import Residual
-from schemas.outputs import Hodographs, Order, OrdersComparison
+from optimizer.arrays import Complex, Real
+from optimizer.effects.registry import effects_of, problems_of
+from optimizer.errors import MissingInput
+from optimizer.figures.bearings import MAIN_BEARINGS
+from optimizer.figures.dynamics import OVER_THE_TURN
+from optimizer.figures.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
+from optimizer.figures.orders import ORDERS
+from optimizer.figures.output import Output
+from optimizer.figures.pins import PIN_LOADS
+from optimizer.figures.stages import STAGES
+from optimizer.scene import Prepared, simulated
+from schemas.base import FieldProblem
+from schemas.machine import Machine, ReciprocatingMachine
+from schemas.requests import Scene
 
-_OVER_THE_TURN: dict[str, Callable[[dynamics.Samples], Any]] = {
-    "kinematics": dynamics.kinematics,
-    "gas": dynamics.gas,
-    "piston_force": dynamics.piston_force,
-    "rod_loads": dynamics.rod_loads,
-    "torque": dynamics.torque,
-    "flywheel": dynamics.flywheel,
-    "overturning": dynamics.overturning,
+#: every output, in the order of the answer
+OUTPUTS: dict[str, Output] = {
+    output.name: output
+    for output in (
+        RESIDUAL,
+        HODOGRAPH,
+        ORDERS,
+        STAGES,
+        *OVER_THE_TURN,
+        MAIN_BEARINGS,
+        PIN_LOADS,
+    )
 }
-#: outputs that show first-order force and moment
-_FIRST_ORDER = frozenset({"residual", "hodograph", "orders", "stages"})
-_STAGE_PARTS = ("rotating_inertia", "reciprocating_inertia", "second_order")
+
+#: rows and bearings times shaft angles that one answer may hold
+MAX_SAMPLES = 200_000
 
 
-def outputs(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
-    """Fields of the answer for the outputs of a scene.
+def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
+    """Simulate what the outputs of a request call for.
+
+    Parameters
+    ----------
+    always : outputs that are needed whether they were asked for or not.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what an output needs.
+    """
+    outputs = dict.fromkeys((*always, *request.outputs))
+    require_inputs(request.machine, tuple(outputs), request.angles.count)
+    return simulated(request, {name: OUTPUTS[name].needs for name in outputs}, request.angles.count)
+
+
+def fields(scene: Prepared, unbalance: Complex | None, always: tuple[str, ...] = ()) -> dict[str, Any]:
+    """Fields of the answer for the outputs of a scene without and with counterweights.
 
     Parameters
     ----------
     unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
+    always : outputs that are answered whether they were asked for or not.
     """
-    return {**_first_order_outputs(scene, unbalance), **_outputs_over_the_turn(scene, unbalance)}
+    outputs = dict.fromkeys((*always, *scene.request.outputs))
+    found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
+    if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
+        found["floor"] = floor(scene.first_order())
+    return found
 
 
-def _first_order_outputs(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
-    if not _FIRST_ORDER.intersection(scene.outputs):
-        return {}
-    before = scene.first_order()
-    after = None if unbalance is None else scene.first_order(unbalance)
-    fields: dict[str, Any] = {"floor": floor(before)}
-    if "residual" in scene.outputs:
-        fields["residual"] = Residual(before=first_order(before), after=None if after is None else first_order(after))
-    if "hodograph" in scene.outputs:
-        fields["hodograph"] = Hodographs(
-            angle_deg=tuple(scene.angle_deg.tolist()),
-            before=hodograph(before, scene.turned_rad),
-            after=None if after is None else hodograph(after, scene.turned_rad),
-        )
-    if "orders" in scene.outputs:
-        fields["orders"] = OrdersComparison(
-            before=_orders(scene, before), after=None if after is None else _orders(scene, after)
-        )
-    if "stages" in scene.outputs:
-        results = scene.simulated.results
-        rotating, first, second = (results[name] for name in _STAGE_PARTS)
-        fields["stages"] = stages(scene.layout, rotating, first, second, unbalance)
-    return fields
+def columns(request: Scene, unbalance: Complex, always: tuple[str, ...] = ()) -> dict[str, Real]:
+    """Columns (n,) of the outputs of many designs, as many as have any.
+
+    Parameters
+    ----------
+    request : of columns (n,), valid and complete.
+    unbalance : (n, webs) kg m, the counterweights; nan where there are none.
+    always : outputs whose columns are needed whether they were asked for or not.
+    """
+    outputs = dict.fromkeys((*always, *request.outputs))
+    asked = {name: OUTPUTS[name] for name in outputs if OUTPUTS[name].columns is not None}
+    samples = request.angles.count if needs_samples(request) else 1
+    scene = simulated(request, {name: each.column_needs for name, each in asked.items()}, samples, unbalance.shape[:1])
+    found: dict[str, Real] = {}
+    for each in asked.values():
+        if each.columns is not None:
+            found |= each.columns.values(scene, unbalance)
+    return found
 
 
-def _outputs_over_the_turn(scene: Prepared, unbalance: Complex | None) -> dict[str, Any]:
-    fields: dict[str, Any] = {}
-    samples = dynamics.Samples(scene.request.machine, scene.layout, scene.angle_deg, scene.simulated.results)
-    for name, report in _OVER_THE_TURN.items():
-        if name in scene.outputs:
-            fields[name] = report(samples)
-    if "main_bearings" in scene.outputs:
-        fields["main_bearings"] = main_bearings(samples, scene.request.fidelity, unbalance)
-    if "pin_loads" in scene.outputs:
-        fields["pin_loads"] = scene.simulated.results["pin_loads"]
-    return fields
+def needs_samples(request: Scene) -> bool:
+    """Whether columns of a request are read off the samples of the turn."""
+    wanted = (OUTPUTS[name].columns for name in request.outputs)
+    return any(each is not None and each.sampled for each in wanted)
 
 
-def _orders(scene: Prepared, first: Wrench) -> tuple[Order, ...]:
-    """Orders of one machine; counterweights on the shaft change the first alone."""
-    results, square = scene.simulated.results, scene.layout.omega**2
-    higher = {2: results["second_order"], **results["higher_orders"]}
-    return (order(1, first), *(order(number, wrench.times(square)) for number, wrench in higher.items()))
+def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:
+    """Check that the machine gives what the outputs need, and that not too much is asked for.
+
+    Parameters
+    ----------
+    samples : number of shaft angles asked for.
+
+    Raises
+    ------
+    MissingInput
+        naming every missing field and an output that needs it.
+    """
+    problems: dict[tuple[str | int, ...], FieldProblem] = {}
+    for output in outputs:
+        needs = OUTPUTS[output].needs
+        for path, message in problems_of(machine, needs):
+            full = ("machine", *path)
+            problems.setdefault(full, FieldProblem(full, f"{message}; asked for by output '{output}'"))
+        if "kinematics" in effects_of(needs) and _series(machine) * samples > MAX_SAMPLES:
+            path = ("angles", "step_deg")
+            message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
+            problems[path] = FieldProblem(path, message)
+    if problems:
+        raise MissingInput(problems.values())
+
+
+def _series(machine: Machine) -> int:
+    """Rows and bearings of a machine: so many series does an output hold."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return 0
+    return sum(len(throw.rows) for throw in machine.throws) + len(machine.bearings)

@@ -1,35 +1,54 @@
 """A scene made ready: what its outputs call for has been simulated, and the responses stand."""
 
 import time
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.effects.registry import Simulated, require_inputs, simulate
+from optimizer.effects.registry import Simulated, simulate
 from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses
-from optimizer.mechanics.layout import Layout, layout
+from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.response import Response
+from schemas.machine import ReciprocatingMachine, ScrollMachine
 from schemas.requests import Scene
 
 
 @dataclass(frozen=True)
 class Prepared:
-    """Arrays of a scene."""
+    """A machine as arrays and what was simulated of it.
+
+    A request whose fields hold columns (n,) is many designs of one shape: all arrays then have that leading axis.
+    """
 
     request: Scene
-    outputs: tuple[str, ...]
     layout: Layout
     angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
     simulated: Simulated
     mechanics_ms: float
 
     @property
+    def machine(self) -> ReciprocatingMachine | ScrollMachine:
+        return self.request.machine
+
+    @property
+    def results(self) -> Mapping[str, Any]:
+        """Results of the effects that ran, by name."""
+        return self.simulated.results
+
+    @property
+    def angles(self) -> tuple[float, ...]:
+        """Sampled shaft angles as an answer holds them."""
+        return tuple(self.angle_deg.tolist())
+
+    @property
     def omega_squared(self) -> float:
         return float(self.layout.omega**2)
 
     def first_order(self, unbalance: Complex | None = None) -> Wrench:
-        """First-order force [N] and moment [N m], with counterweights if given (K,) kg m."""
+        """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
         wrench = self.simulated.first_order
         if unbalance is not None:
             wrench = wrench.plus(counterweights(self.layout, unbalance))
@@ -42,27 +61,26 @@ class Prepared:
 
     @property
     def turned_rad(self) -> Real:
-        """How far the shaft has turned about +z at the samples, s*theta (T,) rad."""
-        return self.layout.sense * np.deg2rad(self.angle_deg)
+        """How far the shaft has turned about +z at the samples, s*theta (..., T) rad."""
+        return self.layout.sense[..., None] * np.deg2rad(self.angle_deg)
 
 
-def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
+def simulated(
+    request: Scene, asked: Mapping[str, Sequence[str]], samples: int, leading: tuple[int, ...] = ()
+) -> Prepared:
     """Simulate what the outputs call for.
 
     Parameters
     ----------
-    always : outputs that are needed whether they were asked for or not.
-
-    Raises
-    ------
-    MissingInput
-        if the machine lacks what an output needs.
+    request : its machine gives what the effects need; its fields may hold columns of the leading axes.
+    asked : outputs by name, with the effects that each needs.
+    samples : number of sampled shaft angles.
+    leading : axes of all results; none for one machine.
     """
-    outputs = tuple(dict.fromkeys((*always, *request.outputs)))
-    require_inputs(request.machine, outputs, request.angles.count)
     start = time.perf_counter()
     plan = layout(request.machine)
-    turn: Real = np.arange(request.angles.count, dtype=float) * (360.0 / request.angles.count)
-    simulated = simulate(request.machine, plan, outputs, request.fidelity, np.deg2rad(turn))
-    elapsed = (time.perf_counter() - start) * 1e3
-    return Prepared(request, outputs, plan, turn, simulated, elapsed)
+    if leading:
+        plan = spread(plan, leading)
+    turn: Real = np.arange(samples, dtype=float) * (360.0 / samples)
+    found = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(turn))
+    return Prepared(request, plan, turn, found, (time.perf_counter() - start) * 1e3)

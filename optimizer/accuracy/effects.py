@@ -17,7 +17,7 @@ from scipy.optimize import minimize_scalar
 from optimizer.accuracy.ladder import median_ms
 from optimizer.arrays import Real
 from optimizer.effects.inertia import rod_problems
-from optimizer.effects.registry import simulate
+from optimizer.effects.registry import run
 from optimizer.mechanics.cylinders import delivery_problems, gas_problems
 from optimizer.mechanics.kinematics import motion, own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
@@ -119,9 +119,8 @@ def _timed(ways: list[Way], repeats: int) -> tuple[list[Figures], list[float], l
 
 def _torque(machine: Machine, layout: Layout, fidelity: Fidelity, angle: Real) -> Real:
     """Torque of gas, inertia and friction."""
-    results = simulate(machine, layout, ("rod_loads",), fidelity, angle).results
-    friction = results["friction"].torque if "friction" in results else 0.0
-    return np.sum(results["rod_forces"].torque, axis=0) + friction
+    total: Real = run(machine, layout, ("torque",), fidelity, angle)["torque"].total
+    return total
 
 
 def _inertia_torque(_machine: Machine, layout: Layout, fidelity: Fidelity, angle: Real) -> Real:
@@ -136,8 +135,8 @@ def _breaks(machine: Machine, layout: Layout, has_gas: bool) -> Real:
     ratio = layout.reciprocating.rod_ratio
     own = [np.broadcast_to([0.0, np.pi], (ratio.size, 2)), steep_angles(ratio)]
     if has_gas:
-        gas = simulate(machine, layout, ("gas",), Fidelity(), np.zeros(1)).results["gas"]
-        own += [gas.suction_opens, gas.discharge_opens]
+        gas = run(machine, layout, ("gas",), Fidelity(), np.zeros(1))["gas"]
+        own += gas.opens
     angles = np.concatenate(own, axis=1) - own_angle(layout, np.zeros(1))
     return np.unique(np.mod(angles[~np.isnan(angles)], _TURN))
 

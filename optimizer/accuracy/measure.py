@@ -13,10 +13,11 @@ from optimizer.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_m
 from optimizer.accuracy.methods import POSITIONS, Task, methods
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import ceilings, formulate, weights
+from optimizer.outputs import prepare
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
-from optimizer.scene import Prepared, prepare
+from optimizer.scene import Prepared
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference
 from schemas.machine import ReciprocatingMachine
 

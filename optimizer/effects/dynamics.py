@@ -1,7 +1,11 @@
-"""Effects over the turn: motion, gas, friction, forces in the mechanism, torque, flywheel, main bearings."""
+"""Effects over the turn: motion, gas, friction, forces in the mechanism, torque, flywheel, main bearings.
 
-from collections.abc import Iterator
+Every array has the leading axes (...) of the layout: none for one machine, one for many designs of one shape.
+"""
+
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -12,6 +16,7 @@ from optimizer.mechanics.cylinders import chambers, delivery_problems, gas_probl
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import Chambers, GasForces, gas_forces, indicated_work, switching_angles
 from optimizer.mechanics.kinematics import Motion, motion, own_angle, steep_angles
+from optimizer.mechanics.layout import Layout, stacked
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.turn import fluctuation, mean, panels
@@ -25,28 +30,40 @@ _AT_ONCE = 500_000
 
 @dataclass(frozen=True)
 class GasCycle:
-    """Gas of all rows: chambers, forces over the samples, switching angles and work of a turn."""
+    """Gas of all rows: forces over the samples, and what the chambers do whatever the samples."""
 
     chambers: Chambers
+    layout: Layout
     forces: GasForces
-    suction_opens: Real  # (rows, 2) rad, own crank angle
-    discharge_opens: Real  # (rows, 2) rad
-    work: Real  # (rows, 2) J
-    power: Real  # (rows,) W, indicated
+
+    @cached_property
+    def opens(self) -> tuple[Real, Real]:
+        """Own crank angles at which suction and discharge open, (..., rows, 2) rad each."""
+        return switching_angles(self.chambers, self.layout)
+
+    @cached_property
+    def work(self) -> Real:
+        """(..., rows, 2) J, indicated."""
+        return indicated_work(self.chambers, self.layout)
+
+    @cached_property
+    def power(self) -> Real:
+        """(..., rows) W, indicated."""
+        return np.sum(self.work, axis=-1) * self.layout.omega[..., None] / (2.0 * np.pi)
 
 
 @dataclass(frozen=True)
 class FrictionForces:
     """Friction of all rows over the samples, and of the shaft."""
 
-    magnitude: Real  # (rows,) N
-    force: Real  # (rows, T) N
-    torque: float  # N m
+    magnitude: Real  # (..., rows) N
+    force: Real  # (..., rows, T) N
+    torque: Real  # (...) N m
 
 
 @dataclass(frozen=True)
 class PistonForces:
-    """What acts on the pistons, (rows, T) N."""
+    """What acts on the pistons, (..., rows, T) N."""
 
     gas: Real
     inertia: Real
@@ -58,30 +75,36 @@ class PistonForces:
 class TorqueSeries:
     """Torque over the samples, N m."""
 
-    rows: Real  # (rows, T)
-    total: Real  # (T,)
-    rotating_friction: float
+    rows: Real  # (..., rows, T)
+    total: Real  # (..., T)
+    rotating_friction: Real  # (...)
 
 
 @dataclass(frozen=True)
 class TorqueIntegrals:
     """Means and ranges over the turn, whatever the samples."""
 
-    row_mean: Real  # (rows,) N m
-    mean: float  # N m
-    mean_error: float
-    fluctuation: float  # J
-    fluctuation_error: float
-    indicated_power: float  # W
-    friction_power: float  # W
+    row_mean: Real  # (..., rows) N m
+    mean: Real  # (...) N m
+    fluctuation: Real  # (...) J
+    indicated_power: Real  # (...) W
+    friction_power: Real  # (...) W
+
+
+@dataclass(frozen=True)
+class TorqueErrors:
+    """By how much the integrals differ from those over panels twice as wide (...)."""
+
+    mean: Real  # N m
+    fluctuation: Real  # J
 
 
 @dataclass(frozen=True)
 class FlywheelFigures:
-    """Irregularity and inertia that belong to each other."""
+    """Irregularity and inertia that belong to each other (...)."""
 
-    irregularity: float
-    inertia: float  # kg m^2
+    irregularity: Real
+    inertia: Real  # kg m^2
 
 
 def _reciprocating(machine: Machine) -> ReciprocatingMachine:
@@ -122,11 +145,9 @@ def _kinematics(context: Context) -> Motion:
 
 
 def _gas(context: Context) -> GasCycle:
-    data = chambers(_reciprocating(context.machine))
-    forces = gas_forces(data, context.given["kinematics"], context.layout)
-    work = indicated_work(data, context.layout)
-    power = np.sum(work, axis=-1) * context.layout.omega / (2.0 * np.pi)
-    return GasCycle(data, forces, *switching_angles(data, context.layout), work, power)
+    layout = context.layout
+    data = chambers(_reciprocating(context.machine), layout.omega.shape)
+    return GasCycle(data, layout, gas_forces(data, context.given["kinematics"], layout))
 
 
 def _friction(context: Context) -> FrictionForces:
@@ -134,24 +155,29 @@ def _friction(context: Context) -> FrictionForces:
     assert data is not None  # the effect does not apply without it
     moving, cycle = context.given["kinematics"], context.given["gas"]
     omega, stroke = context.layout.omega, 2.0 * context.layout.reciprocating.crank_radius
+
+    def of_rows(given: Sequence[float] | None, default: Real) -> Real:
+        return np.broadcast_to(default if given is None else stacked(given), stroke.shape)
+
+    def of_shaft(given: float | None) -> Real:
+        return np.broadcast_to(np.asarray(0.0 if given is None else given, dtype=float), omega.shape)
+
     if data.mechanical_efficiency is None:
-        magnitude = np.array(data.reciprocating_force_N or np.zeros(stroke.size), dtype=float)
-        torque = np.asarray(data.rotating_torque_Nm or 0.0)
+        magnitude, torque = of_rows(data.reciprocating_force_N, np.zeros(())), of_shaft(data.rotating_torque_Nm)
     else:
-        indicated = data.indicated_power_W or cycle.power
         magnitude, torque = share_of_losses(
-            np.asarray(indicated, dtype=float),
-            np.asarray(data.mechanical_efficiency),
-            np.asarray(data.reciprocating_share),
+            of_rows(data.indicated_power_W, cycle.power),
+            of_shaft(data.mechanical_efficiency),
+            of_shaft(data.reciprocating_share),
             stroke,
             omega,
         )
-    return FrictionForces(magnitude, reciprocating_friction(moving, magnitude), float(torque))
+    return FrictionForces(magnitude, reciprocating_friction(moving, magnitude), torque)
 
 
 def _piston_force(context: Context) -> PistonForces:
     gas = context.given["gas"].forces.total
-    inertia = context.layout.reciprocating.mass[:, None] * context.given["kinematics"].acceleration
+    inertia = context.layout.reciprocating.mass[..., None] * context.given["kinematics"].acceleration
     friction = context.given["friction"].force if "friction" in context.given else np.zeros_like(gas)
     return PistonForces(gas, inertia, friction, gas + inertia + friction)
 
@@ -162,59 +188,74 @@ def _rod_forces(context: Context) -> RodForces:
 
 def _torque(context: Context) -> TorqueSeries:
     rows = context.given["rod_forces"].torque
-    friction = context.given["friction"].torque if "friction" in context.given else 0.0
-    return TorqueSeries(rows, np.sum(rows, axis=0) + friction, friction)
+    friction = context.given["friction"].torque if "friction" in context.given else np.zeros(rows.shape[:-2])
+    return TorqueSeries(rows, np.sum(rows, axis=-2) + friction[..., None], friction)
 
 
 def _torque_at(context: Context, angle: Real) -> TorqueSeries:
-    """Torque at other angles, piece by piece."""
-    rows = max(context.layout.reciprocating.mass.size, 1)
-    pieces = np.array_split(angle, max(1, rows * angle.size // _AT_ONCE))
-    found = [context.elsewhere(piece)["torque"] for piece in pieces]
+    """Torque at other shaft angles (..., T) rad, piece by piece."""
+    pieces = np.array_split(
+        angle, max(1, context.layout.reciprocating.mass.size * angle.shape[-1] // _AT_ONCE), axis=-1
+    )
+    found = [context.elsewhere("torque", piece) for piece in pieces]
     return TorqueSeries(
         np.concatenate([one.rows for one in found], axis=-1),
-        np.concatenate([one.total for one in found]),
+        np.concatenate([one.total for one in found], axis=-1),
         found[0].rotating_friction,
     )
 
 
-def _torque_integrals(context: Context) -> TorqueIntegrals:
+def _breaks(context: Context) -> Real:
+    """Shaft angles between which all is smooth, (..., B) rad; nan where a design has one less."""
     layout, cycle = context.layout, context.given["gas"]
-    ahead = own_angle(layout, np.zeros(1))[:, 0]
-    # valves open and rows reverse at these own angles; between them all is smooth
-    dead = np.broadcast_to([0.0, np.pi], (ahead.size, 2))
-    steep = steep_angles(layout.reciprocating.rod_ratio)
-    own = np.concatenate([cycle.suction_opens, cycle.discharge_opens, dead, steep], axis=1)
-    breaks = np.unique((own - ahead[:, None])[~np.isnan(own)])
-    coarse, fine = panels(breaks, _WIDEST_PANEL), panels(breaks, _WIDEST_PANEL, halved=True)
-    at_coarse, at_fine = (_torque_at(context, turn.angle) for turn in (coarse, fine))
-    omega = float(layout.omega)
-    friction_power = 0.0
+    ratio = layout.reciprocating.rod_ratio
+    # valves open and rows reverse at these own angles
+    dead = np.broadcast_to([0.0, np.pi], (*ratio.shape, 2))
+    own = np.concatenate([*cycle.opens, dead, steep_angles(ratio)], axis=-1)
+    breaks = (own - own_angle(layout, np.zeros(1))).reshape(*ratio.shape[:-1], -1)
+    designs = tuple(range(breaks.ndim - 1))
+    breaks = np.sort(breaks[..., ~np.all(np.isnan(breaks), axis=designs)], axis=-1)
+    # rows that reverse together would only make panels without width
+    return breaks[..., np.any(np.diff(breaks, axis=-1, prepend=-np.inf) != 0.0, axis=designs)]
+
+
+def _torque_integrals(context: Context) -> TorqueIntegrals:
+    fine = panels(_breaks(context), _WIDEST_PANEL, halved=True)
+    found = _torque_at(context, fine.angle)
+    omega = context.layout.omega
+    friction_power = np.zeros(omega.shape)
     if "friction" in context.given:
         friction = context.given["friction"]
-        per_turn = np.sum(friction.magnitude * 4.0 * layout.reciprocating.crank_radius)
-        friction_power = float(per_turn * omega / (2.0 * np.pi) + friction.torque * omega)
-    middle, energy = mean(fine, at_fine.total), fluctuation(fine, at_fine.total)
+        per_turn = np.sum(friction.magnitude * 4.0 * context.layout.reciprocating.crank_radius, axis=-1)
+        friction_power = per_turn * omega / (2.0 * np.pi) + friction.torque * omega
+    row_mean = np.zeros_like(context.layout.reciprocating.mass)
+    for k in range(found.rows.shape[-2]):
+        row_mean[..., k] = mean(fine, found.rows[..., k, :])
     return TorqueIntegrals(
-        row_mean=np.array([mean(fine, row) for row in at_fine.rows]),
-        mean=float(middle),
-        mean_error=float(abs(middle - mean(coarse, at_coarse.total))),
-        fluctuation=float(energy),
-        fluctuation_error=float(abs(energy - fluctuation(coarse, at_coarse.total))),
-        indicated_power=float(np.sum(cycle.power)),
+        row_mean=row_mean,
+        mean=mean(fine, found.total),
+        fluctuation=fluctuation(fine, found.total),
+        indicated_power=np.sum(context.given["gas"].power, axis=-1),
         friction_power=friction_power,
+    )
+
+
+def _torque_errors(context: Context) -> TorqueErrors:
+    coarse, fine = panels(_breaks(context), _WIDEST_PANEL), context.given["torque_integrals"]
+    total = _torque_at(context, coarse.angle).total
+    return TorqueErrors(
+        mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))
     )
 
 
 def _flywheel(context: Context) -> FlywheelFigures:
     data = _reciprocating(context.machine).flywheel
-    assert data is not None
+    assert data is not None  # checked by the problems
     # delta = dE / (J omega^2), seed 004 (2-28)
-    ratio = context.given["torque_integrals"].fluctuation / float(context.layout.omega) ** 2
-    if data.irregularity is not None:
-        return FlywheelFigures(data.irregularity, ratio / data.irregularity)
-    assert data.inertia_kg_m2 is not None
-    return FlywheelFigures(ratio / data.inertia_kg_m2, data.inertia_kg_m2)
+    ratio = context.given["torque_integrals"].fluctuation / context.layout.omega**2
+    held = data.irregularity is not None
+    given = np.broadcast_to(np.asarray(data.irregularity if held else data.inertia_kg_m2, dtype=float), ratio.shape)
+    return FlywheelFigures(given, ratio / given) if held else FlywheelFigures(ratio / given, given)
 
 
 def _shaft_loads(context: Context) -> tuple[Real, Complex]:
@@ -257,6 +298,12 @@ DYNAMICS = (
         "mean torque, powers and fluctuation energy",
         _torque_integrals,
         needs=("gas", "friction", "torque"),
+    ),
+    Effect(
+        "torque_errors",
+        "by how much integrals over wider panels differ",
+        _torque_errors,
+        needs=("gas", "torque", "torque_integrals"),
     ),
     Effect(
         "flywheel",

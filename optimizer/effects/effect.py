@@ -13,14 +13,14 @@ from schemas.requests import Fidelity
 
 @dataclass(frozen=True)
 class Context:
-    """What an effect may look at: the machine, the angles, and the results of the effects that it needs."""
+    """What an effect may look at: the machines, the angles, and the results of the effects that it needs."""
 
     machine: Machine
     layout: Layout
     fidelity: Fidelity
-    angle: Real  # (T,) shaft angles, rad
+    angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
     given: Mapping[str, Any]
-    elsewhere: Callable[[Real], Mapping[str, Any]]  # the same results at other shaft angles
+    elsewhere: Callable[[str, Real], Any]  # the result of one of those effects at other shaft angles
 
 
 def _no_problems(_machine: Machine) -> Iterator[FieldProblem]:

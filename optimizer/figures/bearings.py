@@ -1,57 +1,67 @@
 """Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
 
+from typing import NamedTuple
+
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.figures.dynamics import Samples
+from optimizer.figures.output import Columns, Output, largest
 from optimizer.mechanics.bearings import bending_moment, continuous_beam, simple_spans
+from optimizer.mechanics.layout import stacked
+from optimizer.scene import Prepared
 from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.machine import ReciprocatingMachine
-from schemas.requests import Fidelity
 
 
-def main_bearings(samples: Samples, fidelity: Fidelity, unbalance: Complex | None) -> MainBearings:
-    """Loads of the main bearings of one machine.
+class _Carried(NamedTuple):
+    """What the shaft carries to its bearings."""
 
-    Parameters
-    ----------
-    unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
-    """
-    machine, layout = samples.machine, samples.layout
+    places: Real  # (..., B) m
+    planes: Real  # (..., L) m
+    loads: Complex  # (..., L, T) N
+    reactions: Complex  # (..., B, T) N
+
+    def bent(self, stations: Real) -> Real:
+        """Largest bending moment over the turn at stations (..., S) m: (..., S) N m."""
+        return largest(bending_moment(self.places, self.reactions, self.planes, self.loads, stations), 1)
+
+
+def _carried(scene: Prepared, unbalance: Complex | None) -> _Carried:
+    """Bearing loads of rows, rotating masses and counterweights (..., webs) kg m, if given."""
+    machine, layout = scene.machine, scene.layout
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    places = np.array([bearing.position_m for bearing in machine.bearings])
-    planes, loads = samples.results["shaft_loads"]
-    spread = simple_spans if fidelity.shaft == "simple_spans" else continuous_beam
-
-    def carried(planes: Real, loads: Complex) -> tuple[Complex, Real]:
-        reactions = spread(places, planes, loads)
-        moments = bending_moment(places, reactions, planes, loads, stations)
-        return reactions, np.max(np.abs(moments), axis=-1)
-
-    everything = np.concatenate([planes, layout.webs.position])
-    stations = np.unique(np.concatenate([places, everything]))
-    before, bent_before = carried(planes, loads)
-    after, bent_after = None, None
+    planes, loads = scene.results["shaft_loads"]
     if unbalance is not None:
-        turn = np.exp(1j * layout.sense * np.deg2rad(samples.angle_deg))
-        iron = (unbalance * layout.omega**2)[:, None] * turn
-        after, bent_after = carried(everything, np.concatenate([loads, iron]))
+        turn = np.exp(1j * scene.turned_rad)
+        iron = (unbalance * layout.omega[..., None] ** 2)[..., None] * turn[..., None, :]
+        planes, loads = np.concatenate([planes, layout.webs.position], axis=-1), np.concatenate([loads, iron], axis=-2)
+    model = simple_spans if scene.request.fidelity.shaft == "simple_spans" else continuous_beam
+    places = stacked([bearing.position_m for bearing in machine.bearings])
+    return _Carried(places, planes, loads, model(places, planes, loads))
+
+
+def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
+    """Loads of the main bearings of one machine, and the bending moments of its shaft."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    before, after = _carried(scene, None), None if unbalance is None else _carried(scene, unbalance)
+    stations = np.unique(np.concatenate([before.places, before.planes, scene.layout.webs.position]))
     return MainBearings(
-        angle_deg=samples.angles,
-        shaft=fidelity.shaft,
+        angle_deg=scene.angles,
+        shaft=scene.request.fidelity.shaft,
         bearings=tuple(
             MainBearing(
                 name=bearing.name,
                 position_m=bearing.position_m,
-                before=_load(before[k], samples.angle_deg),
-                after=None if after is None else _load(after[k], samples.angle_deg),
+                before=_load(before.reactions[k], scene.angle_deg),
+                after=None if after is None else _load(after.reactions[k], scene.angle_deg),
             )
             for k, bearing in enumerate(machine.bearings)
         ),
         bending=BendingMoment(
             position_m=tuple(stations.tolist()),
-            before_Nm=tuple(bent_before.tolist()),
-            after_Nm=None if bent_after is None else tuple(bent_after.tolist()),
+            before_Nm=tuple(before.bent(stations).tolist()),
+            after_Nm=None if after is None else tuple(after.bent(stations).tolist()),
         ),
     )
 
@@ -64,3 +74,16 @@ def _load(force: Complex, angle_deg: Real) -> BearingLoad:
         peak_N=float(np.abs(force[worst])),
         peak_angle_deg=float(angle_deg[worst]),
     )
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    return {"peak_bearing_load_N": largest(_carried(scene, unbalance).reactions)}
+
+
+MAIN_BEARINGS = Output(
+    "main_bearings",
+    "main-bearing loads and bending of the shaft",
+    ("shaft_loads",),
+    main_bearings,
+    Columns(_columns, sampled=True),
+)

@@ -4,8 +4,10 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import angle_deg, direction
+from optimizer.mechanics.layout import stacked
 from schemas.answers import Counterweight, WebLimit
 from schemas.machine import Machine, Web
+from schemas.requests import AnalyzeRequest
 
 #: a limit counts as touched when the counterweight is nearer than this share of it; optima may differ by
 #: 1e-6 of the objective, which is more than that of a mass
@@ -13,13 +15,21 @@ _TOUCHED = 1e-4
 
 
 def masses_and_angles(unbalance: Complex, radius: Real) -> tuple[Real, Real]:
-    """Masses [kg] and angles [deg] of unbalances [kg m] (K,)."""
+    """Masses [kg] and angles [deg] of unbalances [kg m] (..., K)."""
     return np.abs(unbalance) / radius, angle_deg(unbalance)
 
 
 def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:
-    """Unbalances m R e^{ja} [kg m] of masses and angles (K,): what every figure is evaluated from."""
+    """Unbalances m R e^{ja} [kg m] of masses and angles (..., K): what every figure is evaluated from."""
     return mass_kg * radius * direction(angles_deg)
+
+
+def as_given(request: AnalyzeRequest) -> tuple[Real, Real]:
+    """Masses (..., K) [kg] and angles (..., K) [deg] of the counterweights of a request; 0 where a web has none."""
+    given = {counterweight.web: counterweight for counterweight in request.counterweights}
+    fitted = [given.get(web.name) for web in request.machine.webs]
+    mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
+    return mass, np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
 
 
 def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[Counterweight, ...]:

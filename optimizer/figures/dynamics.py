@@ -1,12 +1,13 @@
 """Dynamics as answers: series of every row, and what they come to together."""
 
-from collections.abc import Iterator, Mapping
-from typing import Any, Literal, NamedTuple
+from collections.abc import Iterator
+from typing import Any, Literal
 
 import numpy as np
 
-from optimizer.arrays import Real
-from optimizer.mechanics.layout import Layout
+from optimizer.arrays import Complex, Real
+from optimizer.figures.output import Columns, Output, largest
+from optimizer.scene import Prepared
 from schemas.dynamics import (
     Chamber,
     Flywheel,
@@ -24,38 +25,18 @@ from schemas.dynamics import (
     RowTorque,
     Torque,
 )
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import ReciprocatingMachine
 
 Case = Literal["running", "no_load", "sudden_stop"]
 _SIDES: tuple[Literal["head", "crank"], ...] = ("head", "crank")
 
 
-class Samples(NamedTuple):
-    """What every report reads: the machine, its arrays, the sampled angles and the results by effect."""
-
-    machine: Machine
-    layout: Layout
-    angle_deg: Real  # (T,)
-    results: Mapping[str, Any]
-
-    @property
-    def angles(self) -> tuple[float, ...]:
-        return tuple(self.angle_deg.tolist())
-
-    def rows(self) -> Iterator[tuple[int, dict[str, Any]]]:
-        """Number of every row, and its labels."""
-        assert isinstance(self.machine, ReciprocatingMachine)  # no other has effects over the turn
-        places = [(t, i, row.name) for t, throw in enumerate(self.machine.throws) for i, row in enumerate(throw.rows)]
-        for number, (t, i, name) in enumerate(places):
-            yield number, {"throw": t, "row": i, "name": name}
-
-
-def kinematics(samples: Samples) -> Kinematics:
+def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
     """Motion of every row."""
-    found = samples.results["kinematics"]
+    found = scene.results["kinematics"]
     own = np.mod(np.rad2deg(found.crank_angle), 360.0)
     return Kinematics(
-        angle_deg=samples.angles,
+        angle_deg=scene.angles,
         rows=tuple(
             RowMotion(
                 **labels,
@@ -64,30 +45,35 @@ def kinematics(samples: Samples) -> Kinematics:
                 velocity_m_s=_series(found.velocity[k]),
                 acceleration_m_s2=_series(found.acceleration[k]),
             )
-            for k, labels in samples.rows()
+            for k, labels in _rows(scene)
         ),
     )
 
 
-def gas(samples: Samples) -> Gas:
+def _indicated_power(scene: Prepared) -> Real:
+    power: Real = np.sum(scene.results["gas"].power, axis=-1)
+    return power
+
+
+def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     """Gas of every row."""
-    cycle = samples.results["gas"]
-    total = cycle.forces.total
+    cycle = scene.results["gas"]
+    total, force = cycle.forces.total, cycle.forces.force
 
     def chamber(k: int, side: int) -> Chamber:
-        opens = (np.rad2deg(angles[k, side]) for angles in (cycle.suction_opens, cycle.discharge_opens))
+        opens = (np.rad2deg(angles[k, side]) for angles in cycle.opens)
         suction, discharge = (None if np.isnan(angle) else float(angle) for angle in opens)
         return Chamber(
             side=_SIDES[side],
             pressure_Pa=_series(cycle.forces.pressure[k, side]),
-            force_N=_series(cycle.forces.force[k, side]),
+            force_N=_series(force[k, side]),
             suction_opens_deg=suction,
             discharge_opens_deg=discharge,
             indicated_work_J=float(cycle.work[k, side]),
         )
 
     return Gas(
-        angle_deg=samples.angles,
+        angle_deg=scene.angles,
         rows=tuple(
             RowGas(
                 **labels,
@@ -95,17 +81,17 @@ def gas(samples: Samples) -> Gas:
                 force_N=_series(total[k]),
                 indicated_power_W=float(cycle.power[k]),
             )
-            for k, labels in samples.rows()
+            for k, labels in _rows(scene)
         ),
-        indicated_power_W=float(np.sum(cycle.power)),
+        indicated_power_W=float(_indicated_power(scene)),
     )
 
 
-def piston_force(samples: Samples) -> PistonForce:
+def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce:
     """Gas, inertia and friction on every piston."""
-    found = samples.results["piston_force"]
+    found = scene.results["piston_force"]
     return PistonForce(
-        angle_deg=samples.angles,
+        angle_deg=scene.angles,
         rows=tuple(
             RowPistonForce(
                 **labels,
@@ -116,88 +102,114 @@ def piston_force(samples: Samples) -> PistonForce:
                 peak_tension_N=float(np.max(found.total[k])),
                 peak_compression_N=float(np.min(found.total[k])),
             )
-            for k, labels in samples.rows()
+            for k, labels in _rows(scene)
         ),
     )
 
 
-def rod_loads(samples: Samples) -> RodLoads:
-    """Forces in the mechanism, and the load cases of every rod (seed 004 section 2.5)."""
-    found, pistons = samples.results["rod_forces"], samples.results["piston_force"]
-    cosine = samples.results["kinematics"].rod_angle_cosine
-    forces: dict[Case, Real] = {
-        "running": found.rod,
+def _load_cases(scene: Prepared) -> dict[Case, Real]:
+    """Rod forces (..., rows, T) N of every load case (seed 004 section 2.5)."""
+    pistons, cosine = scene.results["piston_force"], scene.results["kinematics"].rod_angle_cosine
+    return {
+        "running": scene.results["rod_forces"].rod,
         "no_load": (pistons.inertia + pistons.friction) / cosine,
         "sudden_stop": pistons.gas / cosine,
     }
+
+
+def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
+    """Forces in the mechanism, and the load cases of every rod."""
+    found, forces = scene.results["rod_forces"], _load_cases(scene)
+    side, tangential, radial = found.side, found.tangential, found.radial
     rows = []
-    for k, labels in samples.rows():
-        cases = tuple(_case(case, force[k], samples.angle_deg) for case, force in forces.items())
+    for k, labels in _rows(scene):
+        cases = tuple(_case(case, force[k], scene.angle_deg) for case, force in forces.items())
         worst = max(cases, key=_largest)
         rows.append(
             RowRodLoads(
                 **labels,
-                rod_N=_series(found.rod[k]),
-                side_N=_series(found.side[k]),
-                tangential_N=_series(found.tangential[k]),
-                radial_N=_series(found.radial[k]),
+                rod_N=_series(forces["running"][k]),
+                side_N=_series(side[k]),
+                tangential_N=_series(tangential[k]),
+                radial_N=_series(radial[k]),
                 cases=cases,
                 governing_case=worst.case,
                 governing_load_N=_largest(worst),
             )
         )
     return RodLoads(
-        angle_deg=samples.angles,
+        angle_deg=scene.angles,
         rows=tuple(rows),
         governing_load_N=max((row.governing_load_N for row in rows), default=0.0),
     )
 
 
-def torque(samples: Samples) -> Torque:
+def _shaft_power(scene: Prepared) -> Real:
+    power: Real = scene.results["torque_integrals"].mean * scene.layout.omega
+    return power
+
+
+def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     """Torque over the turn and its integrals."""
-    found, integrals = samples.results["torque"], samples.results["torque_integrals"]
-    radius = samples.layout.reciprocating.crank_radius
+    found, integrals = scene.results["torque"], scene.results["torque_integrals"]
+    errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
+    radius = scene.layout.reciprocating.crank_radius
     one_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
     return Torque(
-        angle_deg=samples.angles,
+        angle_deg=scene.angles,
         rows=tuple(
             RowTorque(**labels, torque_Nm=_series(found.rows[k]), mean_torque_Nm=float(integrals.row_mean[k]))
-            for k, labels in samples.rows()
+            for k, labels in _rows(scene)
         ),
-        rotating_friction_Nm=found.rotating_friction,
+        rotating_friction_Nm=float(found.rotating_friction),
         torque_Nm=_series(found.total),
         tangential_N=_series(found.total / radius[0]) if one_radius else None,
-        mean_torque_Nm=integrals.mean,
-        mean_torque_error_Nm=integrals.mean_error,
-        indicated_power_W=integrals.indicated_power,
-        friction_power_W=integrals.friction_power,
-        shaft_power_W=integrals.mean * float(samples.layout.omega),
-        fluctuation_energy_J=integrals.fluctuation,
-        fluctuation_energy_error_J=integrals.fluctuation_error,
+        mean_torque_Nm=float(integrals.mean),
+        mean_torque_error_Nm=float(errors.mean),
+        indicated_power_W=float(integrals.indicated_power),
+        friction_power_W=float(integrals.friction_power),
+        shaft_power_W=float(shaft_power),
+        fluctuation_energy_J=float(integrals.fluctuation),
+        fluctuation_energy_error_J=float(errors.fluctuation),
     )
 
 
-def flywheel(samples: Samples) -> Flywheel:
+def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
     """Irregularity and inertia, J and MD^2 both (E004-18)."""
-    found = samples.results["flywheel"]
+    found = scene.results["flywheel"]
     return Flywheel(
-        fluctuation_energy_J=samples.results["torque_integrals"].fluctuation,
-        irregularity=found.irregularity,
-        inertia_J_kg_m2=found.inertia,
-        inertia_MD2_kg_m2=4.0 * found.inertia,
+        fluctuation_energy_J=float(scene.results["torque_integrals"].fluctuation),
+        irregularity=float(found.irregularity),
+        inertia_J_kg_m2=float(found.inertia),
+        inertia_MD2_kg_m2=4.0 * float(found.inertia),
     )
 
 
-def overturning(samples: Samples) -> Overturning:
+def _couple(rows: Real) -> Real:
+    """Couple of all rows (..., T) from that of each (..., rows, T)."""
+    couple: Real = np.sum(rows, axis=-2)
+    return couple
+
+
+def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     """Overturning couple on the frame."""
-    rows = samples.results["rod_forces"].overturning
-    total = np.sum(rows, axis=0)
+    rows = scene.results["rod_forces"].overturning
+    total = _couple(rows)
     return Overturning(
-        angle_deg=samples.angles,
-        rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in samples.rows()),
+        angle_deg=scene.angles,
+        rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in _rows(scene)),
         couple_Nm=_series(total),
-        peak_Nm=float(np.max(np.abs(total))),
+        peak_Nm=float(largest(total, 1)),
     )
+
+
+def _rows(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Number of every row, and its labels."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has effects over the turn
+    places = [(t, i, row.name) for t, throw in enumerate(machine.throws) for i, row in enumerate(throw.rows)]
+    for number, (t, i, name) in enumerate(places):
+        yield number, {"throw": t, "row": i, "name": name}
 
 
 def _series(values: Real) -> tuple[float, ...]:
@@ -217,3 +229,71 @@ def _case(case: Case, force: Real, angle_deg: Real) -> LoadCase:
 
 def _largest(case: LoadCase) -> float:
     return max(case.tension_N, -case.compression_N)
+
+
+def _gas_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"indicated_power_W": _indicated_power(scene)}
+
+
+def _piston_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"peak_piston_force_N": largest(scene.results["piston_force"].total)}
+
+
+def _rod_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"peak_rod_load_N": np.max([largest(force) for force in _load_cases(scene).values()], axis=0)}
+
+
+def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    integrals = scene.results["torque_integrals"]
+    return {
+        "mean_torque_Nm": integrals.mean,
+        "peak_torque_Nm": largest(scene.results["torque"].total, 1),
+        "fluctuation_energy_J": integrals.fluctuation,
+        "shaft_power_W": _shaft_power(scene),
+        "indicated_power_W": integrals.indicated_power,
+        "friction_power_W": integrals.friction_power,
+    }
+
+
+def _flywheel_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    found = scene.results["flywheel"]
+    return {"irregularity": found.irregularity, "inertia_J_kg_m2": found.inertia}
+
+
+def _overturning_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"peak_overturning_Nm": largest(_couple(scene.results["rod_forces"].overturning), 1)}
+
+
+OVER_THE_TURN = (
+    Output("kinematics", "motion of every row", ("kinematics",), kinematics),
+    Output("gas", "pressures and gas forces of every row, indicated power", ("gas",), gas, Columns(_gas_columns)),
+    Output(
+        "piston_force",
+        "gas, inertia and friction on every piston",
+        ("piston_force",),
+        piston_force,
+        Columns(_piston_columns, sampled=True),
+    ),
+    Output(
+        "rod_loads",
+        "forces on rod, guide and crank pin; load cases",
+        ("rod_forces",),
+        rod_loads,
+        Columns(_rod_columns, sampled=True),
+    ),
+    Output(
+        "torque",
+        "torque over the turn, its mean, powers, fluctuation energy",
+        ("torque_integrals", "torque_errors"),
+        torque,
+        Columns(_torque_columns, sampled=True, needs=("torque_integrals",)),
+    ),
+    Output("flywheel", "irregularity of the speed and inertia", ("flywheel",), flywheel, Columns(_flywheel_columns)),
+    Output(
+        "overturning",
+        "overturning couple on the frame",
+        ("rod_forces",),
+        overturning,
+        Columns(_overturning_columns, sampled=True),
+    ),
+)

@@ -2,11 +2,15 @@
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.arrays import Complex, Real
+from optimizer.figures.output import Columns, Output
 from optimizer.mechanics.inertia import Wrench
 from optimizer.response import Phasors
-from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse
-from schemas.outputs import Hodograph
+from optimizer.scene import Prepared
+from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual
+from schemas.outputs import Hodograph, Hodographs
+
+FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
 
 def first_order(wrench: Wrench) -> FirstOrder:
@@ -21,7 +25,27 @@ def floor(wrench: Wrench) -> Floor:
     return Floor(force_N=float(np.abs(wrench.force.counter)), moment_Nm=float(np.abs(wrench.moment.counter)))
 
 
-def hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
+def peaks(wrench: Wrench) -> dict[str, Real]:
+    """Peaks of force [N] and moment [N m] as columns (...)."""
+    return {"force_peak_N": wrench.force.peak, "moment_peak_Nm": wrench.moment.peak}
+
+
+def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
+    """First order of one machine without and with counterweights."""
+    after = None if unbalance is None else first_order(scene.first_order(unbalance))
+    return Residual(before=first_order(scene.first_order()), after=after)
+
+
+def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
+    """First order of one machine over the turn."""
+    return Hodographs(
+        angle_deg=scene.angles,
+        before=_hodograph(scene.first_order(), scene.turned_rad),
+        after=None if unbalance is None else _hodograph(scene.first_order(unbalance), scene.turned_rad),
+    )
+
+
+def _hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
     """Force [N] and moment [N m] at the shaft angles s*theta (n,)."""
     force, moment = wrench.force.at(angle_rad), wrench.moment.at(angle_rad)
     return Hodograph(
@@ -43,3 +67,13 @@ def _ellipse(pair: Phasors) -> tuple[tuple[str, float], ...]:
         "counter_rotating": np.abs(pair.counter),
     }
     return tuple((name, float(value)) for name, value in values.items())
+
+
+RESIDUAL = Output(
+    "residual",
+    "first-order force and moment, before and after",
+    FIRST_ORDER_EFFECTS,
+    residual,
+    Columns(lambda scene, unbalance: peaks(scene.first_order(unbalance))),
+)
+HODOGRAPH = Output("hodograph", "first-order force and moment over the turn", FIRST_ORDER_EFFECTS, hodographs)

@@ -18,11 +18,13 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.figures.output import Output
 from optimizer.figures.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
 from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.response import Phasors
+from optimizer.scene import Prepared
 from schemas.outputs import RuleOfThumb, Stage
 
 Balanceable = Literal["fully", "partly", "no"]
@@ -243,3 +245,15 @@ def _degrees(angle: Real, period: int) -> str:
 
 def _frequency(order: int, speed: float) -> str:
     return f"{'n' if order == 1 else f'{order}n'} = {order * speed / (2.0 * np.pi):.3f} Hz"
+
+
+#: effects whose results the stages are about
+_PARTS = ("rotating_inertia", "reciprocating_inertia", "second_order")
+
+
+def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[Stage, ...]:
+    turning, first, second = (scene.results[name] for name in _PARTS)
+    return stages(scene.layout, turning, first, second, unbalance)
+
+
+STAGES = Output("stages", "the eight balancing stages", _PARTS, _figure)

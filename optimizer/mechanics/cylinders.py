@@ -4,7 +4,6 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, switching_travels
 from optimizer.mechanics.layout import Layout, stacked
 from schemas.base import FieldProblem
@@ -24,18 +23,21 @@ _STATE = (
 _NEVER_DELIVERS = "with this clearance and pressure ratio the chamber never delivers"
 
 
-def chambers(machine: ReciprocatingMachine) -> Chambers:
+def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Chambers:
     """Chambers of all rows (..., rows, 2), throw by throw; every row has complete data (``gas_problems``).
 
     Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
+
+    Parameters
+    ----------
+    leading : axes that every array is to have, whatever depends on columns.
     """
     rows = [_row(row.cylinder) for throw in machine.throws for row in throw.rows if row.cylinder is not None]
 
-    def part(number: int) -> Real:
-        values = stacked([row[side][number] for row in rows for side in (0, 1)])
-        return values.reshape(*values.shape[:-1], -1, 2)
-
-    area, low, high, clearance, expansion, compression, closed = (part(number) for number in range(7))
+    values = stacked([row[side][number] for number in range(7) for row in rows for side in (0, 1)])
+    axes = np.broadcast_shapes(leading, values.shape[:-1])
+    table = np.broadcast_to(values, (*axes, values.shape[-1])).reshape(*axes, 7, len(rows), 2)
+    area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -3, 0)
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 
 

@@ -38,7 +38,12 @@ class GasForces:
     """Gas over shaft angles."""
 
     pressure: Real  # (..., rows, 2, T) Pa
-    force: Real  # (..., rows, 2, T) N, positive in rod tension
+    area: Real  # (..., rows, 2) m^2
+
+    @property
+    def force(self) -> Real:
+        """(..., rows, 2, T) N, positive in rod tension."""
+        return _SIGN[:, None] * self.pressure * self.area[..., None]
 
     @property
     def total(self) -> Real:
@@ -67,7 +72,7 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout) -> GasForces:
     compression = low * ((stroke + safe) / (travel + safe)) ** chambers.compression_exponent[..., None]
     pressure = np.where(growing, np.maximum(expansion, low), np.minimum(compression, high))
     pressure = np.where(closed, pressure, low)
-    return GasForces(pressure, _SIGN[:, None] * pressure * chambers.area[..., None])
+    return GasForces(pressure, chambers.area)
 
 
 def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:

@@ -5,7 +5,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -92,11 +92,29 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     )
 
 
-def stacked(fields: Sequence[Any]) -> Real:
-    """Fields side by side on a last axis, (..., len(fields)); each is a number or a column (N,)."""
-    if all(isinstance(field, float | int) for field in fields):
-        return np.array(fields, dtype=float)
-    return np.stack(np.broadcast_arrays(*(np.asarray(field, dtype=float) for field in fields)), axis=-1)
+def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
+    """The layout with all of the leading axes in every array; what is common to all designs is not copied."""
+
+    def each(part: Any) -> Any:
+        arrays = {field.name: getattr(part, field.name) for field in fields(part)}
+        return replace(part, **{name: np.broadcast_to(one, (*leading, one.shape[-1])) for name, one in arrays.items()})
+
+    return Layout(
+        omega=np.broadcast_to(plan.omega, leading),
+        sense=np.broadcast_to(plan.sense, leading),
+        centre_plane=np.broadcast_to(plan.centre_plane, leading),
+        reference_plane=np.broadcast_to(plan.reference_plane, leading),
+        rotating=each(plan.rotating),
+        reciprocating=each(plan.reciprocating),
+        webs=each(plan.webs),
+    )
+
+
+def stacked(values: Sequence[Any]) -> Real:
+    """Values side by side on a last axis, (..., len(values)); each is a number or a column (N,)."""
+    if all(isinstance(value, float | int) for value in values):
+        return np.array(values, dtype=float)
+    return np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values)), axis=-1)
 
 
 def quotient(numerator: Any, denominator: Any) -> tuple[Any, Any]:

@@ -11,44 +11,55 @@ from optimizer.mechanics.layout import Layout
 
 @dataclass(frozen=True)
 class RodForces:
-    """Forces of the rows over shaft angles, (..., rows, T).
+    """Forces that a piston force sends into the mechanism, over shaft angles (..., rows, T); worked out when asked for.
 
-    rod : P / cos beta, tension positive, N
-    side : P tan beta, on the crosshead guide, N
-    tangential : P sin(phi + beta) / cos beta, positive against rotation, N
-    radial : P cos(phi + beta) / cos beta, positive outward along the crank, N
-    torque : tangential force times crank radius, positive against rotation, N m
-    overturning : side force times the distance from pin to shaft, N m; equals the torque
+    Source: seed 001 l. 11-16; seed 004, 2-21 and 2-22.
     """
 
-    rod: Real
-    side: Real
-    tangential: Real
-    radial: Real
-    torque: Real
-    overturning: Real
+    piston: Real  # P, N, tension positive
+    motion: Motion
+    crank_radius: Real  # (..., rows, 1) m
+
+    @property
+    def rod(self) -> Real:
+        """P / cos beta, tension positive, N."""
+        return self.piston / self.motion.rod_angle_cosine
+
+    @property
+    def side(self) -> Real:
+        """P tan beta, on the crosshead guide, N."""
+        return self.piston * self._tangent
+
+    @property
+    def tangential(self) -> Real:
+        """P sin(phi + beta) / cos beta, positive against rotation, N."""
+        return self.piston * self.motion.tangential_factor
+
+    @property
+    def radial(self) -> Real:
+        """P cos(phi + beta) / cos beta, positive outward along the crank, N."""
+        return self.piston * self.motion.radial_factor
+
+    @property
+    def torque(self) -> Real:
+        """Tangential force times crank radius, positive against rotation, N m."""
+        return self.tangential * self.crank_radius
+
+    @property
+    def overturning(self) -> Real:
+        """Side force times the distance from pin to shaft, N m; equals the torque."""
+        phi = self.motion.crank_angle
+        # l sin beta = r sin phi, which stands for the infinite rod as well: N h = P (l sin beta + r cos phi tan beta)
+        return self.piston * (self.crank_radius * (np.sin(phi) + np.cos(phi) * self._tangent))
+
+    @property
+    def _tangent(self) -> Real:
+        return self.motion.rod_angle_sine / self.motion.rod_angle_cosine
 
 
 def rod_forces(piston_force: Real, motion: Motion, layout: Layout) -> RodForces:
-    """Forces that a piston force sends into the mechanism (seed 001 l. 11-16; seed 004, 2-21 and 2-22).
-
-    Parameters
-    ----------
-    piston_force : (..., rows, T) N, tension positive.
-    """
-    radius = layout.reciprocating.crank_radius[..., None]
-    tangent = motion.rod_angle_sine / motion.rod_angle_cosine
-    tangential = piston_force * motion.tangential_factor
-    # l sin beta = r sin phi, which stands for the infinite rod as well: N h = P (l sin beta + r cos phi tan beta)
-    lever = radius * (np.sin(motion.crank_angle) + np.cos(motion.crank_angle) * tangent)
-    return RodForces(
-        rod=piston_force / motion.rod_angle_cosine,
-        side=piston_force * tangent,
-        tangential=tangential,
-        radial=piston_force * motion.radial_factor,
-        torque=tangential * radius,
-        overturning=piston_force * lever,
-    )
+    """Forces that a piston force (..., rows, T) N, tension positive, sends into the mechanism."""
+    return RodForces(piston_force, motion, layout.reciprocating.crank_radius[..., None])
 
 
 def shaft_loads(piston_force: Real, motion: Motion, layout: Layout, shaft_angle: Real) -> tuple[Real, Complex]:

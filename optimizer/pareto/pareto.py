@@ -12,12 +12,13 @@ from optimizer.figures.first_order import first_order, floor
 from optimizer.figures.proof import named, physical
 from optimizer.formulate import ceilings
 from optimizer.optimize import optimize, proven_or_null
+from optimizer.outputs import prepare
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
 from optimizer.program.optimum import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import Claim, verdict
-from optimizer.scene import Prepared, prepare
+from optimizer.scene import Prepared
 from schemas.answers import MachineLimit, Timing
 from schemas.machine import Machine
 from schemas.pareto import (

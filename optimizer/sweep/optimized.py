@@ -9,7 +9,7 @@ from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.formulate import limits as limits_of
 from optimizer.formulate import weights as weights_of
-from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses, reciprocating, rotating
+from optimizer.mechanics.inertia import Wrench, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.program.batch import Optima, joined, optima
@@ -53,7 +53,7 @@ def optimized(
     found = _found(program, request, solver)
     mass, angle = masses_and_angles(found.unbalance, program.limits.radius)
     u = unbalance(mass, angle, program.limits.radius)
-    columns = _certified(request, program, found, u, mass, square) | first_order_peaks(layout, baseline, u)
+    columns = _certified(request, program, found, u, mass, square)
     columns["total_mass_kg"] = np.sum(mass, axis=-1)
     if multipliers:
         columns[MULTIPLIERS] = multipliers_as_text(program, found, square, request.objective.least_mass)
@@ -64,15 +64,6 @@ def optimized(
         for name, column in columns.items()
     }
     return columns, u
-
-
-def first_order_peaks(layout: Layout, baseline: Wrench, u: Complex) -> Columns:
-    """Peaks of force and moment with counterweights (count, webs) kg m."""
-    residual = baseline.plus(counterweights(layout, u)).times(layout.omega**2)
-    return {
-        "force_peak_N": np.broadcast_to(residual.force.peak, u.shape[:1]),
-        "moment_peak_Nm": np.broadcast_to(residual.moment.peak, u.shape[:1]),
-    }
 
 
 def _found(program: Statement, request: OptimizeRequest, solver: Solver) -> Optima:

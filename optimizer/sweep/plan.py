@@ -5,10 +5,10 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
-from optimizer.sweep.over_turn import work_per_design
 from optimizer.sweep.table import result_schema
 from optimizer.sweep.validity import missing_inputs
 from optimizer.sweep.variation import with_fields
+from optimizer.sweep.work import work_per_design
 from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest
 from schemas.sweep import Column, SweepColumn, SweepEstimate, SweepRequest

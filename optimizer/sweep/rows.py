@@ -7,16 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
-from optimizer.mechanics.layout import layout
+from optimizer.outputs import columns
 from optimizer.program.reference.solver import Solver
 from optimizer.sweep.analyzed import analyzed
 from optimizer.sweep.designs import axis_values
 from optimizer.sweep.optimized import optimized, shape_keys
-from optimizer.sweep.over_turn import figures, work_per_design
-from optimizer.sweep.pins import peak_pin_load
 from optimizer.sweep.validity import Finding, input_findings, range_findings, rule_findings
 from optimizer.sweep.variation import with_fields
-from schemas.machine import ScrollMachine
+from optimizer.sweep.work import work_per_design
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest, pointer
 from schemas.sweep.target import Path
@@ -110,21 +108,15 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multiplie
 
 def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Complex) -> None:
     """Columns of the outputs, in blocks that fit into memory."""
-    request = group.of(designs[:1])
-    if "pin_loads" in request.outputs:
-        machine = group.of(designs).machine
-        assert isinstance(machine, ScrollMachine)  # missing inputs otherwise
-        table.put(designs, {"peak_pin_load_N": peak_pin_load(machine, designs.size)})
-    size = max(1, _AT_ONCE // max(work_per_design(request), 1))
+    # without counterweights there is nothing with them
+    none = table.columns["status"][designs] == "infeasible"
+    fitted = np.where(none[:, None], np.nan, unbalance)
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1])), 1))
     for first in range(0, designs.size, size):
         block = designs[first : first + size]
         part = group.of(block)
-        found = figures(part, layout(part.machine), unbalance[first : first + size])
-        if "peak_bearing_load_N" in found:
-            # without counterweights there is no load with them
-            infeasible = table.columns["status"][block] == "infeasible"
-            found["peak_bearing_load_N"] = np.where(infeasible, np.nan, found["peak_bearing_load_N"])
-        table.put(block, found)
+        always = ("residual",) if isinstance(part, OptimizeRequest) else ()
+        table.put(block, columns(part, fitted[first : first + size], always))
 
 
 def _refuse(table: Rows, designs: Designs, findings: Iterable[Finding]) -> Designs:

@@ -14,10 +14,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Real
-from optimizer.effects.registry import EFFECTS, OUTPUTS, closure
+from optimizer.effects.registry import EFFECTS, closure
 from optimizer.mechanics.cylinders import chambers, gas_problems
 from optimizer.mechanics.gas import switching_travels
 from optimizer.mechanics.layout import layout, stacked
+from optimizer.outputs import OUTPUTS
 from optimizer.sweep.variation import field_at
 from schemas.cylinder import Cylinder
 from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine

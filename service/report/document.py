@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from datetime import UTC, datetime
 
-from optimizer.effects.registry import require_inputs
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
+from optimizer.outputs import require_inputs
 from schemas.answers import OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest

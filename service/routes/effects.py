@@ -2,7 +2,7 @@
 
 from fastapi import APIRouter
 
-from optimizer.effects.catalogue import catalogue
+from optimizer.catalogue import catalogue
 from schemas.effects import EffectCatalogue
 from service.http.openapi import problems
 

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 
 from optimizer.analyze import analyze
-from optimizer.effects.registry import OUTPUTS
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
+from optimizer.outputs import OUTPUTS
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import even_pin_loads
 from schemas.requests import AnalyzeRequest

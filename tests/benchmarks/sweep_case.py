@@ -8,8 +8,8 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.formulate import formulate
+from optimizer.outputs import prepare
 from optimizer.program.statement import Statement
-from optimizer.scene import prepare
 from optimizer.sweep.designs import axis_values
 from optimizer.sweep.rows import Group
 from schemas.requests import OptimizeRequest

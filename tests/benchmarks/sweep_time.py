@@ -35,7 +35,7 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.sweep.optimized:masses_and_angles",
         "optimizer.sweep.optimized:unbalance",
         "optimizer.sweep.optimized:_certified",
-        "optimizer.sweep.optimized:first_order_peaks",
+        "optimizer.sweep.rows:columns",
     ),
     "table, Parquet": ("optimizer.sweep.chunk:result_table", "service.jobs.kinds:_piece"),
 }

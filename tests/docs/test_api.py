@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.effects.catalogue import catalogue
+from optimizer.catalogue import catalogue
 from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
 from optimizer.program import solution

@@ -8,8 +8,9 @@ import pytest
 
 from optimizer.effects import registry
 from optimizer.effects.effect import Context
-from optimizer.effects.registry import EFFECTS, OUTPUTS, closure
+from optimizer.effects.registry import EFFECTS, closure
 from optimizer.errors import MissingInput
+from optimizer.outputs import MAX_SAMPLES, OUTPUTS
 from schemas.machine import ReciprocatingMachine
 from tests.analyze.driven import ask
 from tests.effects.machines import EVERY, SCROLL, complete, figures, found
@@ -225,6 +226,6 @@ def test_more_rows_than_can_be_sampled_are_refused() -> None:
     with pytest.raises(MissingInput) as caught:
         ask(body | {"throws": body["throws"] * 3}, "gas", "residual", step_deg=0.01)
     assert ("angles", "step_deg") in [problem.path for problem in caught.value.problems]
-    assert count * 36000 * 3 > registry.MAX_SAMPLES
+    assert count * 36000 * 3 > MAX_SAMPLES
     # outputs without series are not sampled
     assert ask(body, "residual", step_deg=0.01).residual is not None

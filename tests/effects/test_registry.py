@@ -8,12 +8,15 @@ import pytest
 
 from optimizer.effects import registry
 from optimizer.effects.effect import Context
-from optimizer.effects.registry import EFFECTS, OUTPUTS, closure, inputs_of, simulate
+from optimizer.effects.registry import EFFECTS, closure, inputs_of, simulate
 from optimizer.mechanics.layout import layout
+from optimizer.outputs import OUTPUTS
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, Fidelity, Output
 from tests.effects.machines import EVERY, complete
+
+_ASKED = {name: OUTPUTS[name].needs for name in EVERY}
 
 
 def test_every_output_of_the_contract_is_registered_and_answered() -> None:
@@ -58,7 +61,7 @@ def _fields(model: Any, path: list[str]) -> bool:
 
 @pytest.mark.parametrize("output", EVERY)
 def test_inputs_are_fields_of_the_request(output: str) -> None:
-    named = inputs_of(output)
+    named = inputs_of(OUTPUTS[output].needs)
     assert len(set(named)) == len(named)
     for path in named:
         assert _fields(AnalyzeRequest, path.split(".")), path
@@ -93,7 +96,7 @@ def test_the_context_holds_exactly_what_was_declared(monkeypatch: pytest.MonkeyP
     body = complete() if friction else complete(friction=None)
     machine = ReciprocatingMachine.model_validate(body)
     monkeypatch.setattr(registry, "EFFECTS", {name: watched(name) for name in EFFECTS})
-    simulate(machine, layout(machine), EVERY, Fidelity(), np.linspace(0.0, 6.0, 8))
+    simulate(machine, layout(machine), _ASKED, Fidelity(), np.linspace(0.0, 6.0, 8))
     for name, effect in EFFECTS.items():
         if name == "pin_loads" or (name == "friction" and not friction):
             assert name not in seen
@@ -116,7 +119,7 @@ def test_every_effect_runs_once_at_the_samples(monkeypatch: pytest.MonkeyPatch) 
 
     machine = ReciprocatingMachine.model_validate(complete())
     monkeypatch.setattr(registry, "EFFECTS", {name: counted(name) for name in EFFECTS})
-    simulate(machine, layout(machine), EVERY, Fidelity(), np.linspace(0.0, 6.0, 7))
+    simulate(machine, layout(machine), _ASKED, Fidelity(), np.linspace(0.0, 6.0, 7))
     assert [name for name, size in calls if size == 7] == [name for name in EFFECTS if name != "pin_loads"]
     # the integrals over the turn look at other angles, and only at what they need
     elsewhere = {name for name, size in calls if size != 7}

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.effects.registry import simulate
+from optimizer.effects.registry import run
 from optimizer.mechanics.gas import switching_angles
 from optimizer.mechanics.layout import layout
 from schemas.machine import ReciprocatingMachine
@@ -20,7 +20,7 @@ from tests.hard_effects.exact import Number, Row, State, mp
 from tests.hard_effects.exact_turn import Machine, angle_at
 from tests.hard_effects.machines import MACHINES, Hard
 
-_OUTPUTS = ("torque", "rod_loads", "overturning", "main_bearings")
+_EFFECTS = ("torque", "torque_integrals", "rod_forces", "shaft_loads")
 _BEARINGS = [{"name": "A", "position_m": -0.3}, {"name": "B", "position_m": 0.7}]
 
 
@@ -44,7 +44,7 @@ def _measure(hard: Hard) -> Iterator[Finding]:
     exact = Machine(body)
     angles = _angles(exact)
     plan = layout(machine)
-    found = simulate(machine, plan, _OUTPUTS, Fidelity(), np.array(angles)).results
+    found = run(machine, plan, _EFFECTS, Fidelity(), np.array(angles))
     states = [[row.at(theta) for theta in angles] for row in exact.rows]
     demanded = ALGEBRAIC * hard.condition
 

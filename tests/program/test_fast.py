@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.formulate import formulate
+from optimizer.outputs import prepare
 from optimizer.program.batch import optima
 from optimizer.program.fast import Fast, fast
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS
@@ -16,7 +17,6 @@ from optimizer.program.optimum import Unreachable, optimum, yardstick
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
-from optimizer.scene import prepare
 from schemas.requests import OptimizeRequest
 from tests.hard import stored
 from tests.hard.cases import all_cases

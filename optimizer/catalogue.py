@@ -1,6 +1,7 @@
 """Outputs and effects described for people and clients."""
 
-from optimizer.effects.registry import EFFECTS, OUTPUTS, effects_of, inputs_of
+from optimizer.effects.registry import EFFECTS, effects_of, inputs_of
+from optimizer.outputs import OUTPUTS
 from schemas.effects import EffectCatalogue, EffectEntry, OutputEntry
 
 
@@ -9,7 +10,7 @@ def catalogue() -> EffectCatalogue:
     return EffectCatalogue(
         outputs=tuple(
             OutputEntry(
-                name=name, meaning=output.meaning, needs=tuple(effects_of(output.needs)), inputs=inputs_of(name)
+                name=name, meaning=output.meaning, needs=tuple(effects_of(output.needs)), inputs=inputs_of(output.needs)
             )
             for name, output in OUTPUTS.items()
         ),
