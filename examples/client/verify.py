@@ -35,7 +35,7 @@ CEILING = 1e-9
 #: largest mass_relative_gap of an optimal answer
 MASS_GAP = 1e-4
 #: in the unit of the figure: what is smaller than doubles can tell from 0
-NOTHING = 1e-250
+NOTHING = 1e-230
 
 HELD, BROKEN, NOT_COVERED = "held", "broken", "not covered"
 #: an answer is held if these claims are, as far as they are made
@@ -296,7 +296,9 @@ class Place:
         return Vector((self / "x").number(), (self / "y").number())
 
     def _quantity(self, text: str) -> float:
-        units = UNITS.get(str(self.path[-1]).rpartition("_")[2], {})
+        # of a list, the name of the list
+        name = next(str(part) for part in reversed(self.path) if isinstance(part, str))
+        units = UNITS.get(name.rpartition("_")[2], {})
         match = _QUANTITY.fullmatch(text) if len(text) <= 48 else None
         symbol = " ".join(match.group(2).split()) if match else ""
         if match is None or symbol not in units:
@@ -521,6 +523,7 @@ class Program:
     def bound(self, multipliers: Place, limits: Sequence[Real | None], cost: Real, conflict: bool = False) -> Bound:
         """The Lagrangian at its smallest over the limits, docs/mathematics.md section 5."""
         row = {(one / "name").text(): (one / "value").number(least=0) for one in multipliers / "rows"}
+        row = {name: value for name, value in row.items() if value.high > 0}
         if not {*row} <= {*(self.ceilings if conflict else self.floor)}:
             raise NotCovered(pointer((*multipliers.path, "rows")))
         constant, noise, slope = ZERO, ZERO, {"force": NOWHERE, "moment": NOWHERE}
@@ -529,8 +532,10 @@ class Program:
             noise = noise + row.get(name, ZERO) * self.size[name]
         sums: dict[tuple[str, str], Vector] = {}
         for term in multipliers / "terms":
-            key = _plain(term, self.terms)
-            sums[key] = sums.get(key, NOWHERE) + term.vector()
+            vector = term.vector()
+            if abs(vector).high > 0:
+                key = _plain(term, self.terms)
+                sums[key] = sums.get(key, NOWHERE) + vector
         for (which, part), vector in sums.items():
             name, start, factor = self.terms[which, part]
             y = shortened(vector, row.get(name, ZERO))
@@ -677,7 +682,7 @@ def check_first_order(claims: Claims, claim: str, place: Place, responses: dict[
             if said:
                 claims.near(claim, said, evaluate(response), response.size)
         axis = place / name / "major_axis_deg"
-        product, noise = response.co.turned(response.counter), response.size * real(ROUNDING)
+        product, noise = response.co.turned(response.counter), response.size * real(ROUNDING) + real(NOTHING)
         if axis and not (abs(response.co).at_most(noise) or abs(response.counter).at_most(noise)):
             middle = direction(axis.double())
             off = abs(product - middle.turned(middle) * abs(product))
@@ -769,10 +774,10 @@ def check_optimum(claims: Claims, request: Place, answer: Place) -> None:
     proof = answer / "certificate"
     value, size = program.value(after, weights, combine)
     claims.near("objective", proof / "objective", value, size)
-    rest, rest_size = program.value(machine.responses, weights, combine)
+    rest = program.value(machine.responses, weights, combine)
     if proof / "objective_without_counterweights":
-        claims.near("before", proof / "objective_without_counterweights", rest, rest_size)
-    check_bounds(claims, program, request, proof, value, mass, status == "optimal")
+        claims.near("before", proof / "objective_without_counterweights", *rest)
+    check_bounds(claims, program, request, proof, value, rest, mass, status == "optimal")
 
 
 _REQUEST = ("machine", "objective", "accuracy", "outputs", "angles", "fidelity", "multipliers")
@@ -791,7 +796,14 @@ _OBJECTIVE = (
 
 
 def check_bounds(
-    claims: Claims, program: Program, request: Place, proof: Place, value: Real, mass: Real, optimal: bool
+    claims: Claims,
+    program: Program,
+    request: Place,
+    proof: Place,
+    value: Real,
+    rest: tuple[Real, Real],
+    mass: Real,
+    optimal: bool,
 ) -> None:
     """Lower bounds of objective and mass from their multipliers, gaps, and whether they make an optimum."""
     machine, names = program.machine, sorted(program.floor)
@@ -820,7 +832,7 @@ def check_bounds(
         claims.near("gap", gap, objective.number(0.0) - lowest.number(0.0), both)
     difference = objective.number(0.0) - lowest.number(0.0)
     if proof / "yardstick":
-        check_yardstick(claims, program, proof, limits)
+        check_yardstick(claims, program, proof / "yardstick", rest, limits)
         share = proof / "relative_gap"
         if share:
             claims.room("relative_gap", noise - abs(share.number() * scale - difference), both, share)
@@ -857,15 +869,17 @@ def reaches(machine: Machine, implied: Place) -> list[Real | None]:
     ]
 
 
-def check_yardstick(claims: Claims, program: Program, proof: Place, limits: Sequence[Real | None]) -> None:
-    """The objective without counterweights, or where there is none at most what they could make it."""
-    place = proof / "yardstick"
-    rest = (proof / "objective_without_counterweights").number(0.0)
-    if rest.low > 0:
-        claims.near("yardstick", place, rest, rest)
+def check_yardstick(
+    claims: Claims, program: Program, place: Place, rest: tuple[Real, Real], limits: Sequence[Real | None]
+) -> None:
+    """The objective without counterweights, or where it is 0 to rounding at most what they could make it."""
+    value, size = rest
+    if not value.at_most(size * real(ROUNDING)):
+        claims.near("yardstick", place, value, size)
         return
     reach, machine = ZERO, program.machine
-    for web, limit in zip(machine.webs, limits):
+    for web, own in zip(machine.webs, limits):
+        limit = own if own is not None else machine.budget
         if limit is None:
             claims.put("yardstick", NOT_COVERED, None, place)
             return
@@ -1064,7 +1078,7 @@ def _as_answer(row: Place, body: Any) -> Place:
         "counterweights": weights,
         "total_mass_kg": (row / "total_mass_kg").value,
         "residual": {"after": peaks},
-        "certificate": {**row.value, **proof, "multipliers": proof},
+        "certificate": {**proof, **row.value, "multipliers": proof},
         "infeasibility": {
             **proof,
             "multipliers": proof,

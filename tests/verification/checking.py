@@ -1,0 +1,29 @@
+"""Answers on their way to a test, each through the independent checker."""
+
+import json
+from typing import Any
+
+from optimizer.optimize import optimize
+from schemas.answers import OptimizeAnswer
+from schemas.requests import OptimizeRequest
+from service.verification import checker
+
+
+def optimized(body: dict[str, Any]) -> OptimizeAnswer:
+    """The answer to a request; no claim of it is broken."""
+    answer = optimize(OptimizeRequest.model_validate(body))
+    found = broken(body, json.loads(answer.model_dump_json()))
+    assert not found, "\n".join([*found, json.dumps(body)])
+    return answer
+
+
+def broken(request: Any, answer: Any) -> list[str]:
+    """The claims of an answer, or of rows, that do not hold."""
+    claims = checker().verify(request, answer)["claims"]
+    return [f"{one['claim']} {one['margin']} {one['where']}" for one in claims if one["verdict"] == "broken"]
+
+
+def verdict(request: Any, answer: Any) -> str:
+    """The verdict on an answer, or on rows."""
+    found: str = checker().verify(request, answer)["verdict"]
+    return found

@@ -1,0 +1,129 @@
+"""Every kind of answer holds, every falsified one is caught, and nothing that is sent raises.
+
+Independent: the checker shares no code with what computed the answers.
+"""
+
+import json
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from optimizer.optimize import optimize
+from schemas.requests import OptimizeRequest
+from service.verification import checker
+from tests.verification.checking import broken, verdict
+from tests.verification.kinds import SINGLE
+from tests.verification.tampering import beyond_limits, tampered
+
+
+@pytest.fixture(scope="module", params=SINGLE)
+def case(request: pytest.FixtureRequest) -> tuple[dict[str, Any], dict[str, Any]]:
+    body = SINGLE[request.param]
+    return body, json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+
+
+def test_every_kind_of_answer_is_held(case: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    body, answer = case
+    assert not broken(body, answer)
+    assert verdict(body, answer) == "held"
+
+
+def test_the_kinds_are_what_they_say() -> None:
+    told = {name: optimize(OptimizeRequest.model_validate(body)).status for name, body in SINGLE.items()}
+    assert {name for name, status in told.items() if status == "infeasible"} == {
+        name for name in SINGLE if name.startswith("infeasible")
+    }
+
+
+def test_what_is_falsified_is_caught(case: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    body, answer = case
+    for name, wrong in tampered(answer):
+        assert broken(body, wrong), name
+    for name, tighter in beyond_limits(body, answer):
+        assert broken(tighter, answer), name
+
+
+def test_multipliers_that_are_too_long_prove_no_more() -> None:
+    """Analytic: |y| <= lambda is made to hold, so a bound never rises by longer multipliers."""
+    body = SINGLE["sum"]
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    for term in answer["certificate"]["multipliers"]["objective"]["terms"]:
+        term["x"] *= 1000
+        term["y"] *= 1000
+    answer["certificate"]["lower_bound"] = answer["certificate"]["objective"]
+    assert any(one.startswith("lower_bound") for one in broken(body, answer))
+
+
+def test_what_the_checker_does_not_know_is_not_covered() -> None:
+    body = SINGLE["sum"]
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    more = {**body, "scenarios": [{"name": "hot", "changes": []}]}
+    found = checker().verify(more, answer)
+    assert found["verdict"] == "not covered"
+    assert {"claim": "request", "verdict": "not covered", "margin": None, "where": "/request/scenarios"} in found[
+        "claims"
+    ]
+
+
+_WEB = SINGLE["sum"]["machine"]["webs"][0]["name"]
+_ANSWER = json.loads(optimize(OptimizeRequest.model_validate(SINGLE["ceilings"])).model_dump_json())
+_JSON = st.recursive(
+    st.none()
+    | st.booleans()
+    | st.floats()
+    | st.integers()
+    | st.sampled_from([10**400, -(10**400), 10**4000, 1e308, -1e308, 5e-324, "", "5 kg", "1e999 mm", "\ud800", _WEB])
+    | st.text(max_size=5),
+    lambda inner: (
+        st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3) | st.just("name"), inner, max_size=3)
+    ),
+    max_leaves=6,
+)
+
+
+def _paths(node: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
+    found = [path]
+    if isinstance(node, dict):
+        return [*found, *(deeper for key, value in node.items() for deeper in _paths(value, (*path, key)))]
+    if isinstance(node, list):
+        return [*found, *(deeper for key, value in enumerate(node) for deeper in _paths(value, (*path, key)))]
+    return found
+
+
+_ASKED_AND_ANSWERED = {"request": SINGLE["ceilings"], "answer": _ANSWER}
+_PLACES = [path for path in _paths(_ASKED_AND_ANSWERED) if path]
+
+
+def _with(node: Any, path: tuple[str | int, ...], value: Any) -> Any:
+    if not path:
+        return value
+    if isinstance(node, dict):
+        return {key: _with(one, path[1:], value) if key == path[0] else one for key, one in node.items()}
+    return [_with(one, path[1:], value) if key == path[0] else one for key, one in enumerate(node)]
+
+
+@given(st.lists(st.tuples(st.sampled_from(_PLACES), _JSON), min_size=1, max_size=3))
+def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
+    """Any JSON in any place of request and answer is judged, or refused by name."""
+    sent: Any = _ASKED_AND_ANSWERED
+    for path, value in changes:
+        sent = _with(sent, path, value)
+    _judged(sent["request"], sent["answer"])
+
+
+@given(_JSON, _JSON)
+def test_anything_at_all_is_judged_or_refused(request: Any, answer: Any) -> None:
+    _judged(request, answer)
+
+
+def _judged(request: Any, answer: Any) -> None:
+    path: tuple[str | int, ...] = ()
+    try:
+        found = checker().verify(request, answer)
+    except checker().Unreadable as error:
+        path = error.path
+    else:
+        json.dumps(found, allow_nan=False).encode()
+    assert path[:1] in ((), ("request",), ("answer",))

@@ -1,0 +1,98 @@
+"""Fronts and the rows of sweeps, each point and each row with its claims."""
+
+import json
+from typing import Any
+
+import pytest
+
+from optimizer.pareto.pareto import pareto
+from optimizer.program.reference.solver import Solver
+from optimizer.sweep.rows import rows
+from optimizer.sweep.table import result_schema, result_table
+from schemas.pareto import ParetoRequest
+from schemas.sweep import SweepRequest
+from service.verification import checker
+from tests.verification.checking import broken, verdict
+from tests.verification.kinds import SINGLE
+
+FRONTS: dict[str, dict[str, Any]] = {
+    "plain": {**SINGLE["sum"], "points": 4, "multipliers": True},
+    "budgets": {
+        **SINGLE["direction weights"],
+        "points": 3,
+        "multipliers": True,
+        "total_mass_budgets_kg": [2.0, "6 lb"],
+    },
+    "scroll": {**SINGLE["scroll-oldham"], "points": 3, "multipliers": True},
+    "infeasible": {**SINGLE["infeasible"], "points": 3, "multipliers": True},
+}
+SWEEPS: dict[str, dict[str, Any]] = {
+    "masses and texts": {
+        "multipliers": True,
+        "base": SINGLE["texts with units"],
+        "axes": [
+            {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [3.0, "20 lb"]},
+            {"path": "/objective/force_ceiling_N", "values": [None, "8 kN", 100]},
+            {"path": "/machine/webs/1/sector/half_angle_deg", "start": 5, "stop": 60, "count": 2},
+        ],
+    },
+    "scroll": {
+        "multipliers": True,
+        "base": SINGLE["scroll-oldham"],
+        "axes": [{"path": "/machine/speed_rpm", "values": [900, 1800]}],
+    },
+}
+
+
+def swept(body: dict[str, Any]) -> list[dict[str, Any]]:
+    """The rows as NDJSON has them."""
+    request = SweepRequest.model_validate(body)
+    table = result_table(rows(request, 0, request.total, Solver()), result_schema(request, b"{}"))
+    return [json.loads(json.dumps(row)) for row in table.to_pylist()]
+
+
+def claims(request: Any, answer: Any) -> dict[str, str]:
+    return {one["claim"]: one["verdict"] for one in checker().verify(request, answer)["claims"]}
+
+
+@pytest.fixture(scope="module", params=FRONTS)
+def front(request: pytest.FixtureRequest) -> tuple[dict[str, Any], dict[str, Any]]:
+    body = FRONTS[request.param]
+    return body, json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
+
+
+def test_a_front(front: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    body, answer = front
+    assert not broken(body, answer)
+    assert verdict(body, answer) == "held"
+    if answer["status"] != "infeasible":
+        assert {"objective", "gap", "status", "ceilings", "counterweights"} - {"ceilings"} <= claims(
+            body, answer
+        ).keys()
+
+
+def test_falsified_points_are_caught(front: tuple[dict[str, Any], dict[str, Any]]) -> None:
+    body, answer = front
+    for one in (point for each in answer["fronts"] for point in each["points"]):
+        for name in ("force_peak_N", "weighted_moment_peak_Nm", "total_mass_kg"):
+            right = one[name]
+            one[name] = right * (1 + 1e-6)
+            assert not right or broken(body, answer), name
+            one[name] = right
+
+
+@pytest.mark.parametrize("name", SWEEPS)
+def test_the_rows_of_a_sweep(name: str) -> None:
+    body, table = SWEEPS[name], swept(SWEEPS[name])
+    assert not broken(body, table)
+    assert verdict(body, table) == "held"
+    assert claims(body, table)["objective"] == "held"
+    mass = f"mass_kg.{body['base']['machine']['webs'][0]['name']}"
+    for row in table:
+        for column in ("force_peak_N", "objective", "total_mass_kg", mass):
+            right = row[column]
+            # what is less than 1e-8 of the whole is seen in it by no double
+            if right and (column != mass or right > 1e-6 * row["total_mass_kg"]):
+                row[column] = right * (1 + 1e-6)
+                assert broken(body, table), column
+                row[column] = right
