@@ -86,7 +86,10 @@ class RuleOfThumb(Model):
     """A classic partial balance beside the optimum, for comparison."""
 
     name: str = Field(description="which rule", examples=["transfer 20 % of the first-order force"])
-    source: str = Field(description="where the rule is from", examples=["seed 002, single row, vertical"])
+    source: str = Field(
+        description="where the rule is from",
+        examples=["lecture slides on balancing (Уравновешивание), single row, vertical"],
+    )
     transferred_share: float = Field(description="share k of the force or moment turned across", examples=[0.25])
     total_mass_radius_kg_m: float = Field(
         description="total mass times radius that the rule asks for",

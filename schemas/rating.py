@@ -63,7 +63,8 @@ class CompressionStage(Model):
     )
     expansion_exponent: Exponent | None = Field(
         None,
-        description="polytropic exponent m of the re-expansion; null reads it off table 1-3 of seed 004",
+        description="polytropic exponent m of the re-expansion; null reads it off table 1-3 of the design calculation "
+        "of the 2D12-90/2-20 compressor",
         examples=[1.25],
     )
     compression_exponent: Exponent | None = Field(
@@ -92,7 +93,7 @@ class CompressionStage(Model):
     suction_pressure_loss: Loss | None = Field(
         None,
         description="relative pressure loss at suction, for air at a mean piston speed of 3.5 m/s; "
-        "null is the power law through the readings of seed 004",
+        "null is the power law through the readings in the design calculation of the 2D12-90/2-20 compressor",
         examples=[0.036],
     )
     discharge_pressure_loss: Loss | None = Field(

@@ -27,6 +27,7 @@ from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
 from service.routes import computations, effects, examples, health, portal, sweeps
 from service.routes import metrics as metrics_route
+from service.routes import version as version_route
 from service.settings import Settings
 from service.watch.metrics import Metrics
 from service.watch.needs import database, disk
@@ -35,7 +36,7 @@ from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
 from service.workers.pool import Pool
 
-_RESOURCES = (sweeps, effects, examples, health, metrics_route, portal)
+_RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, portal)
 
 #: what pages of the origins that are allowed may send and read
 CORS: Mapping[str, Any] = {

@@ -27,7 +27,9 @@ class Rule(NamedTuple):
     share: float
 
 
-_HALF_SUM = Rule("half the sum of the extremes", "seed 002, V type", 0.5)
+#: where the customary shares are from, for those who read the answer
+_SOURCE = "lecture slides on balancing (Уравновешивание)"
+_HALF_SUM = Rule("half the sum of the extremes", f"{_SOURCE}, V type", 0.5)
 
 
 def force_rules(first: Phasors, square: float) -> tuple[RuleOfThumb, ...]:
@@ -89,7 +91,7 @@ def _figures(rule: Rule, first: Phasors, square: float, iron: float) -> RuleOfTh
 def _transfer(what: str, share: float, vertical: bool) -> Rule:
     orientation = "vertical" if vertical else "horizontal"
     layout = "single row" if what == "force" else "two rows in line, cranks 180 deg apart"
-    return Rule(f"transfer {100 * share:.0f} % of the first-order {what}", f"seed 002, {layout}, {orientation}", share)
+    return Rule(f"transfer {100 * share:.0f} % of the first-order {what}", f"{_SOURCE}, {layout}, {orientation}", share)
 
 
 def _is_circle(pair: Phasors) -> bool:

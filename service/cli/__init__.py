@@ -4,6 +4,8 @@ Exit codes: 0 optimal or computed, 1 infeasible or inaccurate, 2 bad input. The 
 the commands that need them, so that ``--help`` answers at once.
 """
 
+from typing import Annotated
+
 import typer
 
 from service.cli.catalogue import effects, examples, schema
@@ -12,18 +14,35 @@ from service.cli.key import key
 from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
+from service.cli.terminal import put
 from service.cli.verify import verify
 from service.computations import COMPUTATIONS
+
+
+def _version(asked: bool) -> None:
+    if asked:
+        from importlib.metadata import version
+
+        put(version("counterweight"))
+        raise typer.Exit
+
+
+def _options(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version and exit.")
+    ] = False,
+) -> None:
+    """Certified optimum counterweights for reciprocating and scroll machines."""
 
 
 def command_line() -> typer.Typer:
     """All commands."""
     made = typer.Typer(
-        help="Certified optimum counterweights for reciprocating and scroll machines.",
         no_args_is_help=True,
         add_completion=False,
         pretty_exceptions_enable=False,
     )
+    made.callback()(_options)
     for one in COMPUTATIONS.values():
         if one.chapters is not None:
             made.command(name=one.title)(command(one))

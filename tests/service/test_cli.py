@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -233,3 +234,9 @@ def test_help_does_not_load_the_optimiser() -> None:
     )
     assert subprocess.run([sys.executable, "-c", code], cwd=ROOT, timeout=60).returncode == 0
     assert "optimize" in run("--help").stdout
+
+
+def test_version(client: TestClient) -> None:
+    shown = run("--version")
+    assert (shown.exit_code, shown.stdout) == (0, f"{version('counterweight')}\n")
+    assert client.get("/v1/version").json() == {"version": version("counterweight")}

@@ -31,6 +31,7 @@ OPERATIONS = {
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
     ("get", "/healthz"): "healthz",
+    ("get", "/v1/version"): "read_version",
     ("get", "/readyz"): "readyz",
     ("get", "/metrics"): "metrics",
 }
