@@ -125,3 +125,9 @@ def test_the_table_of_problems_is_complete() -> None:
         found.add((said.status, said.type.removeprefix("/problems/")))
     # nobody reads the answer of a client that has gone; 500 stands below the table
     assert found - {(499, "client-gone"), (500, "internal-error")} == listed - {(405, "method-not-allowed")}
+
+
+def test_the_examples_that_hold_an_objective_are_named() -> None:
+    words = section(API, "POST /v1/analyze").split("```")[0]
+    refused = {name for name, body in bodies().items() if set(body) - set(AnalyzeRequest.model_fields)}
+    assert {name for name in bodies() if f"`{name}`" in words} == refused
