@@ -3,11 +3,14 @@
 import hashlib
 import json
 from collections.abc import Callable, Iterator
+from typing import get_args
 
 import pytest
 
 from optimizer.optimize import optimize
+from schemas.requests import Output
 from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Table
+from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
 from service.report.document import document
 from service.report.formula import formula
@@ -171,3 +174,8 @@ def test_the_digest_is_that_of_the_attached_request(made: Make) -> None:
 )
 def test_formulas(text: str, runs: list[tuple[str, str]]) -> None:
     assert list(formula(text)) == runs
+
+
+def test_every_output_has_its_chapter() -> None:
+    # the first order and the stages stand at places of their own
+    assert set(CHAPTERS) | {"residual", "stages"} == set(get_args(Output))

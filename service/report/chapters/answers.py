@@ -1,14 +1,23 @@
 """What the answers to an optimisation and to an analysis say, chapter by chapter."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Outputs
 from schemas.machine import Machine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
-from service.report.chapters.dynamics import dynamics
+from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.pins import pin_loads
+
+#: chapters of the outputs, in the order in which they stand
+CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
+    "orders": lambda _machine, found: balance.orders(found),
+    "hodograph": lambda _machine, found: balance.hodograph(found),
+    **OVER_THE_TURN,
+    "pin_loads": lambda _machine, found: pin_loads(found),
+}
 
 
 def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
@@ -37,10 +46,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
 
 def outputs(machine: Machine, answer: Outputs) -> Iterator[Chapter]:
     """A chapter for every output that was asked for, but for first order and stages, which have their own places."""
-    if answer.orders is not None:
-        yield balance.orders(answer.orders)
-    if answer.hodograph is not None:
-        yield balance.hodograph(answer.hodograph)
-    yield from dynamics(machine, answer)
-    if answer.pin_loads is not None:
-        yield pin_loads(answer.pin_loads)
+    for name, chapter in CHAPTERS.items():
+        found = getattr(answer, name)
+        if found is not None:
+            yield chapter(machine, found)

@@ -1,12 +1,11 @@
 """Effects over the turn: motion, gas, forces in the mechanism, torque, flywheel, main bearings."""
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from operator import itemgetter
-from typing import TypeVar
+from typing import Any, TypeVar
 
-from schemas.answers import Outputs
 from schemas.dynamics import (
     BearingLoad,
     Flywheel,
@@ -33,26 +32,6 @@ _CASES = {"running": "running", "no_load": "no load", "sudden_stop": "sudden sto
 _MAX_APART = 4
 _EXTREMES = "Extremes among the samples"
 _SIGNS = "Forces are positive in rod tension, torques against rotation."
-
-
-def dynamics(machine: Machine, answer: Outputs) -> Iterator[Chapter]:
-    """A chapter for every output over the turn that was asked for."""
-    if answer.kinematics is not None:
-        yield _kinematics(machine, answer.kinematics)
-    if answer.gas is not None:
-        yield _gas(machine, answer.gas)
-    if answer.piston_force is not None:
-        yield _piston_force(machine, answer.piston_force)
-    if answer.rod_loads is not None:
-        yield _rod_loads(machine, answer.rod_loads)
-    if answer.torque is not None:
-        yield _torque(machine, answer.torque)
-    if answer.flywheel is not None:
-        yield _flywheel(answer.flywheel)
-    if answer.overturning is not None:
-        yield _overturning(machine, answer.overturning)
-    if answer.main_bearings is not None:
-        yield from _main_bearings(answer.main_bearings)
 
 
 def figure(
@@ -227,7 +206,7 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
     )
 
 
-def _flywheel(found: Flywheel) -> Chapter:
+def _flywheel(_machine: Machine, found: Flywheel) -> Chapter:
     rows: list[tuple[str, float | str]] = [
         ("fluctuation energy ΔE, J", found.fluctuation_energy_J),
         ("irregularity δ", found.irregularity),
@@ -252,7 +231,7 @@ def _overturning(machine: Machine, found: Overturning) -> Chapter:
     )
 
 
-def _main_bearings(found: MainBearings) -> Iterator[Chapter]:
+def _main_bearings(_machine: Machine, found: MainBearings) -> Chapter:
     rows = [
         (
             one.name,
@@ -284,8 +263,21 @@ def _main_bearings(found: MainBearings) -> Iterator[Chapter]:
         figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
         Figure((drawn,), "Largest bending moment inside the shaft over the turn, plane by plane."),
     ]
-    yield Chapter("Main bearings", tuple(blocks))
+    return Chapter("Main bearings", tuple(blocks))
 
 
 def _magnitude(load: BearingLoad) -> list[float]:
     return list(map(math.hypot, load.force_x_N, load.force_y_N))
+
+
+#: chapters of the outputs over the turn
+OVER_THE_TURN: Mapping[str, Callable[[Machine, Any], Chapter]] = {
+    "kinematics": _kinematics,
+    "gas": _gas,
+    "piston_force": _piston_force,
+    "rod_loads": _rod_loads,
+    "torque": _torque,
+    "flywheel": _flywheel,
+    "overturning": _overturning,
+    "main_bearings": _main_bearings,
+}
