@@ -211,6 +211,24 @@ def _headers() -> Iterator[Raw]:
             yield request("GET", path, headers={name: value})
 
 
+def _hosts() -> Iterator[Raw]:
+    names = (
+        "evil.example",
+        "127.0.0.1.evil.example",
+        "a@localhost",
+        "localhost:x",
+        "[::1",
+        "",
+        ",",
+        "x" * 5000,
+        "\xff",
+    )
+    asked = (("GET", "/v1/sweeps"), ("DELETE", "/v1/sweeps/x"), ("POST", "/v1/optimize"), ("GET", "/"))
+    for name in names:
+        for method, path in asked:
+            yield request(method, path, headers={"Host": name})
+
+
 def _no_http() -> Iterator[Raw]:
     yield from (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03", b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n", b"\0" * 5000)
     yield from (b"GET\r\n\r\n", b"GET / HTTP/9.9\r\n\r\n", b"GET /\xff HTTP/1.1\r\nHost: [::1]\r\n\r\n", b"\r\n" * 500)
@@ -251,6 +269,7 @@ ATTACKS = (
     Attack("paths astray", _astray, frozenset({200, 404, 405, 422})),
     Attack("unit strings", _units, _REFUSED),
     Attack("header floods", _headers, frozenset({200, 400, 401, 404, 422, 431})),
+    Attack("foreign hosts", _hosts, frozenset({400, 421})),
     # some of it is HTTP after all: a later version, the preface of another, a folded header
     Attack("no HTTP", _no_http, frozenset({200, 400, 404, 415, 501})),
     Attack("methods", _methods, frozenset({200, 400, 404, 405, 415})),

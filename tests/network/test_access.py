@@ -16,7 +16,7 @@ from service.documents.examples import bodies
 from service.guard import keys
 from service.guard.keys import BadKeyFile, KeyRecord, Scope
 from service.settings import Settings
-from tests.network.serving import Service, service
+from tests.network.serving import Service, request, service
 
 KEYS: dict[str, tuple[str, tuple[Scope, ...], dict[str, Any]]] = {
     "alice": ("alice", ("compute", "sweeps", "read"), {}),
@@ -29,6 +29,8 @@ KEYS: dict[str, tuple[str, tuple[Scope, ...], dict[str, Any]]] = {
     "expired": ("alice", ("admin",), {"expires": 1.0}),
 }
 SWEEP = next(iter(bodies("sweeps").values()))
+#: takes longer than any test
+LONG = {"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": 1_000_000}
 NOBODYS = ("0" * 32, "f" * 32, "x", "..%2f")
 
 
@@ -194,6 +196,28 @@ def test_a_proxy_is_believed_if_it_is_named(made: tuple[Path, dict[str, str]]) -
     with service(keys_file=str(made[0]), refusal_limit="1/hour", trusted_proxies="127.0.0.0/8") as target:
         statuses = [asyncio.run(_guess(target, address)) for address in ("10.0.0.1", "10.0.0.2", "10.0.0.1")]
     assert statuses == [401, 401, 429]
+
+
+def test_a_stream_ends_when_its_key_is_revoked(tmp_path: Path) -> None:
+    key, record = keys.make("alice", ("sweeps",))
+    other = keys.make("bob", ("read",))[1]
+    file = tmp_path / "keys"
+    keys.write(file, [record, other])
+
+    async def watch(target: Service) -> bytes:
+        sweep = {**SWEEP, "base": bodies()["2d12"], "axes": [LONG], "design": "grid"}
+        headers = {"X-API-Key": key}
+        job = (await target.ask("POST", "/v1/sweeps", json.dumps(sweep).encode(), headers)).headers["location"]
+        async with target.connection() as (reader, writer):
+            writer.write(request("GET", f"{job}/events", headers=headers))
+            await reader.readuntil(b"event: progress")
+            keys.write(file, [other])
+            return await asyncio.wait_for(reader.read(), 20)
+
+    with service(keys_file=str(file), sweep_workers=1) as target:
+        said = asyncio.run(watch(target))
+    assert said.endswith(b"0\r\n\r\n")
+    assert b"event: end" not in said
 
 
 def test_keys_come_and_go_while_the_service_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

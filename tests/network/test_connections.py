@@ -2,6 +2,7 @@
 
 import asyncio
 import json
+import socket
 import time
 from collections.abc import Iterator
 
@@ -101,6 +102,28 @@ def test_a_client_that_reads_nothing_is_let_go(strict: Service) -> None:
     asyncio.run(reads_nothing())
     # one of the few connections that there may be would be gone for ever
     asyncio.run(too_many(strict, 15, 200))
+
+
+def test_a_client_that_reads_slowly_is_not_let_go(strict: Service) -> None:
+    async def reads_slowly() -> bytes:
+        async with strict.connection() as (reader, writer):
+            # small buffers on this side: the service has to wait
+            writer.get_extra_info("socket").setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            transport = reader._transport  # type: ignore[attr-defined]
+            transport.max_size = 8192
+            writer.write(request("GET", "/openapi.json"))
+            content = b""
+            begun = time.monotonic()
+            while piece := await reader.read(8192):
+                content += piece
+                await asyncio.sleep(0.1)
+            # several times as long as one may read nothing
+            assert time.monotonic() - begun > 3
+            return content
+
+    head, _, content = asyncio.run(reads_slowly()).partition(b"\r\n\r\n")
+    assert head.startswith(b"HTTP/1.1 200 ")
+    assert f"content-length: {len(content)}".encode() in head
 
 
 async def too_many(target: Service, others: int, expected: int) -> None:
