@@ -1,5 +1,6 @@
 """Runs the hard cases through the service's own computation and sums up what became of them."""
 
+import json
 import time
 import warnings
 from collections import Counter
@@ -14,6 +15,7 @@ from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Case
 from tests.hard.judge import Verdict, judge
 from tests.hard.reference import Reference
+from tests.verification.checking import broken
 
 _WORST = (
     ("certified relative gap", lambda verdict: verdict.relative_gap),
@@ -36,6 +38,7 @@ def run(case: Case, expected: Reference | None) -> Verdict:
     seconds = time.perf_counter() - start
     verdict = judge(case, answer, expected)
     verdict.seconds = seconds
+    verdict.faults += broken(case.body, json.loads(answer.model_dump_json()))
     return verdict
 
 

@@ -11,13 +11,12 @@ from typing import Any
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, Case
 from tests.hard.judge import judge
 from tests.hard.wild import requests
 from tests.optimize.machines import random_machine
+from tests.verification.checking import optimized
 
 _COUNT = int(os.environ.get("HARD_SEARCH", "0"))
 #: looser than the default, the default, tighter than it
@@ -47,7 +46,7 @@ def _answers(body: Body) -> list[OptimizeAnswer]:
     found = []
     for gap in GAPS:
         asked = {**body, "accuracy": {"relative_gap": gap}}
-        answer = optimize(OptimizeRequest.model_validate(asked))
+        answer = optimized(asked)
         found.append(answer)
         certificate = answer.certificate
         if certificate is None:

@@ -11,13 +11,12 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
 from tests.hard import battery
 from tests.hard.cases.case import Case, case, machine, single_row, throw, v_twin, web
 from tests.hard.judge import judge
 from tests.hard.reference import Reference, reference
+from tests.verification.checking import optimized
 
 _PLAIN = case("plain", "plain", machine(v_twin(), [web("a", -0.45, 9, 0.2, (170, 90)), web("b", 0.5)]))
 _LIMITED = case(
@@ -31,7 +30,7 @@ def _expected(one: Case) -> Reference:
 
 
 def _answer(one: Case) -> OptimizeAnswer:
-    return optimize(OptimizeRequest.model_validate(one.body))
+    return optimized(one.body)
 
 
 def _certificate(answer: OptimizeAnswer, **change: Any) -> OptimizeAnswer:

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.optimize import optimize
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.requests import AnalyzeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
+from tests.verification.checking import optimized
 
 OUTPUTS = ["residual", "hodograph", "orders", "stages"]
 
@@ -14,7 +14,7 @@ OUTPUTS = ["residual", "hodograph", "orders", "stages"]
 @pytest.mark.parametrize("seed", range(10))
 def test_an_optimum_analysed_is_the_optimum(seed: int) -> None:
     body = random_machine(seed)
-    found = optimize(OptimizeRequest.model_validate({"machine": body, "outputs": OUTPUTS}))
+    found = optimized({"machine": body, "outputs": OUTPUTS})
     weights = [one.model_dump(include={"web", "mass_kg", "angle_deg"}) for one in found.counterweights]
     again = analyze(
         AnalyzeRequest.model_validate({"machine": body, "counterweights": weights[::-1], "outputs": OUTPUTS})

@@ -19,13 +19,14 @@ from optimizer.program.reference.modelling import ConeProgram
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
+from tests.verification.checking import optimized
 
 OMEGA_SQUARED = (600 * math.pi / 30) ** 2
 
 
 def answer(body: dict[str, Any], **objective: Any) -> OptimizeAnswer:
     request = {"machine": body, "objective": objective}
-    return optimize(OptimizeRequest.model_validate(request))
+    return optimized(request)
 
 
 def single(axes_and_masses: list[tuple[float, float]], rotating: float = 0.0) -> dict[str, Any]:

@@ -8,17 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
 from tests.optimize.machines import random_machine
+from tests.verification.checking import optimized
 
 SEEDS = st.integers(0, 10**6)
 OBJECTIVES = st.sampled_from([{"combine": "sum"}, {"combine": "max"}, {"combine": "sum", "moment_weight": 2.0}])
 
 
 def answer(body: dict[str, Any], objective: dict[str, Any]) -> OptimizeAnswer:
-    return optimize(OptimizeRequest.model_validate({"machine": body, "objective": objective}))
+    return optimized({"machine": body, "objective": objective})
 
 
 def same(a: OptimizeAnswer, b: OptimizeAnswer, objective: float = 1.0, mass: float = 1.0) -> None:

@@ -6,17 +6,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer, ShadowPrice
-from schemas.requests import OptimizeRequest
 from tests.optimize.machines import machine, row, throw, web
+from tests.verification.checking import optimized
 
 #: relative step of a limit, and what the difference quotient is worth
 STEP, TOLERANCE = 1e-5, 1e-3
 
 
 def answer(body: dict[str, Any]) -> OptimizeAnswer:
-    return optimize(OptimizeRequest.model_validate(body))
+    return optimized(body)
 
 
 def tight(seed: int, **objective: Any) -> dict[str, Any]:
