@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Reals
+from optimizer.arrays import SMALLEST, Real, Reals
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
@@ -15,6 +15,9 @@ from optimizer.program.statement import Statement, statement, weighted_peak
 from optimizer.response import Response
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Objective
+
+#: a larger limit is none, kg
+_NO_LIMIT = 1e30
 
 
 def limits(machine: Machine) -> Limits:
@@ -26,13 +29,18 @@ def limits(machine: Machine) -> Limits:
     edge = direction(half_angle)
     return Limits(
         radius=stacked([web.counterweight_radius_m for web in webs]),
-        max_mass=stacked([web.max_mass_kg for web in webs]),
+        max_mass=_no_limit(stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in webs])),
         free=free,
         centre=direction(centre),
         half_angle_cos=edge.real,
         half_angle_sin=edge.imag,
         max_total_mass=np.asarray(np.inf if budget is None else budget, dtype=float),
     )
+
+
+def _no_limit(mass: Real) -> Real:
+    """Largest masses, inf where they are none: null, or more than can be multiplied."""
+    return np.where(mass > _NO_LIMIT, np.inf, mass)
 
 
 def span(machine: Machine) -> Reals:

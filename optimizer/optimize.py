@@ -1,6 +1,7 @@
 """From request to answer: machine -> responses -> program -> counterweights -> report."""
 
 import time
+from dataclasses import replace
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
-from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.optimum import Unreachable, optimum, within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import Solution
@@ -28,6 +29,7 @@ from schemas.answers import (
     OptimizeAnswer,
     Timing,
 )
+from schemas.machine import Machine
 from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as NamedMultipliers
 from schemas.requests import OptimizeRequest
@@ -54,6 +56,7 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
     statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    statement = within_reach(statement, solver)
     outcome = optimum(statement, request.accuracy.relative_gap, request.objective.least_mass, solver)
 
     reporting = time.perf_counter()
@@ -130,6 +133,7 @@ def _certified(
             mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if goal.least_mass else None,
             mass_relative_gap=proven_or_null(judged.mass_gap) if goal.least_mass else None,
             mass_objective_limit=_finite(solution.mass_target * square) if goal.least_mass else None,
+            implied_max_mass_kg=implied_max_mass(request.machine, statement.limits.max_mass),
             method=solution.method,
             multipliers=_multipliers(statement, solution, square),
         ),
@@ -146,6 +150,15 @@ def _multipliers(statement: Statement, solution: Solution, omega_squared: float)
         objective=named(statement, physical(statement, solution.multipliers, "objective", omega_squared)),
         mass=None if of_mass is None else named(statement, physical(statement, of_mass, "mass", omega_squared)),
     )
+
+
+def implied_max_mass(machine: Machine, most: Real) -> dict[str, float]:
+    """Limits that the proof counts with in place of those of the machine, kg."""
+    return {
+        web.name: float(mass)
+        for web, mass in zip(machine.webs, most, strict=True)
+        if np.isfinite(mass) and (web.max_mass_kg is None or mass < web.max_mass_kg)
+    }
 
 
 def _finite(value: float) -> float | None:
@@ -177,8 +190,13 @@ def _infeasible(
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
     square, allowed = scene.omega_squared, ceilings(request.objective)
     smallest, bound, proofs = {}, {}, {}
+    peaks = {response.name: smallest_peak(response, request.machine) for response in scene.responses}
+    # one reach for all that is proven here
+    most = np.max(
+        [each.limits.max_mass for each in (statement, *(within_reach(peak, solver) for peak in peaks.values()))], axis=0
+    )
     for response in scene.responses:
-        peak = smallest_peak(response, request.machine)
+        peak = replace(peaks[response.name], limits=replace(statement.limits, max_mass=most))
         alone = optimum(peak, 1e-9, False, solver)
         # without ceilings nothing is unreachable, and rest proves something
         assert isinstance(alone, Solution)
@@ -200,6 +218,7 @@ def _infeasible(
             smallest_moment_Nm=smallest["moment"],
             smallest_force_lower_bound_N=bound["force"],
             smallest_moment_lower_bound_Nm=bound["moment"],
+            implied_max_mass_kg=implied_max_mass(request.machine, most),
             closest=Closest(counterweights=fitted, first_order=first_order(scene.first_order(u))),
             multipliers=InfeasibilityMultipliers(
                 conflict=named_conflict(statement, conflict(statement, proof.multipliers, square)),

@@ -141,6 +141,11 @@ class Certificate(Model):
         " asked for",
         examples=[30345.06],
     )
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"
+        " it is proven that some optimum, and the lightest, lies within them",
+        examples=[{"1a": 412.5}],
+    )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
     multipliers: Multipliers = Field(
         description="the multipliers of both bounds, with which anybody can evaluate them again",
@@ -204,6 +209,11 @@ class Infeasibility(Model):
     )
     smallest_moment_lower_bound_Nm: NewtonMetres = Field(
         description="certified: no counterweights within the limits have a smaller peak moment", examples=[9747.0]
+    )
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"
+        " it is proven that the smallest that can be reached lies within them",
+        examples=[{"1a": 412.5}],
     )
     closest: Closest = Field(description="the best compromise with the ceilings", examples=[{"counterweights": []}])
     multipliers: InfeasibilityMultipliers = Field(

@@ -9,7 +9,7 @@ from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
 from schemas.cylinder import Cylinder
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
-from schemas.quantities import Angle, Count, Fraction, Length, Mass, Name, Position, Speed
+from schemas.quantities import Angle, Count, Fraction, Length, Mass, MaxMass, Name, Position, Speed
 from schemas.units import Unit, positive
 
 MAX_THROWS = 500
@@ -93,7 +93,9 @@ class Web(Model):
     name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
     position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])
     counterweight_radius_m: Length = Field(description="radius of the counterweight's centre of mass", examples=[0.25])
-    max_mass_kg: Mass = Field(description="largest counterweight that fits; 0 allows none", examples=[60.0])
+    max_mass_kg: Annotated[MaxMass | None, Unit("kg")] = Field(
+        description="largest counterweight that fits; 0 allows none, null is no limit", examples=[60.0]
+    )
     sector: Sector | None = Field(
         None,
         description="angles that the counterweight may take; null allows every angle",

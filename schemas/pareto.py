@@ -15,7 +15,7 @@ from schemas.answers import (
 )
 from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
 from schemas.proof import EndMultipliers, Multipliers
-from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, NewtonMetres, Newtons
+from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
 from schemas.units import Unit, between
 
@@ -117,6 +117,11 @@ class CornerCertificate(Model):
     mass_moment_limit_Nm: NewtonMetres | None = Field(
         description="largest weighted peak moment that the bound of the mass allows; null likewise",
         examples=[20123.28],
+    )
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"
+        " it is proven that some optimum, and the lightest, lies within them",
+        examples=[{"1a": 412.5}],
     )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
 

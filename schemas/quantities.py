@@ -12,6 +12,8 @@ Position = Annotated[float, symmetric(1e9), Unit("m")]
 Length = Annotated[float, between(1e-12, 1e9), Unit("m")]
 Area = Annotated[float, positive(1e12), Unit("m2")]
 Mass = Annotated[float, non_negative(1e15), Unit("kg")]
+#: a limit that is never multiplied as it stands, so that any number is one
+MaxMass = Annotated[float, non_negative(1e300), Unit("kg")]
 Angle = Annotated[float, symmetric(1e6), Unit("deg")]
 Speed = Annotated[float, between(1e-9, 1e9), Unit("rpm")]
 Pressure = Annotated[float, non_negative(1e12), Unit("Pa")]

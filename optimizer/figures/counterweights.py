@@ -55,7 +55,7 @@ def _counterweight(web: Web, mass: float, angle: float) -> Counterweight:
 
 def _touched(web: Web, mass: float, angle: float) -> list[WebLimit]:
     touched: list[WebLimit] = []
-    if mass >= web.max_mass_kg * (1.0 - _TOUCHED):
+    if web.max_mass_kg is not None and mass >= web.max_mass_kg * (1.0 - _TOUCHED):
         touched.append("max_mass")
     if web.sector is not None and mass > 0:
         off = abs((angle - web.sector.centre_deg + 180.0) % 360.0 - 180.0)

@@ -68,7 +68,8 @@ def _every(
 ) -> Iterator[_Priced]:
     for k, (web, fitted) in enumerate(zip(machine.webs, counterweights, strict=True)):
         active = fitted.active_limits
-        yield _Priced("max_mass", web.name, float(prices.max_mass[k]), web.max_mass_kg, "kg", "max_mass" in active)
+        if web.max_mass_kg is not None:
+            yield _Priced("max_mass", web.name, float(prices.max_mass[k]), web.max_mass_kg, "kg", "max_mass" in active)
         if web.sector is not None:
             per_degree = float(np.radians(prices.half_angle[k]))
             half_angle = web.sector.half_angle_deg

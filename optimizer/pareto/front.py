@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.pareto.trade import Trade
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
-from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.optimum import Unreachable, optimum, within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
@@ -45,6 +45,7 @@ class Point:
     proof: Multipliers  # of the corner, one row for each peak, of which the corner is what they weigh
     mass_proof: Multipliers | None  # of the mass likewise; None where the least mass was not asked for
     mass_limit: Real  # (2,) largest peaks that the bound of the mass allows
+    max_mass: Real  # (K,) kg, limits that the proof counts with
 
 
 @dataclass(frozen=True)
@@ -76,7 +77,8 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     Front, or the proof that the ceilings cannot be kept.
     """
     alone: list[Solution] = []
-    for each in trade.alone:
+    for program in trade.alone:
+        each = within_reach(program, solver)
         found = optimum(each, _SHARPNESS, True, solver)
         if isinstance(found, Unreachable):
             return found
@@ -114,7 +116,7 @@ def _closest(
     of_mass = None
     if least_mass and found.mass_multipliers is not None:
         of_mass = trade.of_one(which, found.mass_multipliers.admissible(trade.alone[which]))
-    return Point(found, ideal, proofs[which], of_mass, limit)
+    return Point(found, ideal, proofs[which], of_mass, limit, trade.both.limits.max_mass)
 
 
 def _between(
@@ -169,7 +171,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     share : how much of t the answer may lie above the smallest.
     """
     best: Solution | None = None
-    program = trade.along(anchor, unit)
+    program = within_reach(trade.along(anchor, unit), solver)
     for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
         found = optimum(program, part * share, least_mass, solver)
         if isinstance(found, Unreachable):
@@ -189,6 +191,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
         trade.per_peak(usable, unit),
         None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
         anchor + trade.parameter(best.mass_target, anchor, unit) * unit,
+        program.limits.max_mass,
     )
 
 

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -11,7 +11,7 @@ from optimizer.figures.counterweights import counterweights, masses_and_angles, 
 from optimizer.figures.first_order import first_order, floor
 from optimizer.figures.proof import named, physical
 from optimizer.formulate import ceilings
-from optimizer.optimize import optimize, proven_or_null
+from optimizer.optimize import implied_max_mass, optimize, proven_or_null
 from optimizer.outputs import prepare
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
@@ -181,6 +181,7 @@ def _point(
             mass_relative_gap=proven_or_null(judged.mass_gap) if request.objective.least_mass else None,
             mass_force_limit_N=limit[0],
             mass_moment_limit_Nm=limit[1],
+            implied_max_mass_kg=implied_max_mass(machine, point.max_mass),
             method=solution.method,
         ),
         multipliers=_of_point(traded, point, square) if request.multipliers else None,
@@ -190,9 +191,10 @@ def _point(
 def _of_point(traded: Trade, point: Point, omega_squared: float) -> Multipliers:
     """The proofs of a point: of its corner, and of its mass."""
     of_mass = point.mass_proof
+    both = replace(traded.both, limits=replace(traded.both.limits, max_mass=point.max_mass))
     return Multipliers(
-        objective=named(traded.both, physical(traded.both, point.proof, "parameter", omega_squared)),
-        mass=None if of_mass is None else named(traded.both, physical(traded.both, of_mass, "mass", omega_squared)),
+        objective=named(both, physical(both, point.proof, "parameter", omega_squared)),
+        mass=None if of_mass is None else named(both, physical(both, of_mass, "mass", omega_squared)),
     )
 
 

@@ -1,7 +1,7 @@
 """Optima of many programs of one shape at once; what is not certified goes to the reference solver."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
@@ -9,7 +9,8 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.fast import fast
-from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.optimum import Unreachable, optimum, within_reach
+from optimizer.program.reach import far_limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
 from optimizer.program.statement import Statement
@@ -61,6 +62,17 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     for n in map(int, np.flatnonzero(~found.certified)):
         _put(answer, n, statement.chosen(n), optimum(statement.chosen(n), relative_gap, least_mass, solver))
     return answer
+
+
+def all_within_reach(statement: Statement, solver: Solver) -> Statement:
+    """N programs with finite, proven limits (:func:`optimizer.program.optimum.within_reach`)."""
+    far = np.flatnonzero(np.any(far_limits(statement), axis=-1))
+    if not far.size:
+        return statement
+    most = statement.limits.max_mass.copy()
+    for n in map(int, far):
+        most[n] = within_reach(statement.chosen(n), solver).limits.max_mass
+    return replace(statement, limits=replace(statement.limits, max_mass=most))
 
 
 def joined(parts: Sequence[Optima], order: np.ndarray) -> Optima:

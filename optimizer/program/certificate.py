@@ -131,6 +131,8 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
 
 def knapsack_price(gain: Real, limits: Limits) -> Real:
     """Gain per kilogram (..., K) of the web at which the budget ends, at least 0; 0 where it does not end (...)."""
+    if np.all(np.isinf(limits.max_total_mass)):
+        return np.zeros(gain.shape[:-1])
     order = np.argsort(-gain, axis=-1, kind="stable")
     most = np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1)
     unpaid = most > limits.left(most)

@@ -9,9 +9,10 @@ from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.fast import fast
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reach import bounded, far_limits
+from optimizer.program.reference.solver import Solver, excess_program
 from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
-from optimizer.program.statement import Statement
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.program.verdict import yardstick
 
 #: the smallest objective is sought this much more sharply than optima are told apart
@@ -33,11 +34,35 @@ class Unreachable:
     multipliers: Multipliers  # of the excess: rows and terms are those of the ceilings, each over its size
 
 
+def within_reach(statement: Statement, solver: Solver) -> Statement:
+    """One program with a finite, proven limit where there is none, or one far beyond any need (reach.py)."""
+    if not np.any(far_limits(statement)):
+        return statement
+    point = np.zeros(statement.limits.radius.shape, complex)
+    if np.any(statement.ceilings.excess(point) > 0):
+        excess = excess_program(statement.ceilings, statement.limits)
+        excess = bounded(excess, _above(excess, point))
+        nearest = solver.smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
+        if nearest.lower_bound > 0:
+            return replace(statement, limits=excess.limits)
+        point = nearest.unbalance
+        if nearest.objective > CEILING_TOLERANCE:
+            return bounded(statement, np.inf)
+    return bounded(statement, _above(statement, point))
+
+
+def _above(statement: Statement, point: Complex) -> float:
+    """A level that leaves room for all that counts as an optimum, if this point may be reached."""
+    value = float(statement.objective(point))
+    return value + (value - float(np.min(statement.floor)))
+
+
 def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Solution | Unreachable:
     """Certified optimum of a statement; webs that cannot carry anything are left out of the program.
 
     Parameters
     ----------
+    statement : one whose limits are finite (:func:`within_reach`).
     relative_gap : asked gap, relative to the objective without counterweights.
     least_mass : take the least total mass among the optima.
 

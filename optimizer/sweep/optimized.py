@@ -12,7 +12,7 @@ from optimizer.formulate import weights as weights_of
 from optimizer.mechanics.inertia import Wrench, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.layout import layout as layout_of
-from optimizer.program.batch import Optima, joined, optima
+from optimizer.program.batch import Optima, all_within_reach, joined, optima
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
@@ -49,7 +49,7 @@ def optimized(
     layout = layout_of(request.machine)
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
-    program = _statement(request, layout, baseline, square)
+    program = all_within_reach(_statement(request, layout, baseline, square), solver)
     found = _found(program, request, solver)
     mass, angle = masses_and_angles(found.unbalance, program.limits.radius)
     u = unbalance(mass, angle, program.limits.radius)

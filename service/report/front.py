@@ -110,7 +110,7 @@ def _rows(drawing: Drawing, view: _View, machine: ReciprocatingMachine, reach: f
 
 def _sectors(drawing: Drawing, view: _View, webs: Sequence[Web]) -> None:
     """The angles that are allowed, an arc for each web that restricts them."""
-    for index, web in enumerate(web for web in webs if web.sector is not None and web.max_mass_kg > 0):
+    for index, web in enumerate(web for web in webs if web.sector is not None and web.max_mass_kg != 0):
         if web.sector is None or index >= _MAX_LABELS:
             break
         radius = web.counterweight_radius_m * (1 + _THICKNESS / 2) + (4 + 3 * (index % 4)) / view.scale

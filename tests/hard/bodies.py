@@ -136,7 +136,7 @@ def _web(draw: Draw, number: int) -> Body:
 
 
 #: what stands for no limit
-NO_LIMIT: tuple[float | None, ...] = ()
+NO_LIMIT: tuple[float | None, ...] = (None, 1e15, 1e30, 1e300)
 
 
 def _objective(draw: Draw) -> Body:

@@ -1,12 +1,17 @@
 """Limits that lie far beyond what is needed: the answer and its proof are those of the limits that count."""
 
+import copy
+
+import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from optimizer.optimize import optimize
+from optimizer.pareto.pareto import pareto
 from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from schemas.requests import OptimizeRequest
-from tests.hard.cases.case import Body, machine, throw, web
+from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.sweep.single import sweep
 
 #: 1 rad/s, so that forces are mass-radius products
@@ -20,8 +25,8 @@ def issued(far: float | None) -> Body:
     return {"machine": machine([throw(0.0, 0.0, [], radius=1.0, rotating=10.0)], webs, max_total_mass_kg=1.0, **ONE)}
 
 
-@pytest.mark.parametrize("far", [1.0, 1e3, 1e7, 1e12, 1e15])
-def test_a_budget_beside_a_far_limit(far: float) -> None:
+@pytest.mark.parametrize("far", [1.0, 1e3, 1e7, 1e12, 1e15, 1e300, None])
+def test_a_budget_beside_a_far_limit(far: float | None) -> None:
     found = optimize(OptimizeRequest.model_validate(issued(far)))
     proof = found.certificate
     assert found.status == "optimal"
@@ -46,9 +51,75 @@ def test_the_same_in_a_sweep_and_as_what_can_be_reached() -> None:
 
 
 def test_the_same_in_a_front() -> None:
-    from optimizer.pareto.pareto import pareto
 
     found = pareto(ParetoRequest.model_validate(issued(1e15) | {"points": 3}))
     assert found.status == "optimal"
     assert found.fronts[0].ends.smallest_force_lower_bound_N == pytest.approx(8.68, rel=1e-6)  # analytic
     assert found.fronts[0].ends.smallest_force_lower_bound_N <= 8.68 * (1 + 1e-15)
+
+
+def _random(seed: int, sectors: bool, budget: bool, ceiling: bool) -> Body:
+    rng = np.random.default_rng(seed)
+    throws = [
+        throw(z, rng.uniform(0, 360), [row(rng.uniform(0, 360), rng.uniform(1, 20))], rotating=rng.uniform(0, 10))
+        for z in (-0.3, 0.4)
+    ]
+    webs = [
+        web(
+            str(k),
+            rng.uniform(-0.5, 0.5),
+            None if rng.random() < 0.6 else rng.uniform(1, 5),
+            rng.uniform(0.1, 0.4),
+            (rng.uniform(0, 360), rng.choice([2.0, 40.0, 90.0])) if sectors and rng.random() < 0.7 else None,
+        )
+        for k in range(rng.integers(1, 6))
+    ]
+    body = {"machine": machine(throws, webs, max_total_mass_kg=8.0 if budget else None), "objective": {}}
+    if ceiling:
+        before = optimize(OptimizeRequest.model_validate(body)).residual
+        body["objective"] = {"force_ceiling_N": 0.5 * (before.before.force.peak_N + before.after.force.peak_N)}
+    return body
+
+
+def _limited(body: Body, most: float) -> Body:
+    changed = copy.deepcopy(body)
+    for one in changed["machine"]["webs"]:
+        one["max_mass_kg"] = most if one["max_mass_kg"] is None else one["max_mass_kg"]
+    return changed
+
+
+@pytest.mark.parametrize("seed", range(40))
+def test_no_limit_is_any_limit_that_is_large_enough(seed: int) -> None:
+    """Independent: the same machine with explicit limits, of which the smallest are the implied ones."""
+    body = _random(seed, seed % 2 > 0, seed % 4 > 1, seed % 8 > 3)
+    free = optimize(OptimizeRequest.model_validate(body))
+    assert free.status == "optimal"
+    proof = free.certificate
+    unlimited = {one["name"] for one in body["machine"]["webs"] if one["max_mass_kg"] is None}
+    assert set(proof.implied_max_mass_kg) == unlimited
+    for most in (max(proof.implied_max_mass_kg.values(), default=1.0), 1e5, 1e12, 1e300):
+        found = optimize(OptimizeRequest.model_validate(_limited(body, most)))
+        size = proof.yardstick
+        assert found.status == "optimal"
+        assert found.certificate.objective == pytest.approx(proof.objective, abs=2e-6 * size)
+        assert found.certificate.lower_bound <= proof.objective
+        assert proof.lower_bound <= found.certificate.objective
+        assert found.total_mass_kg == pytest.approx(free.total_mass_kg, rel=3e-4, abs=1e-9)
+
+
+def test_no_limit_in_a_sweep_and_in_a_front() -> None:
+    body = _random(3, True, False, False)
+    free = optimize(OptimizeRequest.model_validate(body))
+    request = sweep(body, {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]]})
+    alone = run_chunk(request.model_dump_json().encode(), 0, 1).to_pylist()[0]
+    assert alone["status"] == "optimal"
+    assert alone["objective"] == pytest.approx(free.certificate.objective, rel=1e-9)
+    assert pareto(ParetoRequest.model_validate(body | {"points": 3})).status == "optimal"
+    assert pareto(ParetoRequest.model_validate(_limited(body, 1e300) | {"points": 3})).status == "optimal"
+
+
+def test_a_limit_that_is_left_out_is_refused() -> None:
+    body = issued(None)
+    del body["machine"]["webs"][1]["max_mass_kg"]
+    with pytest.raises(ValidationError, match="max_mass_kg"):
+        OptimizeRequest.model_validate(body)

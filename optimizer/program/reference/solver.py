@@ -145,14 +145,7 @@ class Solver:
 
         objective <= 0: they can; lower_bound > 0: they cannot, which is then proven.
         """
-        size = ceilings.size
-        norms = Norms(ceilings.norms.constant / size, ceilings.norms.influence / size[:, None])
-        nothing = np.zeros(0)
-        none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), nothing, nothing)
-        names = Names(tuple(Term(name, "co") for name in ceilings.names), ceilings.names)
-        return self.smallest_objective(
-            Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits, names), 0.1 * CEILING_TOLERANCE
-        )
+        return self.smallest_objective(excess_program(ceilings, limits), 0.1 * CEILING_TOLERANCE)
 
     def _attempt(
         self,
@@ -176,6 +169,16 @@ class Solver:
             if better(best, new):
                 best = replace(best, unbalance=new.unbalance, objective=new.objective, mass=new.mass, excess=new.excess)
         return best, (u, scaling.multipliers(statement, found))
+
+
+def excess_program(ceilings: Ceilings, limits: Limits) -> Statement:
+    """The program of the smallest largest excess over the ceilings, each relative to its size."""
+    size = ceilings.size
+    norms = Norms(ceilings.norms.constant / size, ceilings.norms.influence / size[:, None])
+    nothing = np.zeros(0)
+    none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), nothing, nothing)
+    names = Names(tuple(Term(name, "co") for name in ceilings.names), ceilings.names)
+    return Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits, names)
 
 
 def _better_objective(old: Solution, new: Solution) -> bool:

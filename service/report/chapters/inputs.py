@@ -211,7 +211,8 @@ def _webs(machine: Machine) -> Block:
         ],
         [
             (
-                web.name, web.position_m, web.counterweight_radius_m, web.max_mass_kg,
+                web.name, web.position_m, web.counterweight_radius_m,
+                "no limit" if web.max_mass_kg is None else web.max_mass_kg,
                 *(("any angle", "") if web.sector is None else (web.sector.centre_deg, web.sector.half_angle_deg)),
             )
             for web in machine.webs

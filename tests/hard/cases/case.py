@@ -56,7 +56,7 @@ def throw(z: float, angle: float, rows: list[Body], *, radius: float = 0.1, rota
 
 
 def web(
-    name: str, z: float, max_mass: float = 100.0, radius: float = 0.2, sector: tuple[float, float] | None = None
+    name: str, z: float, max_mass: float | None = 100.0, radius: float = 0.2, sector: tuple[float, float] | None = None
 ) -> Body:
     """``sector`` is centre and half-angle in degrees."""
     place: Body = {"name": name, "position_m": z, "counterweight_radius_m": radius, "max_mass_kg": max_mass}

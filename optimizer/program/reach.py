@@ -1,0 +1,179 @@
+"""A finite reach where there is no limit: the mass within which some optimum lies, proven.
+
+Where a web has no limit, or one far beyond any need, a bound would pay the rounding of its multipliers times that
+limit. But counterweights matter only by what they add to the terms and ceilings, c = sum_k h_k u_k. The objective, or
+a ceiling, bounds every response of an optimum, so c is bounded; and any c that the webs without a limit can carry they
+can carry with little mass. So the lightest optimum is no heavier there (docs/mathematics.md section 5).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.optimize import linprog
+
+from optimizer.arrays import Real
+from optimizer.program.limits import Limits
+from optimizer.program.scaling import natural_reach
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
+
+#: a limit this many times the unbalance that cancels everything is as far away as none
+_FAR = 1e3
+#: what every figure is raised by for its rounding
+_MARGIN = 1.0 + 1e-9
+#: rows whose influences agree to this many eps are one response; what they differ by is within the rounding of a bound
+_SAME = 8 * np.finfo(float).eps
+#: rays that span a space by less than this share of their size do not span it
+_FLAT = 1e-7
+#: largest component of a vector that supports a cone
+_STEEP = 1e6
+#: where no reach is proven: the largest mass that any field may hold, kg
+LARGEST = 1e15
+
+
+def far_limits(statement: Statement) -> np.ndarray:
+    """Webs without a limit, or with one as far away as none (..., K)."""
+    limits, natural = statement.limits, natural_reach(statement)[..., None]
+    return np.isinf(limits.max_mass) | (limits.most > _FAR * natural / limits.radius)
+
+
+def bounded(statement: Statement, level: float) -> Statement:
+    """The program with a finite limit for every web, which changes neither its optimum nor its least mass.
+
+    Parameters
+    ----------
+    statement : one program (no leading axes); a limit of inf is none.
+    level : what the objective is known to reach within limits and ceilings, or more. The reach holds for all that is
+        no larger.
+    """
+    limits = statement.limits
+    far = far_limits(statement)
+    while np.any(far):
+        mass = min(_mass(statement, far, level), float(limits.max_total_mass))
+        near = far & (limits.max_mass < mass)
+        if not np.any(near):
+            return replace(statement, limits=replace(limits, max_mass=np.where(far, mass, limits.max_mass)))
+        far = far & ~near
+    return statement
+
+
+def _mass(statement: Statement, far: np.ndarray, level: float) -> float:
+    """Mass with which the far webs carry whatever they carry in the lightest optimum, kg."""
+    limits = statement.limits.only(far)
+    rows, most = _responses(statement, far, level)
+    if not np.any(most):
+        return 0.0
+    influence = rows * limits.radius
+    plain = np.all(limits.free) and len(most) <= 2
+    mass = _MARGIN * (_in_planes(influence, most) if plain else _in_sectors(influence, limits, most))
+    return mass if np.isfinite(mass) else LARGEST
+
+
+def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real]:
+    """What the far webs can change: rows of influence (s, far) of size 1, and the most that each may change (s,)."""
+    norms, ceilings, floor = statement.norms, statement.ceilings, statement.floor[statement.row]
+    # a term is no larger than what the objective leaves it, a limited response no larger than its cap
+    within = np.concatenate([level - floor, ceilings.cap + CEILING_TOLERANCE * ceilings.size])
+    constant = np.concatenate([norms.constant, ceilings.norms.constant])
+    influence = np.concatenate([norms.influence, ceilings.norms.influence])
+    near = np.where(far, 0.0, statement.limits.reach)
+    allowed = np.abs(constant) + np.maximum(within, 0.0) + np.sum(np.abs(influence) * near, axis=-1)
+    rows: list[Real] = []
+    most: list[float] = []
+    for row, limit in zip(influence[:, far], allowed, strict=True):
+        largest = row[np.argmax(np.abs(row))]
+        if largest == 0.0:
+            continue
+        row, limit = row / largest, limit / abs(largest)
+        same = [n for n, other in enumerate(rows) if np.all(np.abs(row - other) <= _SAME)]
+        if same:
+            most[same[0]] = min(most[same[0]], limit)
+        else:
+            rows.append(row)
+            most.append(limit)
+    return np.array(rows), np.array(most) * _MARGIN
+
+
+def _in_planes(influence: Real, most: Real) -> float:
+    """Mass that carries every c with |c_s| <= most_s on webs without sectors: on one of them, or on two planes, kg.
+
+    Parameters
+    ----------
+    influence : (s, n) of one kilogram, s at most 2.
+    """
+    if len(most) == 1:
+        return float(most[0] / np.max(np.abs(influence)))
+    a, b = influence
+    apart = np.abs(a[:, None] * b - b[:, None] * a)
+    apart = apart - 8 * np.finfo(float).eps * (np.abs(a[:, None] * b) + np.abs(b[:, None] * a))
+    each = np.abs(b) * most[0] + np.abs(a) * most[1]
+    pairs = each[:, None] + each
+    return float(np.min(np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)))
+
+
+def _in_sectors(influence: Real, limits: Limits, most: Real) -> float:
+    """Mass that carries every c with |c_s| <= most_s that the sectors can carry at all, kg; inf where that fails.
+
+    A sector is the cone of its edges and its middle, so what can be carried is the cone of these rays r_i in R^2s.
+    Rays whose opposites it holds too span its lineality space; a vector y is 0 on that and at least delta on all the
+    others, so that those carry sum lam <= c.y/delta. What they leave lies in the lineality space, each direction of
+    which is carried by the rays in it. Both come from linear programs, whose numbers are used as they turn out.
+    """
+    edge = limits.half_angle_cos + 1j * limits.half_angle_sin
+    turns = [np.where(limits.free, step, turn) for step, turn in ((1, 1), (1j, edge), (-1j, np.conj(edge)), (-1, 1))]
+    unit = np.concatenate([limits.centre * turn for turn in turns])
+    rays = np.tile(influence / np.maximum(most, 1e-9 * np.max(most))[:, None], len(turns)) * unit
+    rays = np.concatenate([rays.real, rays.imag]).T
+    size = np.sqrt(np.sum(rays**2, axis=-1))
+    rays, size = rays[size > 0] / size[size > 0, None], size[size > 0]
+    reach = np.sqrt(len(most))  # of c, in these units
+    n, d = rays.shape
+    found = linprog(
+        np.concatenate([np.zeros(d), -np.ones(n)]),
+        A_ub=np.hstack([-rays, np.eye(n)]),
+        b_ub=np.zeros(n),
+        bounds=[(-_STEEP, _STEEP)] * d + [(0.0, 1.0)] * n,
+    )
+    if found.x is None:
+        return np.inf
+    outside = rays @ found.x[:d] > 0.5
+    inside = rays[~outside]
+    # the shortest that does the same
+    both = np.hstack([rays, -rays])
+    found = linprog(np.ones(2 * d), A_ub=-both, b_ub=np.where(outside, -1.0, 0.0))
+    if found.x is None:
+        return np.inf
+    support = found.x[:d] - found.x[d:]
+    along = rays @ support
+    price = _price(inside)
+    leak = max(0.0, -float(np.min(along[~outside], initial=0.0)))
+    slack = float(np.min(along[outside], initial=1.0)) - leak * price
+    if not slack > 0.0:
+        return np.inf
+    steep = float(np.linalg.norm(support))
+    out = reach * (steep + leak * price) / slack if np.any(outside) else 0.0
+    within = price * (reach + out)
+    return out / np.min(size[outside], initial=np.inf) + within / np.min(size[~outside], initial=np.inf)
+
+
+def _price(rays: Real) -> float:
+    """sum lam that carries any unit vector of the space that the rays span; inf where they do not carry all of it."""
+    if not rays.size:
+        return 0.0
+    _, values, basis = np.linalg.svd(rays, full_matrices=False)
+    spanned = values > _FLAT * values[0]
+    if np.any(values[~spanned] > _MARGIN * 1e-13 * values[0]):
+        return np.inf
+    basis = basis[spanned]
+    price, rest = 0.0, 0.0
+    for direction in basis:
+        costs, errors = [], []
+        for wanted in (direction, -direction):
+            found = linprog(np.ones(len(rays)), A_eq=rays.T, b_eq=wanted)
+            if found.x is None:
+                return np.inf
+            share = np.maximum(found.x, 0.0)
+            costs.append(float(np.sum(share)))
+            errors.append(float(np.linalg.norm(wanted - share @ rays)))
+        price, rest = price + max(costs), rest + max(errors)
+    # what a linear program leaves is carried in the same way
+    return price / (1.0 - rest) if rest < 0.5 else np.inf
