@@ -112,6 +112,10 @@ def test_no_number_can_be(path: tuple[str | int, ...], value: str) -> None:
 @pytest.mark.parametrize("path", NUMBERS, ids=IDS)
 @pytest.mark.parametrize("value", [10**400, -(10**400), 1e300, -1e300, 5e31])
 def test_no_number_can_be_so_large_that_the_arithmetic_overflows(path: tuple[str | int, ...], value: float) -> None:
+    if path[-1] == "max_mass_kg" and 0 < value <= 1e300:
+        # a limit is never multiplied before it is clipped: any number means that there is none
+        OptimizeRequest.model_validate(changed(path, value))
+        return
     with pytest.raises(ValidationError):
         OptimizeRequest.model_validate(changed(path, value))
 
