@@ -155,9 +155,6 @@ class _Jobs(BaseSettings):
         None, description="database of the sweeps, such as postgresql://host/name; by default SQLite in data_dir"
     )
     database_busy_s: float = Field(5, gt=0, le=600, description="how long to wait for a locked database [s]")
-    database_patience_s: float = Field(
-        30, ge=0, description="running sweeps fail when the database is away for longer [s]"
-    )
     engine: str = Field("processes", description="where sweeps are computed: processes, or dask:tcp://host:port")
     sweep_workers: int = Field(default_factory=lambda: os.cpu_count() or 1, ge=1, description="processes for sweeps")
     lease_s: float = Field(
@@ -166,8 +163,14 @@ class _Jobs(BaseSettings):
     min_free_mb: int = Field(
         200, ge=0, description="the service is not ready when less is free where the jobs are kept [MB]"
     )
-    results_keep_days: float = Field(30, ge=0, description="how long results are kept [days]; 0 is for ever")
+    results_keep_days: float = Field(
+        30, ge=0, description="how long results are kept, counted while a service runs [days]; 0 is for ever"
+    )
     max_jobs: int = Field(1000, ge=1, description="sweeps that wait or run at the same time")
+    max_jobs_each: int = Field(100, ge=1, description="the same of one owner; without keys all have one owner")
+    disk_quota_mb: float = Field(
+        20_000, ge=0, description="room on disk for the sweeps of one owner [MB]; 0 is any; more is answered 409"
+    )
 
 
 class Settings(_Network, _Sizes, _Work, _Shares, _Access, _Watching, _Jobs):

@@ -20,8 +20,10 @@ _PROGRAM_S = 7e-6
 #: and for each row at each angle of the turn, in the outputs
 _SAMPLE_S = 3.5e-7
 _ROW_S = 6e-6
-#: cells of a chunk at most, which bounds its memory
-_CELLS = 4_000_000
+#: cells of a chunk at most, which bounds the memory of who computes it, and of who reads it
+_CELLS = 1_000_000
+#: chunks of a sweep at most, if that makes them longer than they should be: each has a file and a row of a database
+_MOST_CHUNKS = 10_000
 #: seconds, and rows, of a block of a chunk: between blocks a worker sees that it is to stop
 _BLOCK_S = 0.25
 _BLOCK_ROWS = 10_000
@@ -30,6 +32,10 @@ _FEWEST_CHUNKS = 16
 _SMALLEST_CHUNK = 64
 #: bytes of a cell in Parquet: numbers hardly compress, texts nearly vanish
 _CELL_BYTES = {"number": 8.6, "integer": 1.5, "text": 0.2}
+#: bytes of a file for itself, and for each of its columns besides their name, which stands there three times
+_FILE_BYTES, _COLUMN_BYTES, _NAMED = 500, 220, 3
+#: a file takes whole blocks of a disk
+_BLOCK_BYTES = 4096
 
 
 @dataclass(frozen=True)
@@ -41,6 +47,8 @@ class Plan:
     seed: int
     columns: tuple[Column, ...]
     schema: pa.Schema
+    #: rows that are kept a second time, as far as that is known before they are selected
+    selected: int = 0
 
     @property
     def chunks(self) -> int:
@@ -55,14 +63,25 @@ class Plan:
     @property
     def estimate(self) -> SweepEstimate:
         """The answer to a dry run."""
-        row_bytes = sum(_CELL_BYTES[column.kind] for column in self.columns)
         return SweepEstimate(
             total=self.total,
             chunks=self.chunks,
             chunk_rows=self.chunk_rows,
             seed=self.seed,
-            bytes=round(self.total * row_bytes),
+            bytes=self._bytes,
             columns=tuple(SweepColumn(**column._asdict()) for column in self.columns),
+        )
+
+    @property
+    def _bytes(self) -> int:
+        """On disk: the chunks, the rows that are selected as far as their number is known, and the request."""
+        rows = sum(_CELL_BYTES[column.kind] for column in self.columns)
+        columns = sum(_COLUMN_BYTES + _NAMED * len(column.name.encode()) for column in self.columns)
+        size = self.chunk_rows * rows + _FILE_BYTES + columns
+        return round(
+            self.chunks * -(-size // _BLOCK_BYTES) * _BLOCK_BYTES
+            + min(self.selected, self.total) * rows
+            + len(self.schema.serialize())
         )
 
 
@@ -82,6 +101,7 @@ def plan(request: SweepRequest) -> Plan:
         seed=request.seed,
         columns=columns,
         schema=result_schema(request, request.model_dump_json().encode()),
+        selected=0 if request.top is None else request.top.count,
     )
 
 
@@ -104,7 +124,7 @@ def block_rows(request: SweepRequest) -> int:
 def _chunk_rows(request: SweepRequest) -> int:
     largest = min(_CHUNK_S / _seconds_per_design(request), _CELLS / len(request.all_columns), 100_000)
     fair = max(-(-request.total // _FEWEST_CHUNKS), _SMALLEST_CHUNK)
-    return max(1, min(round(largest), fair))
+    return max(1, min(round(largest), fair), -(-request.total // _MOST_CHUNKS))
 
 
 def _seconds_per_design(request: SweepRequest) -> float:

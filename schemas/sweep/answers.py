@@ -29,12 +29,22 @@ class SweepState(Model):
         examples=[12],
     )
     rows: int = Field(description="rows that the results hold now; fewer than done with top or pareto", examples=[20])
+    selected: int | None = Field(
+        description="designs that top or pareto have looked at, some time after they are done; null without them",
+        examples=[None],
+    )
+    repaired: int = Field(
+        description="times that rows on disk were found damaged or missing, and were computed again", examples=[0]
+    )
+    bytes: int = Field(description="room that the sweep takes on disk now", examples=[30000000])
     seed: int = Field(description="seed of the designs", examples=[0])
     eta_s: float | None = Field(description="estimate of the seconds left; null where unknown", examples=[42.0])
     created_at: str = Field(description="when it was accepted, ISO 8601, UTC", examples=["2026-01-31T12:00:00Z"])
     started_at: str | None = Field(description="when the first chunk began", examples=["2026-01-31T12:00:01Z"])
     finished_at: str | None = Field(description="when it ended", examples=[None])
-    message: str | None = Field(description="why it failed; null otherwise", examples=[None])
+    message: str | None = Field(
+        description="why it failed, or why there is no selection; null otherwise", examples=[None]
+    )
     links: SweepLinks = Field(description="where to go from here", examples=[{"self": "/v1/sweeps/5f0c"}])
 
 
@@ -55,5 +65,5 @@ class SweepEstimate(Model):
     chunks: int = Field(description="pieces in which they would be computed", examples=[50])
     chunk_rows: int = Field(description="designs in one piece", examples=[20000])
     seed: int = Field(description="seed of the designs", examples=[0])
-    bytes: int = Field(description="rough size of the whole result as Parquet", examples=[120000000])
+    bytes: int = Field(description="rough room that the sweep will take on disk", examples=[120000000])
     columns: tuple[SweepColumn, ...] = Field(description="columns of the result", examples=[[{"name": "index"}]])

@@ -2,7 +2,7 @@
 
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
@@ -14,12 +14,17 @@ if TYPE_CHECKING:
     from schemas.sweep import SweepRequest
     from service.jobs.desk import Desk
     from service.jobs.job import Job
+    from service.jobs.owner_jobs import OwnerJobs
 
 _INTERRUPTED = 130
 _POLL_S = 0.1
 _SHOWN = 5
 #: an interrupted sweep has one key in its folder: another request there is refused
 _KEY = "sweep"
+#: the folder is one's own: what is in it stays, and may be large
+_ALONE: dict[str, Any] = {"results_keep_days": 0, "disk_quota_mb": 0, "lease_s": 5}
+#: a database that is away for longer ends the command [s]
+_PATIENCE_S = 30.0
 
 
 def sweep(
@@ -51,9 +56,10 @@ def sweep(
     place = folder or output.with_name(output.name + ".sweep")
     desk = _desk(place, workers, engine)
     try:
-        job = _run(desk, asked, place, quiet=as_json)
+        jobs = desk.of()
+        job = _run(jobs, asked, place, quiet=as_json)
         if job.state == "done":
-            counts = _finish(desk, job, asked, output, as_json)
+            counts = _finish(jobs, job, asked, output, as_json)
     finally:
         desk.close()
     if job.state != "done":
@@ -97,16 +103,14 @@ def _desk(place: Path, workers: int | None, engine: str | None) -> "Desk":
     from service.settings import Settings
 
     given: dict[str, Any] = {} if workers is None else {"sweep_workers": workers}
-    settings = Settings(
-        data_dir=place, database_url=None, engine=engine or "processes", results_keep_days=0, lease_s=5, **given
-    )
+    settings = Settings(data_dir=place, database_url=None, engine=engine or "processes", **_ALONE, **given)
     try:
         return Desk(settings)
     except ValueError as error:
         fail(str(error))
 
 
-def _run(desk: "Desk", asked: "SweepRequest", place: Path, quiet: bool) -> "Job":
+def _run(desk: "OwnerJobs", asked: "SweepRequest", place: Path, quiet: bool) -> "Job":
     from optimizer.errors import MissingInput
     from service.jobs.database import DatabaseUnavailable
     from service.jobs.store import KeyReused
@@ -133,7 +137,7 @@ def _run(desk: "Desk", asked: "SweepRequest", place: Path, quiet: bool) -> "Job"
         raise typer.Exit(_INTERRUPTED) from None
 
 
-def _watch(desk: "Desk", job: "Job", quiet: bool) -> "Job":
+def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
     from rich.console import Console
     from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
@@ -148,28 +152,35 @@ def _watch(desk: "Desk", job: "Job", quiet: bool) -> "Job":
     )
     with Progress(*columns, console=Console(stderr=True), disable=quiet) as progress:
         bar = progress.add_task("designs", total=job.total, completed=job.done, failed=job.failed)
+        heard = time.monotonic()
         while job.active:
             time.sleep(_POLL_S)
             try:
                 job = desk.get(job.id)
-            except DatabaseUnavailable:
-                # the jobs fail by themselves if it stays away
+            except DatabaseUnavailable as error:
+                if time.monotonic() - heard > _PATIENCE_S:
+                    fail(f"{error}; the same command goes on from there")
                 continue
+            heard = time.monotonic()
             progress.update(bar, completed=job.done, failed=job.failed)
     return job
 
 
-def _finish(desk: "Desk", job: "Job", asked: "SweepRequest", output: Path, as_json: bool) -> dict[str, int]:
+def _finish(desk: "OwnerJobs", job: "Job", asked: "SweepRequest", output: Path, as_json: bool) -> dict[str, int]:
     from service.jobs.export import export
+    from service.jobs.files import FilesUnavailable
+    from service.jobs.owner_jobs import NotFinished, RowsDamaged
 
     schema = desk.schema(job)
-    rows = desk.kept(job).to_batches() if desk.keeps(job) else desk.rows(job, schema, 0, None)
     try:
-        export(output, schema, rows)
+        export(output, schema, (desk.kept if job.selects else desk.rows)(job, schema).batches)
+        counts = _counts(desk, job, schema)
     except OSError as error:
-        typer.echo(f"cannot write {output}: {error.strerror}; the same command tries again", err=True)
-        raise typer.Exit(1) from None
-    counts = _counts(desk, job, schema)
+        _not_written(f"cannot write {output}: {error.strerror}; the same command tries again")
+    except (RowsDamaged, FilesUnavailable) as error:
+        _not_written(f"cannot write {output}: {error} The same command goes on.")
+    except NotFinished as error:
+        _not_written(f"cannot write {output}: {error}")
     if as_json:
         put(desk.state(job).model_dump_json())
     else:
@@ -181,30 +192,35 @@ def _finish(desk: "Desk", job: "Job", asked: "SweepRequest", output: Path, as_js
     return counts
 
 
-def _counts(desk: "Desk", job: "Job", schema: "pa.Schema") -> dict[str, int]:
+def _not_written(message: str) -> NoReturn:
+    typer.echo(message, err=True)
+    raise typer.Exit(1)
+
+
+def _counts(desk: "OwnerJobs", job: "Job", schema: "pa.Schema") -> dict[str, int]:
     from collections import Counter
 
     import pyarrow as pa
 
     counts: Counter[str] = Counter()
-    for batch in desk.rows(job, pa.schema([schema.field("status")]), 0, None):
+    for batch in desk.rows(job, pa.schema([schema.field("status")])).batches:
         for one in batch.column("status").value_counts().to_pylist():
             counts[one["values"]] += one["counts"]
     return dict(counts)
 
 
-def _best(desk: "Desk", job: "Job", asked: "SweepRequest") -> "tuple[pa.Table, str]":
+def _best(desk: "OwnerJobs", job: "Job", asked: "SweepRequest") -> "tuple[pa.Table, str]":
     import pyarrow as pa
 
     from optimizer.sweep.reduce import Top
     from schemas.sweep import TopFilter
 
     schema = desk.schema(job)
-    if desk.keeps(job):
-        return desk.kept(job).slice(0, _SHOWN), "First rows"
+    if job.selects:
+        return pa.Table.from_batches(desk.kept(job, schema, 0, _SHOWN).batches, schema), "First rows"
     if "force_peak_N" not in schema.names:
         return schema.empty_table(), ""
     top = Top(TopFilter(by="force_peak_N", count=_SHOWN), schema)
-    for batch in desk.rows(job, schema, 0, None):
+    for batch in desk.rows(job, schema).batches:
         top.add(pa.Table.from_batches([batch]))
     return top.table(), "Smallest peak force"

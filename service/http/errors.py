@@ -26,9 +26,12 @@ from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedi
 from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
 from service.jobs.accepting import BadHeader
 from service.jobs.database import DatabaseUnavailable
-from service.jobs.desk import NotFinished
+from service.jobs.files import FilesUnavailable
+from service.jobs.owner_jobs import NotFinished, RowsDamaged
 from service.jobs.results import UnknownColumn
-from service.jobs.store import KeyReused, TooManyJobs, UnknownJob
+from service.jobs.rows import UnknownJob
+from service.jobs.schema import WrongSchema
+from service.jobs.store import KeyReused, QuotaExceeded, TooManyJobs
 from service.watch.readiness import NotReady
 from service.workers.pool import Busy, TooSlow, WorkerDied, WorkersFailed
 from service.workers.worker import NoRoom, OutOfMemory
@@ -136,7 +139,11 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     BadHeader: _fixed(422, "Invalid header"),
     UnknownColumn: _fixed(422, "Unknown column"),
     TooManyJobs: _later(429, "Too many jobs", 30),
+    QuotaExceeded: _fixed(409, "Quota exceeded"),
     DatabaseUnavailable: _later(503, "Database unavailable", 5),
+    WrongSchema: _fixed(503, "Wrong schema"),
+    FilesUnavailable: _later(503, "Files unavailable", 5),
+    RowsDamaged: _later(503, "Rows damaged", 2),
     BodyTooLarge: _fixed(413, "Body too large"),
     UnsupportedMedia: _fixed(415, "Unsupported media type"),
     InvalidRequest: _invalid,

@@ -6,8 +6,8 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from service.guard.keys import caller_of
-from service.jobs.desk import Desk
 from service.jobs.job import Job
+from service.jobs.owner_jobs import OwnerJobs
 
 _KEY = re.compile(r"[\x21-\x7e]{1,255}")
 _PREFERS = re.compile(r"(?:^|[,;])\s*respond-async\s*(?:$|[,;])", re.IGNORECASE)
@@ -17,11 +17,11 @@ class BadHeader(ValueError):
     """A header holds what it must not."""
 
 
-def desk_of(request: Request) -> Desk:
+def desk_of(request: Request) -> OwnerJobs:
     """The jobs that belong to whoever asks."""
-    found: Desk = request.app.state.desk
     caller = caller_of(request)
-    return found.of(caller.owner, sees_all=caller.may("admin"))
+    found: OwnerJobs = request.app.state.desk.of(caller.owner, sees_all=caller.may("admin"))
+    return found
 
 
 def prefix(request: Request) -> str:

@@ -13,14 +13,18 @@ from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from service.jobs import worker
+from service.jobs import selection, worker
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.engines import Engine, EngineUnavailable
-from service.jobs.files import JobFiles
+from service.jobs.files import Damaged, JobFiles
+from service.jobs.housekeeping import Housekeeping
 from service.jobs.job import Chunk
 from service.jobs.kinds import KINDS
+from service.jobs.leases import Leases
 from service.jobs.piece import Piece, Run, Stopped, Unanswerable
-from service.jobs.store import Store, UnknownJob
+from service.jobs.rows import UnknownJob
+from service.jobs.schema import WrongSchema
+from service.jobs.store import Store
 
 _LOG = logging.getLogger(__name__)
 
@@ -33,10 +37,10 @@ class Pace:
     poll_s: float = 0.5
     #: a lease that is not renewed for this long is free
     lease_s: float = 15.0
-    #: a database that is away for longer fails the jobs
-    patience_s: float = 30.0
-    #: looks for expired jobs this often
-    expiry_s: float = 600.0
+    #: looks for expired jobs and leftovers this often
+    tidy_s: float = 60.0
+    #: waits for a database or an engine that is away for this long at most before it asks again
+    longest_pause_s: float = 5.0
     #: a chunk is tried this often before it is halved, a single row before it is recorded as failed
     tries: int = 3
     #: a job with more faults than this is failed
@@ -47,14 +51,20 @@ class Pace:
 class _Flight:
     chunk: Chunk
     future: "Future[Piece]"
+    #: rows that a selection looks at
+    covers: int = 0
     dropped: bool = field(default=False)
 
 
 class Coordinator:
-    """Runs the chunks of the jobs in a store on an engine, in a thread of its own.
+    """Runs the chunks of jobs on an engine, in a thread of its own.
+
+    A database that does not answer costs time and nothing else: jobs stay as they are, and are gone on with. A full
+    disk fails the jobs that need it.
 
     Parameters
     ----------
+    selector : engine whose workers read the files of the jobs; the same as ``engine`` if that one's do.
     run : computes a chunk; importable by workers.
     begun : whether there can be jobs at all; until then the store is not touched.
     clock : monotonic seconds.
@@ -63,14 +73,18 @@ class Coordinator:
     def __init__(
         self,
         store: Store,
+        leases: Leases,
         files: JobFiles,
+        housekeeping: Housekeeping,
         engine: Engine,
+        selector: Engine | None = None,
         pace: Pace | None = None,
         run: Run = worker.run,
         begun: Callable[[], bool] = lambda: True,
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
-        self._store, self._files, self._engine, self._run, self._clock = store, files, engine, run, clock
+        self._store, self._leases, self._files, self._housekeeping = store, leases, files, housekeeping
+        self._engine, self._selector, self._run, self._clock = engine, selector or engine, run, clock
         self._pace, self._begun = pace or Pace(), begun
         self._name = uuid.uuid4().hex
         self._flights: list[_Flight] = []
@@ -79,8 +93,8 @@ class Coordinator:
         self._suspects = True
         # jobs that ended badly while the database could not be told
         self._verdicts: dict[str, str] = {}
-        self._away_since: float | None = None
-        self._renewed = self._expired = float("-inf")
+        self._away = False
+        self._renewed = self._tidied = float("-inf")
         self._stopping = False
         self._wake = threading.Event()
         self._thread: threading.Thread | None = None
@@ -111,44 +125,46 @@ class Coordinator:
             self._wake.clear()
             try:
                 self._step()
-            except DatabaseUnavailable as error:
-                self._database_is_away(error)
-                pause = min(2.0, 2 * pause)
+            except (DatabaseUnavailable, WrongSchema) as error:
+                # once, not at every attempt
+                if not self._away:
+                    _LOG.warning("%s; the jobs wait", error)
+                if isinstance(error, DatabaseUnavailable) and error.full:
+                    # as when their rows cannot be written
+                    for flight in self._flights:
+                        self._verdicts.setdefault(flight.chunk.job, str(error))
+                self._away, pause = True, min(self._pace.longest_pause_s, 2 * pause)
             except EngineUnavailable as error:
                 _LOG.warning("%s", error)
-                pause = min(2.0, 2 * pause)
+                pause = min(self._pace.longest_pause_s, 2 * pause)
             except Exception:
                 # nothing that happens to one chunk may end the thread that all jobs need
                 _LOG.exception("the coordinator of the jobs stumbled")
-                pause = min(2.0, 2 * pause)
+                pause = min(self._pace.longest_pause_s, 2 * pause)
             else:
-                self._away_since, pause = None, self._pace.poll_s
+                self._away, pause = False, self._pace.poll_s
             self._wake.wait(pause)
-        self._engine.end()
+        self._end_engines()
         if self._begun():
             # without this the leases run out by themselves
-            with suppress(DatabaseUnavailable):
-                self._store.release(self._name)
+            with suppress(DatabaseUnavailable, WrongSchema):
+                self._leases.release(self._name)
 
-    def _database_is_away(self, error: DatabaseUnavailable) -> None:
-        now = self._clock()
-        if self._away_since is None:
-            self._away_since = now
-            _LOG.warning("%s", error)
-        elif now - self._away_since > self._pace.patience_s:
-            for job in self._active | {flight.chunk.job for flight in self._flights}:
-                self._verdicts.setdefault(job, str(error))
+    def _end_engines(self) -> None:
+        self._engine.end()
+        if self._selector is not self._engine:
+            self._selector.end()
 
     def _step(self) -> None:
         if not self._begun():
             return
         self._tell_verdicts()
-        self._active = self._store.active()
+        self._active = self._leases.active()
         self._drop_ended()
         self._collect()
         self._fill()
         self._keep_leases()
-        self._remove_expired()
+        self._tidy()
 
     def _tell_verdicts(self) -> None:
         for job, error in list(self._verdicts.items()):
@@ -188,35 +204,60 @@ class Coordinator:
             if not flight.dropped:
                 # the flag is left over from before the job went on
                 self._files.go(chunk.job)
-            self._store.give_back(chunk, chunk.attempts)
+            self._leases.give_back(chunk, chunk.attempts)
         except Unanswerable as error:
-            self._fail(chunk.job, str(error))
+            self._refuse(chunk, str(error))
+        except Damaged as error:
+            self.repair(chunk.job, error)
+            self._leases.postpone(chunk)
         except Exception as error:
             if not flight.dropped:
                 self._went_wrong(chunk, f"{type(error).__name__}: {error}", alone=True)
         else:
             if not flight.dropped:
-                self._keep(chunk, piece)
+                self._keep(chunk, piece, flight.covers)
         self._flights.remove(flight)
 
-    def _keep(self, chunk: Chunk, piece: Piece) -> None:
+    def _keep(self, chunk: Chunk, piece: Piece, covers: int = 0) -> None:
         try:
-            self._files.write(self._files.piece(chunk.job, chunk.start, chunk.stop), piece.content)
+            record = self._files.keep(chunk.job, chunk.start, chunk.stop, piece.content)
         except OSError as error:
-            self._fail(chunk.job, f"rows {chunk.start} to {chunk.stop - 1} cannot be written: {error.strerror}")
+            what = f"rows {chunk.start} to {chunk.stop - 1}" if chunk.rows else "selected rows"
+            self._fail(chunk.job, f"{what} cannot be written: {error.strerror}")
+            return
+        if chunk.rows:
+            counts = self._leases.finish(chunk, piece.failed, str(record.digest), record.bytes)
         else:
-            self._store.finish(chunk, piece.failed)
+            counts = self._leases.finish_selection(chunk, covers, piece.kept, str(record.digest), record.bytes)
+        if not counts or not chunk.rows:
+            # another service was first, with a file of another content; or this one replaces an older selection
+            self._housekeeping.remove_others(chunk.job, chunk.start, chunk.stop)
+
+    def _refuse(self, chunk: Chunk, reason: str) -> None:
+        if chunk.rows:
+            self._fail(chunk.job, reason)
+        else:
+            _LOG.warning("job %s: %s", chunk.job, reason)
+            self._leases.refuse_selection(chunk, reason)
+
+    def repair(self, job: str, damage: Damaged) -> None:
+        """Have a chunk computed again whose file is not what was written."""
+        record = damage.record
+        if self._leases.reopen(job, record):
+            what = f"rows {record.start} to {record.stop - 1}" if record.rows else "selected rows"
+            _LOG.error("job %s: the file of the %s is %s; it is made again", job, what, damage.reason)
+        self.start()
 
     def _restart(self, broken: bool) -> None:
         _LOG.warning("the workers of the sweeps %s; they are started again", "died" if broken else "are gone")
-        self._engine.end()
+        self._end_engines()
         flights = [flight for flight in self._flights if not flight.dropped]
         while flights:
             flight = flights.pop()
             if broken:
                 self._went_wrong(flight.chunk, "the worker died", alone=len(self._flights) == 1)
             else:
-                self._store.give_back(flight.chunk, flight.chunk.attempts)
+                self._leases.give_back(flight.chunk, flight.chunk.attempts)
         self._flights.clear()
 
     def _went_wrong(self, chunk: Chunk, reason: str, alone: bool) -> None:
@@ -224,9 +265,11 @@ class Coordinator:
         attempts = chunk.attempts + 1
         _LOG.warning("rows %d to %d of job %s: %s", chunk.start, chunk.stop - 1, chunk.job, reason)
         if attempts < self._pace.tries or not alone:
-            self._store.give_back(chunk, attempts)
+            self._leases.give_back(chunk, attempts)
+        elif chunk.rows == 0:
+            self._refuse(chunk, f"the rows cannot be selected: {reason}")
         elif chunk.rows > 1:
-            if self._store.halve(chunk) > self._pace.max_faults:
+            if self._leases.halve(chunk) > self._pace.max_faults:
                 self._fail(chunk.job, f"too many rows cannot be computed, the last because {reason}")
         else:
             self._record_failed_row(chunk, reason)
@@ -244,13 +287,13 @@ class Coordinator:
         if not self._active:
             return
         if self._suspects and not self._flights:
-            chunk = self._store.claim(self._name, self._pace.lease_s, attempted=True)
+            chunk = self._leases.claim(self._name, self._pace.lease_s, attempted=True)
             if chunk is not None:
                 self._submit(chunk)
                 return
             self._suspects = False
         while not self._suspects and len(self._flights) < self._engine.window():
-            chunk = self._store.claim(self._name, self._pace.lease_s)
+            chunk = self._leases.claim(self._name, self._pace.lease_s)
             if chunk is None:
                 # what is left, if anything, went wrong before or is leased
                 self._suspects = True
@@ -258,32 +301,37 @@ class Coordinator:
             self._submit(chunk)
 
     def _submit(self, chunk: Chunk) -> None:
-        flag = str(self._files.flag(chunk.job))
         try:
-            future = self._engine.submit(self._run, chunk.kind, chunk.request, chunk.start, chunk.stop, flag)
+            future, covers = self._begin(chunk)
         except BrokenExecutor:
             # it broke while it was idle or with the flights that are about to say so
-            self._store.give_back(chunk, chunk.attempts)
+            self._leases.give_back(chunk, chunk.attempts)
             self._restart(broken=True)
             return
         except BaseException:
-            self._store.give_back(chunk, chunk.attempts)
+            self._leases.give_back(chunk, chunk.attempts)
             raise
-        self._flights.append(_Flight(chunk, future))
+        self._flights.append(_Flight(chunk, future, covers))
         future.add_done_callback(lambda _: self._wake.set())
+
+    def _begin(self, chunk: Chunk) -> "tuple[Future[Piece], int]":
+        flag = str(self._files.flag(chunk.job))
+        if chunk.rows:
+            return self._engine.submit(self._run, chunk.kind, chunk.request, chunk.start, chunk.stop, flag), 0
+        pieces = self._store.pieces(chunk.job)
+        files = [(self._files.piece(chunk.job, piece), piece) for piece in pieces]
+        columns = self._store.columns(chunk.job)
+        future = self._selector.submit(selection.select, chunk.request, columns, files, flag)
+        return future, sum(piece.rows for piece in pieces)
 
     def _keep_leases(self) -> None:
         now = self._clock()
         if self._flights and now - self._renewed > self._pace.lease_s / 3:
-            self._store.renew(self._name, [flight.chunk for flight in self._flights], self._pace.lease_s)
+            self._leases.renew(self._name, [flight.chunk for flight in self._flights], self._pace.lease_s)
             self._renewed = now
 
-    def _remove_expired(self) -> None:
+    def _tidy(self) -> None:
         now = self._clock()
-        if now - self._expired > self._pace.expiry_s:
-            self._store.mark_expired()
-            for job in self._store.removed():
-                with suppress(OSError):
-                    self._files.remove(job)
-                    self._store.forget(job)
-            self._expired = now
+        if now - self._tidied > self._pace.tidy_s:
+            self._housekeeping.tidy()
+            self._tidied = now

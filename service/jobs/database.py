@@ -10,15 +10,22 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, NoSuchModuleError
 from sqlalchemy.exc import TimeoutError as PoolTimeout
 
-from service.jobs.tables import metadata
+from service.jobs.schema import prepare
 
 
 class DatabaseUnavailable(Exception):
-    """The database is locked, full or cannot be reached; a retry may help."""
+    """The database is locked, full or cannot be reached; a retry may help.
+
+    full : whether it lacks room on disk.
+    """
+
+    def __init__(self, message: str, full: bool = False) -> None:
+        self.full = full
+        super().__init__(message)
 
 
 class Database:
-    """Transactions on the job tables, which are made if they are missing.
+    """Transactions on the job tables, which are made if they are missing and brought up to date if they are old.
 
     Parameters
     ----------
@@ -48,7 +55,7 @@ class Database:
 
         Raises
         ------
-        DatabaseUnavailable
+        DatabaseUnavailable, WrongSchema
         """
         with _unavailable():
             self._make_tables()
@@ -61,12 +68,22 @@ class Database:
 
         Raises
         ------
-        DatabaseUnavailable
+        DatabaseUnavailable, WrongSchema
         """
         with _unavailable():
             self._make_tables()
             with self._writer.begin() as connection:
                 yield connection
+
+    def check(self) -> None:
+        """Look whether the tables are there, and are those of this service.
+
+        Raises
+        ------
+        DatabaseUnavailable, WrongSchema
+        """
+        with self.read():
+            pass
 
     def _make_tables(self) -> None:
         if not self._made:
@@ -76,7 +93,7 @@ class Database:
                 if connection.dialect.name == "postgresql":
                     # two services that start together: CREATE TABLE IF NOT EXISTS alone is not safe against itself
                     connection.exec_driver_sql("SELECT pg_advisory_xact_lock(7021962)")
-                metadata.create_all(connection)
+                prepare(connection)
             self._made = True
 
     def close(self) -> None:
@@ -92,7 +109,8 @@ def _unavailable() -> Iterator[None]:
         # integrity errors are for the store to read, the rest is the database's own trouble
         if isinstance(error, IntegrityError):
             raise
-        raise DatabaseUnavailable(f"the job database does not answer: {error.orig}") from error
+        full = getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL
+        raise DatabaseUnavailable(f"the job database does not answer: {error.orig}", full) from error
     except (sqlite3.Error, PoolTimeout, OSError) as error:
         raise DatabaseUnavailable(f"the job database does not answer: {error}") from error
 

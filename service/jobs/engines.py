@@ -90,6 +90,11 @@ def engine(name: str, workers: int) -> Engine:
     raise ValueError(f"there is no engine {name!r}: take processes or dask:tcp://host:port")
 
 
+def reads_files(name: str) -> bool:
+    """Whether the workers of an engine are on this machine, and read what the service has written."""
+    return name.partition(":")[0] == "processes"
+
+
 class Processes:
     """Processes on this machine."""
 

@@ -8,7 +8,7 @@ from anyio import sleep, to_thread
 from schemas.sweep import SweepState
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.job import Job
-from service.jobs.store import UnknownJob
+from service.jobs.rows import UnknownJob
 
 _POLL_S = 0.5
 #: proxies close what is silent for longer

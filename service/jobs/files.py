@@ -1,15 +1,62 @@
-"""The files of the jobs: one for each chunk, complete or absent."""
+"""The files of the jobs: one for each chunk, complete or absent, with a digest that the database knows."""
 
+import hashlib
 import os
 import shutil
+import uuid
+from collections.abc import Container, Iterable
 from contextlib import suppress
+from errno import EIO
 from pathlib import Path
 
+from service.jobs.job import Record
+
 _FLAG = "stop"
+_MARK = ".database"
+
+
+class Damaged(Exception):
+    """A file is missing, or is not what was written."""
+
+    def __init__(self, record: Record, reason: str) -> None:
+        # both, so that it can be handed over between processes
+        super().__init__(record, reason)
+        self.record, self.reason = record, reason
+
+
+class FilesUnavailable(Exception):
+    """The folder of the jobs cannot be read now; a retry may help."""
+
+
+def digest(content: bytes) -> str:
+    """The digest of a file."""
+    return hashlib.sha256(content).hexdigest()
+
+
+def verified(path: Path, record: Record) -> bytes:
+    """The content of a file, if it is what was written.
+
+    Raises
+    ------
+    Damaged, FilesUnavailable
+    """
+    try:
+        content = path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+        raise Damaged(record, "missing") from None
+    except OSError as error:
+        if error.errno == EIO:
+            raise Damaged(record, "unreadable") from None
+        raise FilesUnavailable(f"the files of the sweeps cannot be read: {error.strerror}") from error
+    if record.digest is not None and digest(content) != record.digest:
+        raise Damaged(record, "damaged")
+    return content
 
 
 class JobFiles:
     """A folder with a folder for each job. Ids come from the database, never from a client.
+
+    Files are named for what they hold, so that none is ever replaced by another one while it is read.
 
     Parameters
     ----------
@@ -26,25 +73,56 @@ class JobFiles:
         """The file whose presence tells workers to stop."""
         return self.folder(job) / _FLAG
 
-    def piece(self, job: str, start: int, stop: int) -> Path:
-        """The file of rows [start, stop)."""
-        return self.folder(job) / f"{start:09d}-{stop:09d}"
+    def piece(self, job: str, record: Record) -> Path:
+        """The file of some rows, or of the rows that were selected."""
+        name = f"{record.start:09d}-{record.stop:09d}"
+        return self.folder(job) / (name if record.digest is None else f"{name}-{record.digest[:16]}")
 
-    def kept(self, job: str) -> Path:
-        """The file of the rows that the request keeps."""
-        return self.folder(job) / "kept"
+    def read(self, job: str, record: Record) -> bytes:
+        """The content of a file, verified.
 
-    def write(self, path: Path, content: bytes) -> None:
-        """Put a file in place of what is there, in one step and on disk when this returns.
+        Raises
+        ------
+        Damaged, FilesUnavailable
+        """
+        return verified(self.piece(job, record), record)
+
+    def absent(self, job: str, records: Iterable[Record]) -> list[Record]:
+        """Those of some files that are not there."""
+        with suppress(FileNotFoundError, NotADirectoryError):
+            there = set(os.listdir(self.folder(job)))
+            return [record for record in records if self.piece(job, record).name not in there]
+        return list(records)
+
+    def keep(self, job: str, start: int, stop: int, content: bytes) -> Record:
+        """Write the file of some rows, in one step and on disk when this returns.
 
         Raises
         ------
         OSError
             if the disk is full or broken; then nothing has changed.
         """
+        record = Record(start, stop, digest(content), len(content))
+        self._write(self.piece(job, record), content)
+        return record
+
+    def adopt(self, job: str, record: Record) -> Record:
+        """Give a file that was written before there were digests its name.
+
+        Raises
+        ------
+        Damaged, FilesUnavailable, OSError
+        """
+        content = self.read(job, record)
+        named = Record(record.start, record.stop, digest(content), len(content))
+        self.piece(job, record).replace(self.piece(job, named))
+        _sync(self.folder(job))
+        return named
+
+    def _write(self, path: Path, content: bytes) -> None:
         _make(path.parent)
-        # a name of its own: two services may write the same chunk, with the same content
-        temporary = path.with_name(f".{path.name}.{os.getpid()}")
+        # a name of its own: two services, or threads, may write the same chunk
+        temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
         try:
             with temporary.open("wb") as file:
                 file.write(content)
@@ -70,9 +148,51 @@ class JobFiles:
 
     def remove(self, job: str) -> None:
         """Remove every file of a job."""
-        folder = self.folder(job)
-        if folder.exists():
-            shutil.rmtree(folder)
+        with suppress(FileNotFoundError):
+            shutil.rmtree(self.folder(job))
+
+    # ---- what crashes leave behind
+
+    def names(self, job: str) -> list[str]:
+        """Everything that is in the folder of a job."""
+        with suppress(FileNotFoundError, NotADirectoryError):
+            return os.listdir(self.folder(job))
+        return []
+
+    def tidy(self, job: str, found: Iterable[str], records: Iterable[Record]) -> int:
+        """Remove those of some names that are no file of the job; how many that were."""
+        known = {_FLAG, *(self.piece(job, record).name for record in records)}
+        gone = 0
+        for name in set(found) - known:
+            with suppress(OSError):
+                (self.folder(job) / name).unlink()
+                gone += 1
+        return gone
+
+    def belongs_to(self, identity: str) -> bool:
+        """Whether the jobs in this folder are those of a database; a folder of nobody becomes its own."""
+        mark = self._root / _MARK
+        with suppress(OSError):
+            if not mark.exists():
+                self._write(mark, identity.encode())
+            return mark.read_bytes() == identity.encode()
+        return False
+
+    def folders(self) -> list[str]:
+        """The jobs that have a folder."""
+        with suppress(FileNotFoundError):
+            return [entry.name for entry in os.scandir(self._root) if entry.is_dir(follow_symlinks=False)]
+        return []
+
+    def remove_unknown(self, folders: Iterable[str], known: Container[str]) -> int:
+        """Remove those of some folders that belong to no job; how many that were."""
+        gone = 0
+        for job in folders:
+            if job not in known:
+                with suppress(OSError):
+                    shutil.rmtree(self.folder(job))
+                    gone += 1
+        return gone
 
 
 def _make(folder: Path) -> None:

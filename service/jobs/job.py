@@ -13,13 +13,32 @@ REMOVED = "removed"
 
 
 @dataclass(frozen=True)
+class Order:
+    """What somebody wants to be computed apart from the request that asks for it."""
+
+    kind: str
+    request: bytes
+    #: what makes two requests the same
+    fingerprint: str
+    total: int = 1
+    chunk_rows: int = 1
+    #: an Arrow schema; None where the answer is no table
+    columns: bytes | None = None
+    seed: int = 0
+    #: whether some of the rows are selected in the end
+    selects: bool = False
+    expected_bytes: int = 0
+    owner: str | None = None
+    #: the idempotency key
+    key: str | None = None
+
+
+@dataclass(frozen=True)
 class Job:
     """Something that is computed apart from the request that asked for it; times in seconds since 1970."""
 
     id: str
     kind: str
-    request: bytes
-    columns: bytes | None
     owner: str | None
     state: State
     total: int
@@ -29,8 +48,16 @@ class Job:
     created: float
     started: float | None
     ended: float | None
-    expires: float | None
     error: str | None
+    seed: int
+    chunk_rows: int
+    planned: int
+    selects: bool
+    #: how many rows were looked at for the selection, and how many of them stay
+    selected: int
+    kept: int
+    repaired: int
+    bytes: int
 
     @property
     def active(self) -> bool:
@@ -46,7 +73,7 @@ def job_from(row: Mapping[Any, Any]) -> Job:
 
 @dataclass(frozen=True)
 class Chunk:
-    """Rows [start, stop) of a job, leased to be computed."""
+    """Rows [start, stop) of a job, leased to be computed; without rows it is the selection of the job."""
 
     job: str
     kind: str
@@ -55,6 +82,20 @@ class Chunk:
     stop: int
     #: how often it went wrong so far
     attempts: int
+
+    @property
+    def rows(self) -> int:
+        return self.stop - self.start
+
+
+@dataclass(frozen=True)
+class Record:
+    """The file of a finished chunk; without a digest it was written before there were digests."""
+
+    start: int
+    stop: int
+    digest: str | None
+    bytes: int
 
     @property
     def rows(self) -> int:

@@ -64,14 +64,17 @@ def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> Piece:
 
 
 def table_bytes(table: "pa.Table") -> bytes:
-    """A table as a Parquet file."""
+    """A table as a Parquet file, without what is the same in every chunk: it is kept with the job."""
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    fields = [field.remove_metadata() for field in table.schema]
+    table = pa.Table.from_arrays(table.columns, schema=pa.schema(fields))
     out, schema = pa.BufferOutputStream(), table.schema
     # numbers are hardly ever equal but of similar size, so byte by byte they compress; texts are few
     numbers, texts = ([field.name for field in schema if field.type == kind] for kind in (pa.float64(), pa.string()))
-    pq.write_table(table, out, compression="zstd", use_dictionary=texts, use_byte_stream_split=numbers)
+    how = {"compression": "zstd", "use_dictionary": texts, "use_byte_stream_split": numbers, "store_schema": False}
+    pq.write_table(table, out, **how)
     return bytes(out.getvalue().to_pybytes())
 
 

@@ -14,10 +14,11 @@ class Unanswerable(Exception):
 
 @dataclass(frozen=True)
 class Piece:
-    """What a chunk comes to: the content of its file, and how many of its rows failed."""
+    """What a chunk comes to: the content of its file, and how many of its rows failed; of a selection, its rows."""
 
     content: bytes
     failed: int
+    kept: int = 0
 
 
 #: kind, request, start, stop, path of the flag -> piece

@@ -1,18 +1,16 @@
 """The rows of a job, read back from its files in the order of their index, a batch at a time."""
 
 import json
-from collections.abc import Callable, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import pyarrow as pa
 import pyarrow.parquet as pq
 
 from optimizer.sweep.table import REQUEST, SEED, VERSIONS
+from service.jobs.job import Record
 
 _BATCH_ROWS = 10_000
-
-Piece = tuple[int, int]
 
 
 class UnknownColumn(ValueError):
@@ -38,8 +36,8 @@ def chosen(schema: pa.Schema, asked: Sequence[str]) -> pa.Schema:
 
 
 def batches(
-    pieces: Sequence[Piece],
-    path: Callable[[int, int], Path],
+    pieces: Iterable[Record],
+    read: Callable[[Record], bytes],
     schema: pa.Schema,
     first: int = 0,
     last: int | None = None,
@@ -48,20 +46,28 @@ def batches(
 
     Parameters
     ----------
-    pieces : start and stop of the chunks that are done, in order.
-    path : file of a piece.
+    pieces : files of the chunks that are done, in order.
+    read : the content of a file.
     """
-    for start, stop in pieces:
-        if stop <= first or (last is not None and start >= last):
-            continue
-        position = start
-        with pq.ParquetFile(path(start, stop)) as file:
-            for batch in file.iter_batches(_BATCH_ROWS, columns=schema.names):
-                begin = max(first - position, 0)
-                end = batch.num_rows if last is None else min(last - position, batch.num_rows)
-                position += batch.num_rows
-                if begin < end:
-                    yield fitted(batch.slice(begin, end - begin), schema)
+    for piece in within(pieces, first, last):
+        yield from rows_of(read(piece), schema, first - piece.start, None if last is None else last - piece.start)
+
+
+def within(pieces: Iterable[Record], first: int, last: int | None) -> list[Record]:
+    """The pieces that hold some of the rows with first <= index < last."""
+    return [piece for piece in pieces if piece.stop > first and (last is None or piece.start < last)]
+
+
+def rows_of(content: bytes, schema: pa.Schema, first: int = 0, last: int | None = None) -> Iterator[pa.RecordBatch]:
+    """Rows first <= position < last of a file, as ``schema`` says."""
+    position = 0
+    with pq.ParquetFile(pa.BufferReader(content)) as file:
+        for batch in file.iter_batches(_BATCH_ROWS, columns=schema.names):
+            begin = max(first - position, 0)
+            end = batch.num_rows if last is None else min(last - position, batch.num_rows)
+            position += batch.num_rows
+            if begin < end:
+                yield fitted(batch.slice(begin, end - begin), schema)
 
 
 def fitted(batch: pa.RecordBatch, schema: pa.Schema) -> pa.RecordBatch:

@@ -5,9 +5,12 @@ there, and the pool waits for the other half for ever (CPython issue 94777). So 
 they take whole.
 """
 
+import fcntl
 import os
 import pickle
+import shutil
 import tempfile
+import time
 from collections.abc import Callable
 from concurrent.futures import Executor, Future, InvalidStateError
 from contextlib import suppress
@@ -17,6 +20,11 @@ from service.jobs.piece import Piece
 
 #: bytes; a pipe takes less than this in one step
 _SHORT = 8000
+_PREFIX = "counterweight-spool-"
+#: locked for as long as the service lives that made the folder; the system unlocks it, however the service ends
+_LOCK = "lock"
+#: a folder without its lock is as young as that, or nobody's [s]
+_MAKING_S = 60.0
 
 
 class Spool:
@@ -29,16 +37,53 @@ class Spool:
 
     def __init__(self, executor: Executor) -> None:
         self._executor = executor
-        self._folder = tempfile.TemporaryDirectory(prefix="counterweight-", ignore_cleanup_errors=True)
+        self._folder = tempfile.mkdtemp(prefix=_PREFIX)
+        self._lock = os.open(Path(self._folder, _LOCK), os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o600)
+        fcntl.flock(self._lock, fcntl.LOCK_EX)
 
     def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
         """As :meth:`concurrent.futures.Executor.submit`."""
-        message = _put(self._folder.name, pickle.dumps((task, arguments)))
-        return _Unpacked(self._executor.submit(_work, self._folder.name, message))
+        message = _put(self._folder, pickle.dumps((task, arguments)))
+        return _Unpacked(self._executor.submit(_work, self._folder, message))
 
     def remove(self) -> None:
         """Remove the folder; the workers are gone."""
-        self._folder.cleanup()
+        shutil.rmtree(self._folder, ignore_errors=True)
+        with suppress(OSError):
+            os.close(self._lock)
+
+
+def remove_leftovers(root: Path | None = None) -> int:
+    """Remove the folders of services that were killed, never that of one that lives; how many that were.
+
+    Parameters
+    ----------
+    root : where the folders are; by default where temporary files go.
+    """
+    gone = 0
+    for folder in Path(root or tempfile.gettempdir()).glob(f"{_PREFIX}*"):
+        with suppress(OSError):
+            gone += _remove_if_left(folder)
+    return gone
+
+
+def _remove_if_left(folder: Path) -> bool:
+    about = folder.lstat()
+    if about.st_uid != os.getuid() or folder.is_symlink():
+        return False
+    try:
+        lock = os.open(folder / _LOCK, os.O_RDWR | os.O_CLOEXEC | os.O_NOFOLLOW)
+    except FileNotFoundError:
+        if time.time() - about.st_mtime < _MAKING_S:
+            return False
+        shutil.rmtree(folder)
+        return True
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        shutil.rmtree(folder)
+        return True
+    finally:
+        os.close(lock)
 
 
 class _Unpacked(Future[Piece]):

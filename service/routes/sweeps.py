@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping
 from itertools import chain
 from typing import Annotated, Any, Literal
 
-import pyarrow as pa
 from anyio import to_thread
 from fastapi import APIRouter, Depends, Query
 from starlette.requests import Request
@@ -19,22 +18,22 @@ from service.guard.threads import Threads, in_threads
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
-from service.jobs.desk import Desk
 from service.jobs.events import events
 from service.jobs.formats import FORMATS, Name, negotiated
 from service.jobs.job import Job
+from service.jobs.owner_jobs import OwnerJobs, Rows
 from service.jobs.page import SweepPage
-from service.jobs.results import chosen, description, fitted
+from service.jobs.results import chosen, description
 
 router = APIRouter(tags=["sweeps"])
 
 
-async def _jobs(request: Request) -> Desk:
+async def _jobs(request: Request) -> OwnerJobs:
     # not a thread for that
     return desk_of(request)
 
 
-Jobs = Annotated[Desk, Depends(_jobs)]
+Jobs = Annotated[OwnerJobs, Depends(_jobs)]
 #: a job may also come from a computing route, with Prefer: respond-async
 _SEES = [needs("sweeps", "read", "compute")]
 _ENDS = [needs("sweeps", "compute")]
@@ -147,7 +146,7 @@ def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
 def describe_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """What a file of Parquet or Arrow holds itself, for CSV and NDJSON."""
     job = desk.get(id)
-    return JSONResponse(description(desk.schema(job)) if job.columns else {"kind": job.kind})
+    return JSONResponse(description(desk.schema(job)) if job.kind == "sweep" else {"kind": job.kind})
 
 
 @router.get(
@@ -176,25 +175,17 @@ def read_results(
 ) -> Response:
     """Of a sweep that runs, the rows that are finished so far: `Sweep-Complete` says whether these are all."""
     job = desk.get(id)
-    if job.columns is None:
+    if job.kind != "sweep":
         return Response(desk.answer(job), media_type="application/json", headers=_NO_STORE)
     name = format or negotiated(",".join(request.headers.getlist("accept")))
     schema = chosen(desk.schema(job), columns or ())
     last = None if limit is None else offset + limit
-    if select == "kept" and desk.keeps(job):
-        table = desk.kept(job)
-        count = table.num_rows
-        rows: Iterator[pa.RecordBatch] = (
-            fitted(batch, schema) for batch in table.slice(offset, limit).to_batches(max_chunksize=10_000)
-        )
-    else:
-        count = job.total
-        rows = desk.rows(job, schema, offset, last)
-    more = last if last is not None and last < count else None
-    return _stream(request, job, name, FORMATS[name].encode(schema, rows), more)
+    rows = (desk.kept if select == "kept" and job.selects else desk.rows)(job, schema, offset, last)
+    more = last if last is not None and last < rows.count else None
+    return _stream(request, job, name, rows, FORMATS[name].encode(schema, rows.batches), more)
 
 
-def _stream(request: Request, job: Job, name: Name, content: Iterator[bytes], more: int | None) -> Response:
+def _stream(request: Request, job: Job, name: Name, rows: Rows, content: Iterator[bytes], more: int | None) -> Response:
     here = f"{prefix(request)}/v1/sweeps/{job.id}"
     links = [f'<{here}/metadata>; rel="describedby"; type="application/json"']
     if more is not None:
@@ -204,7 +195,7 @@ def _stream(request: Request, job: Job, name: Name, content: Iterator[bytes], mo
         **_NO_STORE,
         "Content-Disposition": f'attachment; filename="sweep-{job.id[:8]}.{name}"',
         "Link": ", ".join(links),
-        "Sweep-Complete": "true" if job.state == "done" else "false",
+        "Sweep-Complete": "true" if rows.complete else "false",
         "Sweep-State": job.state,
         "Vary": "Accept",
     }
@@ -250,7 +241,7 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     return StreamingResponse(told, headers=headers, media_type="text/event-stream")
 
 
-def _state(request: Request, desk: Desk, job: Job) -> Response:
+def _state(request: Request, desk: OwnerJobs, job: Job) -> Response:
     content: Any = desk.state(job, prefix(request)).model_dump_json()
     return Response(content, media_type="application/json", headers=_NO_STORE)
 

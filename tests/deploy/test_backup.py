@@ -8,6 +8,7 @@ from contextlib import closing
 from pathlib import Path
 
 from service.jobs.database import Database
+from service.jobs.job import Order
 from service.jobs.store import Store, digest
 from tests.deploy.files import ROOT
 
@@ -17,14 +18,14 @@ def test_the_copy_holds_what_was_written_last(tmp_path: Path) -> None:
     found = re.search(r"^python3 -c '(.+jobs\.sqlite.+)'$", text, re.MULTILINE)
     assert found is not None
     database = Database(tmp_path / "jobs.sqlite")
-    store = Store(database, None, 10)
-    job, _ = store.submit("sweep", b"{}", digest("sweep", {}), 3, 2, None)
+    store = Store(database)
+    job, _ = store.submit(Order("sweep", b"{}", digest("sweep", {}), 3, 2))
     with database.read():
         # in use: what was submitted is in the write-ahead log still, and a plain copy of the file would miss it
         command = found[1].replace("/data/", f"{tmp_path}/")
         copy = tmp_path / "copy"
         copy.mkdir()
         subprocess.run([sys.executable, "-c", command], cwd=copy, check=True)
-    store.close()
+    database.close()
     with closing(sqlite3.connect(copy / "jobs.sqlite")) as restored:
         assert restored.execute("select id, total from jobs").fetchall() == [(job.id, 3)]

@@ -1,5 +1,6 @@
 """A store, files and coordinators on an engine, as a service has them."""
 
+import io
 import json
 import time
 from collections.abc import Iterator
@@ -14,31 +15,44 @@ from service.jobs.coordinator import Coordinator, Pace
 from service.jobs.database import Database
 from service.jobs.engines import Engine
 from service.jobs.files import JobFiles
-from service.jobs.job import Job
+from service.jobs.housekeeping import Housekeeping
+from service.jobs.job import Job, Order
+from service.jobs.leases import Leases
+from service.jobs.piece import Run
+from service.jobs.retention import Retention
+from service.jobs.rows import Limits
 from service.jobs.store import Store, digest
 from tests.jobs import synthetic
 
-QUICK = Pace(poll_s=0.05, lease_s=2.0, patience_s=0.5, expiry_s=0.2)
+QUICK = Pace(poll_s=0.05, lease_s=2.0, tidy_s=0.2, longest_pause_s=0.5)
 
 
 class House:
     """What services share."""
 
-    def __init__(self, root: Path, url: str | Path | None = None, busy_s: float = 5.0) -> None:
+    def __init__(
+        self, root: Path, url: str | Path | None = None, busy_s: float = 5.0, limits: Limits | None = None
+    ) -> None:
         self.database = Database(url or root / "jobs.sqlite", busy_s)
-        self.store = Store(self.database)
-        self.files = JobFiles(root / "results")
+        self.store, self.leases = Store(self.database, limits), Leases(self.database, limits)
+        self.retention, self.files = Retention(self.database), JobFiles(root / "results")
 
-    def submit(self, total: int = 100, chunk_rows: int = 10, **asked: Any) -> str:
+    def submit(self, total: int = 100, chunk_rows: int = 10, owner: str | None = None, **asked: Any) -> str:
         request = json.dumps(asked).encode()
         columns = synthetic.SCHEMA.serialize().to_pybytes()
-        job, new = self.store.submit("synthetic", request, digest("synthetic", asked), total, chunk_rows, columns)
+        job, new = self.store.submit(
+            Order("synthetic", request, digest("synthetic", asked), total, chunk_rows, columns, owner=owner)
+        )
         assert new
         return job.id
 
+    def coordinator_on(self, engine: Engine, pace: Pace = QUICK, run: Run = synthetic.run) -> Coordinator:
+        housekeeping = Housekeeping(self.store, self.retention, self.files)
+        return Coordinator(self.store, self.leases, self.files, housekeeping, engine, pace=pace, run=run)
+
     @contextmanager
     def coordinator(self, engine: Engine, pace: Pace = QUICK) -> Iterator[Coordinator]:
-        found = Coordinator(self.store, self.files, engine, pace, synthetic.run)
+        found = self.coordinator_on(engine, pace)
         found.start()
         try:
             yield found
@@ -59,7 +73,18 @@ class House:
             assert time.monotonic() < deadline
             time.sleep(0.01)
 
+    def rows_told(self, job: str) -> int:
+        """Rows of the files that the database knows, all of which can be read."""
+        return sum(piece.rows for piece in self.store.pieces(job) if self.files.read(job, piece))
+
+    def wait_until_tidy(self, job: str) -> None:
+        """Until the folder of a job holds its files and nothing else."""
+        deadline = time.monotonic() + 20
+        while set(self.files.names(job)) != {self.files.piece(job, piece).name for piece in self.store.pieces(job)}:
+            assert time.monotonic() < deadline, self.files.names(job)
+            time.sleep(0.02)
+
     def rows(self, job: str) -> pa.Table:
         """What is on disk of the chunks that are done."""
-        pieces = [pq.read_table(self.files.piece(job, *piece)) for piece in self.store.pieces(job)]
+        pieces = [pq.read_table(io.BytesIO(self.files.read(job, piece))) for piece in self.store.pieces(job)]
         return pa.concat_tables(pieces) if pieces else synthetic.SCHEMA.empty_table()

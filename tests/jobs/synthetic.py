@@ -10,7 +10,7 @@ from typing import Any
 
 import pyarrow as pa
 
-from service.jobs.kinds import Kind, table_bytes
+from service.jobs.kinds import KINDS, Kind, table_bytes
 from service.jobs.piece import Piece, Stopped
 
 SCHEMA = pa.schema(
@@ -62,3 +62,8 @@ def _never(request: bytes, start: int, stop: int, proceed: Callable[[], None]) -
 
 
 KIND = Kind(_never, _failed)
+
+
+def register() -> None:
+    """For commands; tests do it by a fixture."""
+    KINDS.setdefault("synthetic", KIND)  # type: ignore[attr-defined]

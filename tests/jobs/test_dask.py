@@ -10,11 +10,11 @@ distributed = pytest.importorskip("distributed", reason="the extra dask is not i
 
 from optimizer.sweep import run_chunk  # noqa: E402
 from schemas.sweep import SweepRequest  # noqa: E402
-from service.jobs import engines  # noqa: E402
-from service.jobs.coordinator import Coordinator  # noqa: E402
+from service.jobs import engines, worker  # noqa: E402
 from service.jobs.engines import engine  # noqa: E402
+from service.jobs.job import Order  # noqa: E402
 from tests.jobs import synthetic  # noqa: E402
-from tests.jobs.house import QUICK, House  # noqa: E402
+from tests.jobs.house import House  # noqa: E402
 from tests.jobs.sweeps import analyses, optimisations  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("default::ResourceWarning", "default::DeprecationWarning")
@@ -49,8 +49,8 @@ def test_a_killed_worker_of_the_cluster_costs_a_retry(house: House, address: str
 def test_a_real_sweep_on_the_cluster(house: House, address: str, body: dict[str, Any]) -> None:
     request = SweepRequest.model_validate(body)
     data = request.model_dump_json().encode()
-    job, _ = house.store.submit("sweep", data, "digest", request.total, 37)
-    coordinator = Coordinator(house.store, house.files, engine(f"dask:{address}", 1), QUICK)
+    job, _ = house.store.submit(Order("sweep", data, "digest", request.total, 37))
+    coordinator = house.coordinator_on(engine(f"dask:{address}", 1), run=worker.run)
     coordinator.start()
     try:
         assert house.wait(job.id).state == "done"

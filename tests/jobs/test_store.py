@@ -5,39 +5,46 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from service.jobs.database import Database
-from service.jobs.job import Chunk
-from service.jobs.store import KeyReused, Store, TooManyJobs, UnknownJob, digest
+from service.jobs.job import Chunk, Order
+from service.jobs.leases import Leases
+from service.jobs.retention import Retention
+from service.jobs.rows import Limits, UnknownJob
+from service.jobs.store import KeyReused, Store, TooManyJobs, digest
 from tests.jobs.house import House
 
 LEASE_S = 60.0
 
 
-def claim_all(store: Store, owner: str = "a") -> list[Chunk]:
-    return list(iter(lambda: store.claim(owner, LEASE_S), None))
+def claim_all(leases: Leases, owner: str = "a") -> list[Chunk]:
+    return list(iter(lambda: leases.claim(owner, LEASE_S), None))
+
+
+def spans(store: Store, job: str) -> list[tuple[int, int]]:
+    return [(piece.start, piece.stop) for piece in store.pieces(job)]
 
 
 def test_every_row_is_given_out_once_and_counted_once(any_house: House) -> None:
-    store, job = any_house.store, any_house.submit(total=95, chunk_rows=10)
+    store, leases, job = any_house.store, any_house.leases, any_house.submit(total=95, chunk_rows=10)
     assert store.get(job).state == "queued"
-    chunks = claim_all(store)
+    chunks = claim_all(leases)
     assert [(chunk.start, chunk.stop) for chunk in chunks] == [(s, min(s + 10, 95)) for s in range(0, 95, 10)]
     assert store.get(job).state == "running"
     for chunk in chunks:
-        store.finish(chunk, failed=1)
-        store.finish(chunk, failed=1)
+        leases.finish(chunk, 1, "d", 9)
+        leases.finish(chunk, 1, "d", 9)
     found = store.get(job)
     assert (found.state, found.done, found.failed, found.total) == ("done", 95, 10, 95)
-    assert store.pieces(job) == [(chunk.start, chunk.stop) for chunk in chunks]
-    assert store.claim("a", LEASE_S) is None
+    assert spans(store, job) == [(chunk.start, chunk.stop) for chunk in chunks]
+    assert leases.claim("a", LEASE_S) is None
 
 
 def test_many_claim_at_once(any_house: House) -> None:
-    store, job = any_house.store, any_house.submit(total=200, chunk_rows=5)
+    store, leases, job = any_house.store, any_house.leases, any_house.submit(total=200, chunk_rows=5)
 
     def work(owner: str) -> list[Chunk]:
-        mine = claim_all(store, owner)
+        mine = claim_all(leases, owner)
         for chunk in mine:
-            store.finish(chunk, 0)
+            leases.finish(chunk, 0, "d", 9)
         return mine
 
     with ThreadPoolExecutor(4) as threads:
@@ -48,36 +55,36 @@ def test_many_claim_at_once(any_house: House) -> None:
 
 def test_a_lease_that_is_not_renewed_is_free_again(any_house: House) -> None:
     now = 1000.0
-    store = Store(any_house.database, clock=lambda: now)
+    leases = Leases(any_house.database, clock=lambda: now)
     any_house.submit(total=1, chunk_rows=1)
-    mine = store.claim("a", LEASE_S)
+    mine = leases.claim("a", LEASE_S)
     assert mine is not None
     now += LEASE_S - 1
-    assert store.claim("b", LEASE_S) is None
-    store.renew("a", [mine], LEASE_S)
+    assert leases.claim("b", LEASE_S) is None
+    leases.renew("a", [mine], LEASE_S)
     now += LEASE_S - 1
-    assert store.claim("b", LEASE_S) is None
+    assert leases.claim("b", LEASE_S) is None
     now += 2
-    theirs = store.claim("b", LEASE_S)
+    theirs = leases.claim("b", LEASE_S)
     assert theirs == mine
     # both finish: it counts once
-    store.finish(theirs, 0)
-    store.finish(mine, 0)
-    assert store.get(mine.job).done == 1
+    leases.finish(theirs, 0, "d", 9)
+    leases.finish(mine, 0, "d", 9)
+    assert any_house.store.get(mine.job).done == 1
 
 
 def test_what_is_released_is_free_at_once(any_house: House) -> None:
     any_house.submit(total=3, chunk_rows=1)
-    assert len(claim_all(any_house.store, "a")) == 3
-    any_house.store.release("b")
-    assert claim_all(any_house.store, "b") == []
-    any_house.store.release("a")
-    assert len(claim_all(any_house.store, "b")) == 3
+    assert len(claim_all(any_house.leases, "a")) == 3
+    any_house.leases.release("b")
+    assert claim_all(any_house.leases, "b") == []
+    any_house.leases.release("a")
+    assert len(claim_all(any_house.leases, "b")) == 3
 
 
 def test_a_small_job_does_not_wait_for_a_large_one(any_house: House) -> None:
     large, small = any_house.submit(total=100), any_house.submit(total=20)
-    first = [any_house.store.claim("a", LEASE_S) for _ in range(4)]
+    first = [any_house.leases.claim("a", LEASE_S) for _ in range(4)]
     assert [chunk.job for chunk in first if chunk] == [large, small, large, small]
 
 
@@ -85,7 +92,7 @@ def test_the_same_key(any_house: House) -> None:
     store = any_house.store
 
     def submit(body: object, key: str | None, owner: str | None = None) -> tuple[str, bool]:
-        job, new = store.submit("k", b"{}", digest("k", body), 1, 1, owner=owner, key=key)
+        job, new = store.submit(Order("k", b"{}", digest("k", body), owner=owner, key=key))
         return job.id, new
 
     first, new = submit({"a": 1, "b": 2}, "x")
@@ -103,18 +110,18 @@ def test_the_same_key(any_house: House) -> None:
 
 
 def test_a_cancelled_job_keeps_its_rows_and_goes_on_where_it_ended(any_house: House) -> None:
-    store, job = any_house.store, any_house.submit(total=30, chunk_rows=10)
-    first, second = store.claim("a", LEASE_S), store.claim("a", LEASE_S)
+    store, leases, job = any_house.store, any_house.leases, any_house.submit(total=30, chunk_rows=10)
+    first, second = leases.claim("a", LEASE_S), leases.claim("a", LEASE_S)
     assert first is not None
     assert second is not None
-    store.finish(first, 0)
+    leases.finish(first, 0, "d", 9)
     assert store.cancel(job).state == "cancelled"
-    store.finish(second, 0)
-    assert (store.get(job).done, store.pieces(job)) == (10, [(0, 10)])
-    assert store.claim("a", LEASE_S) is None
+    leases.finish(second, 0, "d", 9)
+    assert (store.get(job).done, spans(store, job)) == (10, [(0, 10)])
+    assert leases.claim("a", LEASE_S) is None
     assert store.cancel(job).state == "cancelled"
     assert store.resume(job).state == "queued"
-    assert [chunk.start for chunk in claim_all(store)] == [10, 20]
+    assert [chunk.start for chunk in claim_all(leases)] == [10, 20]
 
 
 def test_failure_and_its_reason(any_house: House) -> None:
@@ -127,30 +134,36 @@ def test_failure_and_its_reason(any_house: House) -> None:
 
 
 def test_halves_of_a_chunk(any_house: House) -> None:
-    store, job = any_house.store, any_house.submit(total=5, chunk_rows=5)
-    whole = store.claim("a", LEASE_S)
+    store, leases, job = any_house.store, any_house.leases, any_house.submit(total=5, chunk_rows=5)
+    whole = leases.claim("a", LEASE_S)
     assert whole is not None
-    assert [store.halve(whole), store.halve(whole)] == [1, 1]
-    assert store.claim("a", LEASE_S) is None
-    halves = list(iter(lambda: store.claim("a", LEASE_S, attempted=True), None))
+    assert [leases.halve(whole), leases.halve(whole)] == [1, 1]
+    assert leases.claim("a", LEASE_S) is None
+    halves = list(iter(lambda: leases.claim("a", LEASE_S, attempted=True), None))
     assert [(half.start, half.stop) for half in halves] == [(0, 2), (2, 5)]
     for half in halves:
-        store.finish(half, 0)
+        leases.finish(half, 0, "d", 9)
     assert store.get(job).state == "done"
 
 
 def test_results_expire(any_house: House) -> None:
     now = 1000.0
-    store = Store(any_house.database, keep_s=100, clock=lambda: now)
+    store = Store(any_house.database, Limits(keep_s=100))
+    retention = Retention(any_house.database, clock=lambda: now)
+    retention.mark_expired()
     kept, gone = any_house.submit(), any_house.submit()
     store.cancel(gone)
-    now += 101
-    store.mark_expired()
-    assert store.removed() == [gone]
+    now += 99
+    retention.mark_expired()
+    assert retention.removed() == []
+    now += 2
+    retention.mark_expired()
+    assert retention.removed() == [gone]
     with pytest.raises(UnknownJob):
         store.get(gone)
-    store.forget(gone)
-    assert store.removed() == []
+    retention.forget(gone)
+    retention.forget(kept)
+    assert retention.removed() == []
     assert store.get(kept).active
 
 
@@ -163,10 +176,15 @@ def test_pages_newest_first(any_house: House) -> None:
 
 
 def test_too_many_jobs(any_house: House) -> None:
-    store = Store(any_house.database, max_active=1)
-    any_house.submit()
+    store = Store(any_house.database, Limits(active=3, active_each=2))
+    for _ in range(2):
+        store.submit(Order("k", b"{}", "d", owner="one"))
     with pytest.raises(TooManyJobs):
-        store.submit("k", b"{}", "d", 1, 1)
+        store.submit(Order("k", b"{}", "d", owner="one"))
+    # there is room for others still, and then there is not
+    store.submit(Order("k", b"{}", "d"))
+    with pytest.raises(TooManyJobs):
+        store.submit(Order("k", b"{}", "d", owner="two"))
 
 
 @pytest.mark.parametrize("id", ["", "../../etc/passwd", "x" * 10_000, "%2e%2e", "a\x00b", "é"])

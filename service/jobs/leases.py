@@ -1,0 +1,275 @@
+"""What coordinators do to the chunks of jobs. Every method is one transaction."""
+
+import time
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from sqlalchemy import ColumnElement, Connection, Select, and_, exists, func, insert, or_, select, tuple_, update
+
+from service.jobs import rows
+from service.jobs.database import Database
+from service.jobs.job import ACTIVE, Chunk, Job, Record
+from service.jobs.rows import Limits, on_disk
+from service.jobs.tables import chunks, jobs
+
+#: so many chunks are made at a time: a transaction of more would keep others waiting
+_PLANNED = 250
+_CANDIDATES = 20
+
+
+class Leases:
+    """The chunks in a database: given out, taken back, finished.
+
+    Parameters
+    ----------
+    clock : seconds since 1970. Leases of services whose clocks differ by more than a lease overlap, and so do those
+        around a jump of the clock, which costs work and no rows.
+    """
+
+    def __init__(
+        self, database: Database, limits: Limits | None = None, clock: Callable[[], float] = time.time
+    ) -> None:
+        self._database = database
+        self._limits = limits or Limits()
+        self._clock = clock
+
+    def claim(self, owner: str, lease_s: float, attempted: bool = False) -> Chunk | None:
+        """Lease one chunk: of the owner with the fewest chunks in work, and of their job with the fewest, so that
+        nobody waits for somebody else's large or many jobs.
+
+        Parameters
+        ----------
+        attempted : whether to lease a chunk that went wrong before, or a fresh one.
+        """
+        now = self._clock()
+        # a lease that ends later than any can was made by a clock that has jumped since
+        over = or_(chunks.c.lease_until < now, chunks.c.lease_until > now + 2 * lease_s)
+        free = (chunks.c.state == "pending", and_(chunks.c.state == "leased", over))
+        tried = chunks.c.attempts > 0 if attempted else chunks.c.attempts == 0
+        with self._database.read() as connection:
+            candidates: list[str] = list(connection.scalars(_waiting(now, free, tried, attempted)))
+        for job in candidates:
+            with self._database.write() as connection:
+                found = rows.find(connection, job, lock=True)
+                if found is None or not found.active:
+                    continue
+                span = _free(connection, job, free, tried)
+                if span is None and not attempted:
+                    span = _made(connection, found)
+                if span is not None:
+                    this = and_(chunks.c.job == job, chunks.c.start == span[0])
+                    lease = {"state": "leased", "lease_owner": owner, "lease_until": now + lease_s}
+                    connection.execute(update(chunks).where(this).values(lease))
+                    if found.state == "queued":
+                        rows.change(connection, job, state="running", started=found.started or now)
+                    request = connection.scalar(select(jobs.c.request).where(jobs.c.id == job))
+                    return Chunk(job, found.kind, bytes(request or b""), *span)
+        return None
+
+    def renew(self, owner: str, held: Sequence[Chunk], lease_s: float) -> None:
+        """Keep the leases of some chunks of an owner."""
+        these = tuple_(chunks.c.job, chunks.c.start).in_([(chunk.job, chunk.start) for chunk in held])
+        mine = and_(these, chunks.c.lease_owner == owner, chunks.c.state == "leased")
+        with self._database.write() as connection:
+            connection.execute(update(chunks).where(mine).values(lease_until=self._clock() + lease_s))
+
+    def release(self, owner: str) -> None:
+        """Give the chunks of an owner back."""
+        mine = and_(chunks.c.lease_owner == owner, chunks.c.state == "leased")
+        with self._database.write() as connection:
+            connection.execute(update(chunks).where(mine).values(state="pending", lease_owner=None))
+
+    def active(self) -> set[str]:
+        """The jobs that are queued or running."""
+        with self._database.read() as connection:
+            return set(connection.scalars(select(jobs.c.id).where(jobs.c.state.in_(ACTIVE))))
+
+    # ---- outcomes
+
+    def finish(self, chunk: Chunk, failed: int, digest: str, size: int) -> bool:
+        """The file of a chunk is on disk. Said twice it counts once; said of an ended job it does not count.
+
+        Parameters
+        ----------
+        digest, size : of the file.
+
+        Returns
+        -------
+        whether it counts.
+        """
+        with self._database.write() as connection:
+            found = rows.find(connection, chunk.job, lock=True)
+            if found is None or not found.active:
+                return False
+            this = and_(_this(chunk), chunks.c.stop == chunk.stop, chunks.c.state != "done")
+            about = {"failed": failed, "digest": digest, "bytes": on_disk(size)}
+            done = update(chunks).where(this).values(state="done", finished=self._clock(), lease_owner=None, **about)
+            if connection.execute(done).rowcount == 0:
+                return False
+            counts = {"done": jobs.c.done + chunk.rows, "failed": jobs.c.failed + failed}
+            rows.change(connection, chunk.job, bytes=jobs.c.bytes + on_disk(size), **counts)
+            self._settle(connection, found)
+            return True
+
+    def _settle(self, connection: Connection, job: Job) -> None:
+        rows.settle(connection, job.id, self._clock(), self._limits.keep_s)
+        quota = self._limits.quota_bytes
+        found = rows.get(connection, job.id)
+        if quota is not None and found.active and rows.used(connection, job.owner) > quota:
+            error = f"the {quota / 1e6:.1f} MB of its owner on disk are used up; remove sweeps, then resume this one"
+            rows.end(connection, found, "failed", error, self._clock(), self._limits.keep_s)
+
+    def finish_selection(self, chunk: Chunk, covered: int, kept: int, digest: str, size: int) -> bool:
+        """The file of the rows that were selected is on disk.
+
+        Parameters
+        ----------
+        covered, kept : how many rows were looked at, and how many of them stay.
+
+        Returns
+        -------
+        whether it counts: it does not if the job has ended, or another selection looked at as many.
+        """
+        with self._database.write() as connection:
+            found = rows.find(connection, chunk.job, lock=True)
+            if found is None or not found.active or covered <= found.selected:
+                return False
+            before = connection.scalar(select(chunks.c.bytes).where(_this(chunk))) or 0
+            about = {"digest": digest, "bytes": on_disk(size), "attempts": 0, "lease_owner": None}
+            state = "done" if covered == found.total else "waiting"
+            connection.execute(update(chunks).where(_this(chunk)).values(state=state, **about))
+            size_now = jobs.c.bytes + on_disk(size) - before
+            rows.change(connection, chunk.job, selected=covered, kept=kept, bytes=size_now)
+            self._settle(connection, found)
+            return True
+
+    def refuse_selection(self, chunk: Chunk, reason: str) -> None:
+        """There will be no selection; the job goes on without."""
+        with self._database.write() as connection:
+            found = rows.find(connection, chunk.job, lock=True)
+            if found is not None and found.active:
+                gone = {"state": "done", "digest": None, "lease_owner": None}
+                connection.execute(update(chunks).where(_this(chunk)).values(gone))
+                rows.change(connection, chunk.job, selected=found.total, kept=0, error=reason)
+                self._settle(connection, found)
+
+    def postpone(self, chunk: Chunk) -> None:
+        """Select rows later, when those that are computed anew are there."""
+        with self._database.write() as connection:
+            mine = and_(_this(chunk), chunks.c.state == "leased")
+            connection.execute(update(chunks).where(mine).values(state="waiting", lease_owner=None))
+
+    def give_back(self, chunk: Chunk, attempts: int) -> None:
+        """A chunk went wrong ``attempts`` times by now and shall be tried again."""
+        with self._database.write() as connection:
+            values = {"state": "pending", "attempts": attempts, "lease_owner": None}
+            connection.execute(update(chunks).where(_this(chunk), chunks.c.state == "leased").values(values))
+
+    def halve(self, chunk: Chunk) -> int:
+        """Replace a chunk that keeps going wrong by its halves, so that the rows at fault end up alone.
+
+        Returns
+        -------
+        number of faults of the job so far.
+        """
+        middle = chunk.start + chunk.rows // 2
+        with self._database.write() as connection:
+            rows.get(connection, chunk.job, lock=True)
+            values = {"state": "pending", "lease_owner": None, "attempts": 1}
+            this = and_(_this(chunk), chunks.c.stop == chunk.stop, chunks.c.state != "done")
+            if connection.execute(update(chunks).where(this).values(stop=middle, **values)).rowcount:
+                half = {"job": chunk.job, "start": middle, "stop": chunk.stop, **values}
+                connection.execute(insert(chunks).values(half))
+                rows.change(connection, chunk.job, faults=jobs.c.faults + 1)
+            return int(connection.scalar(select(jobs.c.faults).where(jobs.c.id == chunk.job)) or 0)
+
+    # ---- files that are not what they were
+
+    def reopen(self, job: str, record: Record) -> bool:
+        """A file is damaged or missing: its chunk is computed again. A job that was done runs again; one that was
+        cancelled or has failed computes it when it goes on.
+
+        Returns
+        -------
+        whether it is news: not if another has said so before.
+        """
+        with self._database.write() as connection:
+            found = rows.find(connection, job, lock=True)
+            selection = record.rows == 0
+            this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
+            known = and_(this, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
+            row = connection.execute(select(chunks.c.failed, chunks.c.bytes).where(known)).first()
+            if found is None or row is None:
+                return False
+            blank = {"digest": None, "bytes": 0, "failed": 0, "attempts": 0, "finished": None, "lease_owner": None}
+            state = "waiting" if selection else "pending"
+            connection.execute(update(chunks).where(this).values(state=state, **blank))
+            counts = {"done": found.done - record.rows, "failed": found.failed - row.failed}
+            if selection:
+                counts |= {"selected": 0, "kept": 0}
+            if found.state == "done":
+                counts |= {"state": "running", "ended": None, "expires": None}
+            rows.change(connection, job, repaired=found.repaired + 1, bytes=found.bytes - row.bytes, **counts)
+            rows.settle(connection, job, self._clock(), self._limits.keep_s)
+            return True
+
+    def adopt(self, job: str, record: Record, digest: str, size: int) -> None:
+        """A file that was written before there were digests has one now."""
+        with self._database.write() as connection:
+            this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
+            old = and_(this, chunks.c.digest.is_(None), chunks.c.state == "done")
+            if connection.execute(update(chunks).where(old).values(digest=digest, bytes=on_disk(size))).rowcount:
+                connection.execute(update(jobs).where(jobs.c.id == job).values(bytes=jobs.c.bytes + on_disk(size)))
+
+
+def _this(chunk: Chunk) -> ColumnElement[bool]:
+    return and_(chunks.c.job == chunk.job, chunks.c.start == chunk.start)
+
+
+def _waiting(
+    now: float, free: Sequence[ColumnElement[bool]], tried: ColumnElement[bool], attempted: bool
+) -> Select[Any]:
+    """The jobs that have a chunk to give out, those first that shall have it."""
+    held = (
+        select(chunks.c.job, func.coalesce(jobs.c.owner, "").label("owner"))
+        .join(jobs, jobs.c.id == chunks.c.job)
+        .where(chunks.c.state == "leased", chunks.c.lease_until >= now)
+        .subquery()
+    )
+    of_job = select(held.c.job, func.count().label("busy")).group_by(held.c.job).subquery()
+    of_owner = select(held.c.owner, func.count().label("busy")).group_by(held.c.owner).subquery()
+    there = exists().where(chunks.c.job == jobs.c.id, or_(*free), tried)
+    return (
+        select(jobs.c.id)
+        .outerjoin(of_job, of_job.c.job == jobs.c.id)
+        .outerjoin(of_owner, of_owner.c.owner == func.coalesce(jobs.c.owner, ""))
+        .where(jobs.c.state.in_(ACTIVE), there if attempted else or_(there, jobs.c.planned < jobs.c.total))
+        .order_by(func.coalesce(of_owner.c.busy, 0), func.coalesce(of_job.c.busy, 0), jobs.c.created)
+        .limit(_CANDIDATES)
+    )
+
+
+def _free(
+    connection: Connection, job: str, free: Sequence[ColumnElement[bool]], tried: ColumnElement[bool]
+) -> tuple[int, int, int] | None:
+    """Start, stop and attempts of a chunk that may be given out."""
+    for condition in free:
+        wanted = select(chunks).where(chunks.c.job == job, condition, tried)
+        row = connection.execute(wanted.order_by(chunks.c.start).limit(1)).first()
+        if row is not None:
+            return row.start, row.stop, row.attempts
+    return None
+
+
+def _made(connection: Connection, job: Job) -> tuple[int, int, int] | None:
+    """Make the next chunks of a job; the first of them."""
+    stop = min(job.planned + _PLANNED * job.chunk_rows, job.total)
+    made = [
+        {"job": job.id, "start": start, "stop": min(start + job.chunk_rows, job.total)}
+        for start in range(job.planned, stop, job.chunk_rows)
+    ]
+    if not made:
+        return None
+    connection.execute(insert(chunks), made)
+    connection.execute(update(jobs).where(jobs.c.id == job.id).values(planned=stop))
+    return job.planned, int(str(made[0]["stop"])), 0

@@ -1,0 +1,306 @@
+"""The jobs of whoever asks: taken in, looked up, ended, read."""
+
+import json
+import time
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from datetime import UTC, datetime
+from threading import Event
+
+import pyarrow as pa
+
+from optimizer.sweep.plan import plan
+from optimizer.sweep.table import REQUEST
+from schemas.sweep import SweepLinks, SweepRequest, SweepState
+from service.jobs import results
+from service.jobs.coordinator import Coordinator
+from service.jobs.database import DatabaseUnavailable
+from service.jobs.files import Damaged, FilesUnavailable, JobFiles
+from service.jobs.job import Job, Order, Record
+from service.jobs.leases import Leases
+from service.jobs.retention import Retention
+from service.jobs.rows import UnknownJob
+from service.jobs.store import Store, digest
+
+#: the rate is that of the last so many seconds
+_RATE_S = 60.0
+
+
+class NotFinished(Exception):
+    """The answer is not there: not yet, or never; ``retry`` says which."""
+
+    def __init__(self, message: str, retry: bool) -> None:
+        self.retry = retry
+        super().__init__(message)
+
+
+class RowsDamaged(Exception):
+    """Some rows are not what was written; they are computed again."""
+
+
+@dataclass(frozen=True)
+class Parts:
+    """What the jobs of a service are made of."""
+
+    store: Store
+    leases: Leases
+    retention: Retention
+    files: JobFiles
+    coordinator: Coordinator
+    #: streams of events end themselves then
+    closing: Event
+
+
+@dataclass(frozen=True)
+class Rows:
+    """Rows of a job, a batch at a time.
+
+    count : indices, or selected rows, that there are to be read, here and beyond.
+    complete : whether these are all that there ever will be.
+    """
+
+    batches: Iterator[pa.RecordBatch]
+    count: int
+    complete: bool
+
+
+class OwnerJobs:
+    """The jobs of an owner: new ones are theirs, those of others are unknown unless all are seen."""
+
+    def __init__(self, parts: Parts, owner: str | None, sees_all: bool) -> None:
+        self._parts, self._owner, self._sees_all = parts, owner, sees_all
+
+    @property
+    def closing(self) -> Event:
+        """Set when the service is about to stop."""
+        return self._parts.closing
+
+    # ---- from requests to jobs
+
+    def sweep(self, asked: SweepRequest, key: str | None = None) -> tuple[Job, bool]:
+        """A new sweep, or the one that the key has started before; on disk when this returns.
+
+        Returns
+        -------
+        the job, and whether it is new.
+
+        Raises
+        ------
+        MissingInput, KeyReused, TooManyJobs, QuotaExceeded, DatabaseUnavailable
+        """
+        found = plan(asked)
+        request = asked.model_dump_json().encode()
+        # the request is kept once
+        about = {name: value for name, value in (found.schema.metadata or {}).items() if name != REQUEST}
+        return self._submit(
+            Order(
+                kind="sweep",
+                request=request,
+                fingerprint=digest("sweep", json.loads(request)),
+                total=found.total,
+                chunk_rows=found.chunk_rows,
+                columns=found.schema.with_metadata(about).serialize().to_pybytes(),
+                seed=found.seed,
+                selects=asked.top is not None or asked.pareto is not None,
+                expected_bytes=found.estimate.bytes,
+                owner=self._owner,
+                key=key,
+            )
+        )
+
+    def later(self, kind: str, body: bytes, key: str | None = None) -> tuple[Job, bool]:
+        """A job that computes one answer; otherwise as :meth:`sweep`."""
+        fingerprint = digest(kind, json.loads(body.decode("utf-8-sig")))
+        return self._submit(Order(kind, body, fingerprint, expected_bytes=len(body), owner=self._owner, key=key))
+
+    def _submit(self, order: Order) -> tuple[Job, bool]:
+        found = self._parts.store.submit(order)
+        self._parts.coordinator.start()
+        return found
+
+    # ---- jobs
+
+    def get(self, job: str) -> Job:
+        """
+        Raises
+        ------
+        UnknownJob, DatabaseUnavailable
+        """
+        found = self._parts.store.get(job)
+        if not self._sees_all and found.owner != self._owner:
+            raise UnknownJob(job)
+        return self._judged(found)
+
+    def page(self, limit: int, before: str | None) -> list[Job]:
+        """Sweeps, newest first, after the one of id ``before``.
+
+        Raises
+        ------
+        UnknownJob, DatabaseUnavailable
+        """
+        if before is not None:
+            self.get(before)
+        owner = None if self._sees_all else self._owner or ""
+        return [self._judged(job) for job in self._parts.store.page(["sweep"], limit, before, owner)]
+
+    def _judged(self, job: Job) -> Job:
+        verdict = self._parts.coordinator.verdict(job.id)
+        if verdict is None or not job.active:
+            return job
+        return replace(job, state="failed", error=verdict, version=job.version + 1)
+
+    def end(self, job: str) -> Job | None:
+        """Cancel a job that runs, remove one that has ended.
+
+        Returns
+        -------
+        the job that was cancelled; None if it was removed.
+        """
+        if self.get(job).active:
+            cancelled = self._parts.store.cancel(job)
+            self._parts.files.stop(job)
+            return cancelled
+        try:
+            self._parts.retention.mark_removed(job)
+        except DatabaseUnavailable as error:
+            if not error.full:
+                raise
+            # the files first: the database needs the room to say that they are gone
+            self._parts.files.remove(job)
+            self._parts.retention.mark_removed(job)
+        # a coordinator may be writing there still; then what is marked is removed later
+        with suppress(OSError):
+            self._parts.files.remove(job)
+            self._parts.retention.forget(job)
+        return None
+
+    def resume(self, job: str) -> Job:
+        """Go on with a job that was cancelled or has failed."""
+        self.get(job)
+        found = self._parts.store.resume(job)
+        self._parts.coordinator.start()
+        return found
+
+    def state(self, job: Job, prefix: str = "") -> SweepState:
+        """What is answered about a job; ``prefix`` is the path that a proxy strips."""
+        here = f"{prefix}/v1/sweeps/{job.id}"
+        return SweepState(
+            id=job.id,
+            state=job.state,
+            total=job.total,
+            done=job.done,
+            failed=job.failed,
+            rows=job.kept if job.selects else job.done,
+            selected=job.selected if job.selects else None,
+            repaired=job.repaired,
+            bytes=job.bytes,
+            seed=job.seed,
+            eta_s=self._seconds_left(job),
+            created_at=_moment(job.created),
+            started_at=None if job.started is None else _moment(job.started),
+            finished_at=None if job.ended is None else _moment(job.ended),
+            message=job.error,
+            links=SweepLinks(self=here, results=f"{here}/results", events=f"{here}/events"),
+        )
+
+    def _seconds_left(self, job: Job) -> float | None:
+        if not job.active or job.started is None:
+            return None if job.active else 0.0
+        now = time.time()
+        since = max(job.started, now - _RATE_S)
+        if since >= now:
+            # the clock went back
+            return None
+        rows = self._parts.store.rows_since(job.id, since)
+        return (job.total - job.done) * (now - since) / rows if rows else None
+
+    # ---- results
+
+    def answer(self, job: Job) -> bytes:
+        """The answer of a job that computes one.
+
+        Raises
+        ------
+        NotFinished, RowsDamaged
+        """
+        if job.state != "done":
+            raise NotFinished(job.error or f"The job is {job.state}.", retry=job.active)
+        pieces = self._parts.store.pieces(job.id)
+        if not pieces:
+            raise NotFinished("The answer is computed again.", retry=True)
+        return self._reader(job)(pieces[0])
+
+    def schema(self, job: Job) -> pa.Schema:
+        """Columns of a sweep, with its request, versions and seed as metadata."""
+        found = pa.ipc.read_schema(pa.py_buffer(self._parts.store.columns(job.id)))
+        return found.with_metadata({REQUEST: self._parts.store.request(job.id), **(found.metadata or {})})
+
+    def rows(self, job: Job, schema: pa.Schema, first: int = 0, last: int | None = None) -> Rows:
+        """The rows with first <= index < last that are finished, in order.
+
+        Raises
+        ------
+        RowsDamaged
+            if files are missing; or while the rows are read.
+        FilesUnavailable, DatabaseUnavailable
+        """
+        pieces = self._parts.store.pieces(job.id)
+        wanted = results.within(pieces, first, last)
+        self._require(job, wanted)
+        complete = job.state == "done" and sum(piece.rows for piece in pieces) == job.total
+        return Rows(results.batches(wanted, self._reader(job), schema, first, last), job.total, complete)
+
+    def kept(self, job: Job, schema: pa.Schema, first: int = 0, last: int | None = None) -> Rows:
+        """The rows that ``top`` or ``pareto`` of the request keep, of those that were there when they were selected.
+
+        Raises
+        ------
+        NotFinished
+            if there is no selection, and will be none.
+        RowsDamaged, FilesUnavailable, DatabaseUnavailable
+        """
+        record = self._parts.store.selection(job.id)
+        if record is None:
+            if job.selected == job.total:
+                raise NotFinished(f"There is no selection: {job.error}.", retry=False)
+            return Rows(iter(()), 0, complete=False)
+        content = self._reader(job)(record)
+        complete = job.state == "done" and job.selected == job.total
+        return Rows(results.rows_of(content, schema, first, last), job.kept, complete)
+
+    def _require(self, job: Job, pieces: list[Record]) -> None:
+        absent = self._parts.files.absent(job.id, pieces)
+        for record in absent:
+            self._parts.coordinator.repair(job.id, Damaged(record, "missing"))
+        if absent:
+            raise RowsDamaged(_said(absent[0], "missing"))
+
+    def _reader(self, job: Job) -> Callable[[Record], bytes]:
+        def read(record: Record) -> bytes:
+            try:
+                if record.digest is None:
+                    record = self._adopted(job, record)
+                return self._parts.files.read(job.id, record)
+            except Damaged as damage:
+                self._parts.coordinator.repair(job.id, damage)
+                raise RowsDamaged(_said(damage.record, damage.reason)) from damage
+
+        return read
+
+    def _adopted(self, job: Job, record: Record) -> Record:
+        try:
+            named = self._parts.files.adopt(job.id, record)
+        except OSError as error:
+            raise FilesUnavailable(f"a file of job {job.id} cannot be given its name: {error.strerror}") from error
+        self._parts.leases.adopt(job.id, record, str(named.digest), named.bytes)
+        return named
+
+
+def _said(record: Record, reason: str) -> str:
+    what = f"The file of the rows {record.start} to {record.stop - 1}" if record.rows else "The file of the selection"
+    return f"{what} is {reason}; it is made again."
+
+
+def _moment(seconds: float) -> str:
+    return datetime.fromtimestamp(seconds, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")

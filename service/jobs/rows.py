@@ -1,0 +1,100 @@
+"""What several transactions do to the rows of a job."""
+
+import re
+from dataclasses import dataclass
+
+from sqlalchemy import ColumnElement, Connection, Select, and_, case, func, select, update
+
+from service.jobs.job import ACTIVE, FIELDS, REMOVED, Job, State, job_from
+from service.jobs.tables import chunks, jobs, schema
+
+_ID = re.compile(r"[0-9a-f]{32}")
+#: a file takes whole blocks of a disk
+_BLOCK = 4096
+JOB = [jobs.c[name] for name in FIELDS]
+
+
+class UnknownJob(LookupError):
+    """There is no job of this id."""
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What jobs may take, and how long they are kept.
+
+    keep_s : how long the results of an ended job are kept, in seconds in which a service lives; None is for ever.
+    active, active_each : how many jobs may be queued or running, together and of one owner.
+    quota_bytes : on disk, for one owner; None is any number.
+    """
+
+    keep_s: float | None = None
+    active: int = 1000
+    active_each: int = 1000
+    quota_bytes: int | None = None
+
+
+def find(connection: Connection, job: str, lock: bool = False) -> Job | None:
+    """A job that is not removed, if there is one."""
+    # a database may choke on what is no id
+    if _ID.fullmatch(job) is None:
+        return None
+    wanted: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == job, jobs.c.state != REMOVED)
+    row = connection.execute(wanted.with_for_update() if lock else wanted).mappings().first()
+    return None if row is None else job_from(row)
+
+
+def get(connection: Connection, job: str, lock: bool = False) -> Job:
+    """
+    Raises
+    ------
+    UnknownJob
+    """
+    found = find(connection, job, lock)
+    if found is None:
+        raise UnknownJob(job)
+    return found
+
+
+def change(connection: Connection, job: str, **values: object) -> None:
+    """Change a job, which its watchers are told of."""
+    connection.execute(update(jobs).where(jobs.c.id == job).values(version=jobs.c.version + 1, **values))
+
+
+def end(connection: Connection, job: Job, state: State, error: str | None, now: float, keep_s: float | None) -> None:
+    """End a job that is active."""
+    expires = None
+    if keep_s is not None:
+        expires = (connection.scalar(select(schema.c.lived)) or 0.0) + keep_s
+    change(connection, job.id, state=state, error=error, ended=now, expires=expires)
+
+
+def settle(connection: Connection, job: str, now: float, keep_s: float | None) -> None:
+    """End a job that has all it needs; have rows selected when there are all, or twice as many as the last time."""
+    found = get(connection, job)
+    if not found.active:
+        return
+    whole = found.done == found.total
+    if whole and (not found.selects or found.selected == found.total):
+        end(connection, found, "done", found.error, now, keep_s)
+    elif found.selects and found.done > found.selected and (whole or found.done >= 2 * found.selected):
+        selection = and_(chunks.c.job == job, chunks.c.start == found.total, chunks.c.state == "waiting")
+        connection.execute(update(chunks).where(selection).values(state="pending"))
+
+
+def on_disk(size: int) -> int:
+    """What a file of a size takes."""
+    return -(-size // _BLOCK) * _BLOCK
+
+
+def used(connection: Connection, owner: str | None, planned: bool = False) -> int:
+    """Bytes on disk of the jobs of an owner; with those that the active ones are expected to come to if planned."""
+    size: ColumnElement[int] = jobs.c.bytes
+    if planned:
+        more = and_(jobs.c.state.in_(ACTIVE), jobs.c.expected_bytes > jobs.c.bytes)
+        size = case((more, jobs.c.expected_bytes), else_=jobs.c.bytes)
+    return int(connection.scalar(select(func.sum(size)).where(of(owner))) or 0)
+
+
+def of(owner: str | None) -> ColumnElement[bool]:
+    """The condition that a job belongs to an owner; nobody is an owner too."""
+    return jobs.c.owner.is_(None) if owner is None else jobs.c.owner == owner

@@ -1,0 +1,108 @@
+"""The number of the schema of the job database, and the way from older ones to today's.
+
+1: jobs and chunks, without a number.
+2: this table; digests, sizes and failures of chunks; what a job selects, has repaired and takes on disk; chunks made
+   when they are given out; expiry in seconds lived.
+"""
+
+import json
+import uuid
+
+from sqlalchemy import Connection, bindparam, insert, inspect, select, text, update
+from sqlalchemy.schema import CreateColumn
+
+from service.jobs.tables import chunks, jobs, metadata, schema
+
+NUMBER = 2
+
+_OLD_JOBS = {
+    *("id", "kind", "request", "digest", "idempotency_key", "owner", "columns", "state", "total", "done", "failed"),
+    *("faults", "version", "created", "started", "ended", "expires", "error"),
+}
+
+
+_NEW_INDEXES = {"jobs_by_owner", "chunks_by_lease", "chunks_by_finish"}
+
+
+class WrongSchema(Exception):
+    """The database is of another version of the service, or of another program."""
+
+
+def prepare(connection: Connection) -> None:
+    """Make the tables, or bring those of an older schema up to date.
+
+    Raises
+    ------
+    WrongSchema
+        if the database is newer than this service, or has tables that no version of it made.
+    """
+    known = set(inspect(connection).get_table_names())
+    if "schema" in known:
+        _require_columns(connection, "schema")
+        number = connection.scalar(select(schema.c.number))
+        if number != NUMBER:
+            raise WrongSchema(f"the job database has schema {number}; this service knows {NUMBER}")
+    elif "jobs" in known:
+        found = _columns(connection, "jobs")
+        if found != _OLD_JOBS:
+            raise WrongSchema(
+                f"the job database has a table jobs of no known schema: {', '.join(sorted(found ^ _OLD_JOBS))}"
+            )
+        _from_1(connection)
+        _number(connection)
+    else:
+        metadata.create_all(connection)
+        _number(connection)
+    for table in metadata.tables:
+        _require_columns(connection, table)
+
+
+def _number(connection: Connection) -> None:
+    connection.execute(insert(schema).values(number=NUMBER, identity=uuid.uuid4().hex, lived=0.0))
+
+
+def _columns(connection: Connection, table: str) -> set[str]:
+    return {column["name"] for column in inspect(connection).get_columns(table)}
+
+
+def _require_columns(connection: Connection, table: str) -> None:
+    missing = {column.name for column in metadata.tables[table].columns} - _columns(connection, table)
+    if missing:
+        raise WrongSchema(f"the table {table} of the job database lacks {', '.join(sorted(missing))}")
+
+
+def _from_1(connection: Connection) -> None:
+    for table in (jobs, chunks):
+        there = _columns(connection, table.name)
+        for column in table.columns:
+            if column.name not in there:
+                made = CreateColumn(column).compile(dialect=connection.dialect)
+                # rows that are there need a value
+                default = "" if column.nullable else f" DEFAULT {'false' if column.name == 'selects' else 0}"
+                connection.execute(text(f"ALTER TABLE {table.name} ADD COLUMN {made}{default}"))
+        for index in table.indexes:
+            if index.name in _NEW_INDEXES:
+                index.create(connection)
+    schema.create(connection)
+    # every chunk of theirs was made at once; an end of their time is counted from now
+    connection.execute(
+        update(jobs).values(planned=jobs.c.total, chunk_rows=1, expires=jobs.c.expires - jobs.c.ended, bytes=0)
+    )
+    _selections_of_1(connection)
+
+
+def _selections_of_1(connection: Connection) -> None:
+    """What they selected when asked is selected by workers now, once more."""
+    sweeps = select(jobs.c.id).where(jobs.c.kind == "sweep", jobs.c.state != "removed")
+    for job in connection.scalars(sweeps).all():
+        row = connection.execute(select(jobs.c.request, jobs.c.state, jobs.c.total).where(jobs.c.id == job)).one()
+        asked = json.loads(row.request)
+        this = update(jobs).where(jobs.c.id == bindparam("job"))
+        selects = asked.get("top") is not None or asked.get("pareto") is not None
+        connection.execute(this.values(seed=asked.get("seed", 0), selects=selects), {"job": job})
+        if selects:
+            ready = row.state == "done"
+            chunk = {"job": job, "start": row.total, "stop": row.total, "state": "pending" if ready else "waiting"}
+            connection.execute(insert(chunks).values(chunk))
+            if ready:
+                connection.execute(this.values(state="running"), {"job": job})
