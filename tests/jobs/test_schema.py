@@ -1,0 +1,148 @@
+"""Databases of older, newer and other schemas."""
+
+import json
+import sqlite3
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pyarrow as pa
+import pytest
+from sqlalchemy import create_engine, insert, text
+from typer.testing import CliRunner
+
+from optimizer.sweep import run_chunk
+from schemas.sweep import SweepRequest
+from service.cli import app
+from service.jobs.coordinator import Pace
+from service.jobs.database import Database
+from service.jobs.desk import Desk
+from service.jobs.kinds import table_bytes
+from service.jobs.schema import NUMBER, WrongSchema
+from service.jobs.tables import metadata
+from service.settings import Settings
+from tests.jobs import schema_1
+from tests.jobs.sweeps import analyses
+
+DONE, RUNNING, BEST = ("a" * 32, "b" * 32, "c" * 32)
+
+
+@pytest.fixture(params=["sqlite", "postgresql"])
+def settings(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Settings]:
+    given: dict[str, Any] = {"data_dir": tmp_path, "sweep_workers": 1}
+    if request.param == "sqlite":
+        yield Settings(**given)
+        return
+    url = request.getfixturevalue("postgres_url")
+    yield Settings(database_url=url, **given)
+    engine = engine_of(Settings(database_url=url))
+    with engine.begin() as connection:
+        metadata.drop_all(connection)
+    engine.dispose()
+
+
+def engine_of(settings: Settings) -> Any:
+    url = (settings.database_url or f"sqlite:///{settings.data_dir}/jobs.sqlite").replace(
+        "postgresql:", "postgresql+psycopg:"
+    )
+    return create_engine(url)
+
+
+def job(id: str, state: str, body: dict[str, Any], done: int) -> dict[str, Any]:  # noqa: A002
+    request = SweepRequest.model_validate(body)
+    data = request.model_dump_json().encode()
+    columns = run_chunk(data, 0, 1).schema.serialize().to_pybytes()
+    ended = None if state == "running" else 2000.0
+    about = {"digest": "d", "columns": columns, "faults": 0, "failed": 0, "version": 3, "created": 1000.0}
+    return {
+        **{"id": id, "kind": "sweep", "request": data, "state": state, "total": 400, "done": done, **about},
+        **{"ended": ended, "expires": None if ended is None else ended + 100.0},
+    }
+
+
+def write_1(settings: Settings) -> None:
+    """A database and files of the first release: a sweep that is done, one half done, and one with its best rows."""
+    engine = engine_of(settings)
+    with engine.begin() as connection:
+        schema_1.metadata.create_all(connection)
+        for id, state, more, done in (  # noqa: A001
+            (DONE, "done", {}, 400),
+            (RUNNING, "running", {}, 200),
+            (BEST, "done", {"top": {"by": "force_peak_N", "count": 3}}, 400),
+        ):
+            about = job(id, state, analyses(**more), done)
+            connection.execute(insert(schema_1.jobs).values(about))
+            for start in (0, 200):
+                finished = start < done
+                chunk = {"job": id, "start": start, "stop": start + 200, "state": "done" if finished else "pending"}
+                connection.execute(insert(schema_1.chunks).values(chunk))
+                if finished:
+                    path = settings.data_dir / "results" / id / f"{start:09d}-{start + 200:09d}"
+                    path.parent.mkdir(parents=True, exist_ok=True)
+                    path.write_bytes(table_bytes(run_chunk(about["request"], start, start + 200)))
+    engine.dispose()
+
+
+def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
+    write_1(settings)
+    desk = Desk(settings, Pace(poll_s=0.05))
+    desk.open()
+    try:
+        jobs = desk.of()
+        expected = run_chunk(SweepRequest.model_validate(analyses()).model_dump_json().encode(), 0, 400)
+        for id in (DONE, RUNNING, BEST):  # noqa: A001
+            while (found := jobs.get(id)).active:
+                pass
+            assert (found.state, found.done, found.error) == ("done", 400, None)
+            for _ in range(2):
+                rows = jobs.rows(found, jobs.schema(found))
+                assert rows.complete
+                # independent: computed here
+                assert pa.Table.from_batches(rows.batches).equals(expected)
+        best = jobs.get(BEST)
+        assert (best.selected, best.kept) == (400, 3)
+        kept = pa.Table.from_batches(jobs.kept(best, jobs.schema(best)).batches)
+        values = sorted(value for value in expected["force_peak_N"].to_pylist() if value is not None)
+        assert kept["force_peak_N"].to_pylist() == values[:3]
+        # what was read has a digest now, and is verified from now on
+        assert all(piece.digest for piece in desk._parts.store.pieces(DONE))
+        assert json.loads(jobs.schema(best).metadata[b"counterweight.request"])["top"]["count"] == 3
+    finally:
+        desk.close()
+    # and once more, as of today's schema
+    again = Desk(settings)
+    assert again.of().get(DONE).done == 400
+    again.close()
+
+
+@pytest.mark.parametrize(
+    ("change", "said"),
+    [
+        (f"UPDATE schema SET number = {NUMBER + 1}", f"has schema {NUMBER + 1}; this service knows {NUMBER}"),
+        ("ALTER TABLE jobs DROP COLUMN repaired", "the table jobs of the job database lacks repaired"),
+        ("DELETE FROM schema", "has schema None"),
+    ],
+)
+def test_another_schema_refuses_to_start(settings: Settings, change: str, said: str) -> None:
+    desk = Desk(settings)
+    desk.of().page(1, None)
+    desk.close()
+    engine = engine_of(settings)
+    with engine.begin() as connection:
+        connection.execute(text(change))
+    engine.dispose()
+    with pytest.raises(ValueError, match=said):
+        Desk(settings)
+
+
+def test_tables_of_somebody_else(tmp_path: Path) -> None:
+    with sqlite3.connect(tmp_path / "jobs.sqlite") as connection:
+        connection.execute("CREATE TABLE jobs (id, salary)")
+    connection.close()
+    database = Database(tmp_path / "jobs.sqlite")
+    with pytest.raises(WrongSchema, match=r"no known schema: .*salary"), database.read():
+        pass
+    database.close()
+    done = CliRunner().invoke(app, ["serve"], env={"COUNTERWEIGHT_DATA_DIR": str(tmp_path), "COUNTERWEIGHT_PORT": "0"})
+    assert done.exit_code == 2
+    assert "no known schema" in done.stderr
