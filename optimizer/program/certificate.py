@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 
 _EPS = float(np.finfo(float).eps)
 #: roundings of one product of a bound with its data (responses, sectors, multipliers of sum 1), in eps; a sum of n
@@ -104,7 +104,7 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
     """
     usable = multipliers.admissible(statement)
     ceilings = statement.ceilings
-    minorant = _minorant(statement, usable, ceilings.cap + CEILING_TOLERANCE * ceilings.size)
+    minorant = _minorant(statement, usable, ceilings.cap + ceilings.tolerance * ceilings.size)
     charge = np.sum(usable.row, axis=-1) * target
     least = _least_over_limits(minorant, 1.0, statement.limits)
     rounding = _rounding(statement, minorant.constant_size + np.abs(charge))

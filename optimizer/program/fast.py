@@ -11,7 +11,7 @@ from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.polish import resting_multipliers
 from optimizer.program.scaling import natural_reach
-from optimizer.program.solution import NEGLIGIBLE
+from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 if TYPE_CHECKING:
@@ -19,8 +19,6 @@ if TYPE_CHECKING:
 
 #: multiple of the natural reach beyond which limits are ignored
 _REACH = 10.0
-#: share by which ceilings are lowered, so that the answer keeps them
-_CEILING_MARGIN = 2e-11
 
 
 class _Tolerances(NamedTuple):
@@ -30,12 +28,13 @@ class _Tolerances(NamedTuple):
     finest: float
     coarsest: float
     mass: float  # second stage, relative to the mass
+    ceilings: float  # share of their size by which ceilings are lowered, so that the answer keeps them
 
 
-_DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-7)
+_DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-7, 2e-12)
 #: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
 #: the answer and where the lightest is; and the largest relative gap of the mass
-_ENOUGH, _ENOUGH_FOR_MASS, _MASS_ENOUGH = 1e-3, 1e-2, 1e-5
+ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
 #: optima reach this far into the share, which leaves room for rounding
 _TARGET = 1.0 - 1e-7
 
@@ -100,10 +99,12 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     mass, excess = statement.mass(chosen), _excess(statement, chosen)
     objective = statement.objective(chosen)
     loose = (demand > share) & (objective - lower_bound <= demand)
-    enough = (_ENOUGH_FOR_MASS if least_mass else _ENOUGH) * share
-    certified = (loose | (value - lower_bound <= enough)) & (excess <= CEILING_TOLERANCE)
+    enough = (ENOUGH_FOR_MASS if least_mass else ENOUGH) * share
+    certified = (loose | (value - lower_bound <= enough)) & (excess <= CEILING_ROUNDING)
     if least_mass:
-        certified &= mass - mass_bound <= _MASS_ENOUGH * mass
+        # what counts as an optimum is told from a point that keeps the ceilings
+        below = _excess(statement, smallest) <= CEILING_ROUNDING
+        certified &= below & (mass - mass_bound <= MASS_ENOUGH * mass)
     return Fast(
         chosen,
         objective,
@@ -127,7 +128,7 @@ def _solve(statement: Statement, share: Real, least_mass: bool, precision: Preci
 
     tolerances, method = _DOUBLE, solve
     if precision is not None:
-        tolerances = _Tolerances(1e-7, precision.finest, 100 * precision.finest, precision.mass)
+        tolerances = _Tolerances(1e-7, precision.finest, 100 * precision.finest, precision.mass, 0.1 * CEILING_ROUNDING)
         method = solve_in(precision)
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
@@ -137,7 +138,7 @@ def _solve(statement: Statement, share: Real, least_mass: bool, precision: Preci
     # interpreted numbers would warn where compiled ones end in a NaN, and the search with it
     with np.errstate(all="ignore"):
         v, cone, row, mass_unit = method(
-            _programs(statement, reach, unit),
+            _programs(statement, reach, unit, tolerances.ceilings),
             least_mass,
             share / unit,
             np.clip(tolerances.sharpness * share / unit, tolerances.finest, tolerances.coarsest),
@@ -180,7 +181,7 @@ def _excess(statement: Statement, u: Complex) -> Real:
     return np.max(statement.ceilings.excess(u), axis=-1, initial=-np.inf)
 
 
-def _programs(statement: Statement, reach: Real, unit: Real) -> "Programs":
+def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":
     from optimizer.program.kernel.interior_point import Programs
 
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
@@ -195,7 +196,7 @@ def _programs(statement: Statement, reach: Real, unit: Real) -> "Programs":
     programs = Programs(
         row=statement.row.astype(np.int64),
         floor=(statement.floor - highest[:, None]) / unit[:, None],
-        cap=cap - np.clip(cap, 0.0, _CEILING_MARGIN),
+        cap=cap - np.clip(cap, 0.0, margin),
         constant=_parts(constant),
         influence=influence * reach[:, None, :],
         centre=_parts(limits.centre),

@@ -1,17 +1,25 @@
 """The whole program for one machine: smallest objective, ceilings, least mass."""
 
+import time
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.program.certificate import Multipliers, nothing_proven
-from optimizer.program.fast import fast
+from optimizer.program.certificate import (
+    Multipliers,
+    ceiling_allowance,
+    mass_lower_bound,
+    nothing_proven,
+    objective_lower_bound,
+)
+from optimizer.program.fast import ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH, fast
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
+from optimizer.program.polish import mass_multipliers, objective_multipliers, supporting_multipliers
 from optimizer.program.reach import bounded, far_limits
-from optimizer.program.reference.solver import Solver, excess_program
-from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import CEILING_ROUNDING, INTERIOR_POINT, OPTIMUM_SHARE, Solution, evaluated
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.program.verdict import yardstick
 
@@ -21,6 +29,26 @@ _SHARPNESS = 1e-4
 _MASS_GAP = 1e-6
 #: relative gap of the least mass above which finer numbers are worth their time
 _MASS_WORTH = 1e-5
+
+
+#: room below the ceilings, as a share of their size, from which on they are kept as they are
+_AMPLE = 1e-8
+#: by which they are raised otherwise: what is left of their tolerance is for rounding
+_RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
+#: gap of the smallest excess that is good enough
+_TOLD = 1e-13
+
+
+#: how often the least mass is sought again in units of the least so far, and what a web may carry of it then
+_LIGHTENINGS, _ROOM_FOR_MASS = 8, 4.0
+
+
+class _Asked(NamedTuple):
+    """What is asked of a program."""
+
+    share: float  # how far above the smallest objective an optimum may be, in units of the objective
+    demand: float  # certified gap
+    least_mass: bool
 
 
 @dataclass(frozen=True)
@@ -40,7 +68,7 @@ def within_reach(statement: Statement, solver: Solver) -> Statement:
         return statement
     point = np.zeros(statement.limits.radius.shape, complex)
     if np.any(statement.ceilings.excess(point) > 0):
-        excess = excess_program(statement.ceilings, statement.limits)
+        excess = statement.excess()
         excess = bounded(excess, _above(excess, point))
         nearest = solver.smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
         if nearest.lower_bound > 0:
@@ -74,64 +102,186 @@ def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver:
     webs = statement.limits.reach > 0
     part = statement.only(webs)
     size = float(yardstick(part))
-    share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
-    quick = _interior_point(part, share, demand, least_mass) if np.any(webs) else None
-    if quick is not None and quick.certified:
-        found: Solution | Unreachable = quick.lightest
-    else:
-        found = _by_cone_program(part, share, least_mass, solver, quick)
-        for precision in PRECISIONS:
-            if _proven(found, share, least_mass) or not 0 < part.limits.radius.size <= precision.most_webs:
-                break
-            fine = _interior_point(part, share, demand, least_mass, precision)
-            found = fine.lightest if fine.certified else _better_of(found, fine.lightest, share)
+    asked = _Asked(min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size, least_mass)
+    quick = _interior_point(part, asked)
+    found: Solution | Unreachable = quick.lightest
+    if not quick.certified and part.ceilings.names:
+        found = _under_ceilings(part, asked, solver, quick)
+    elif not quick.certified:
+        found = _by_all(part, asked, solver, quick)
     if isinstance(found, Unreachable):
         return replace(found, closest=_everywhere(found.closest, webs))
     found = replace(found, unbalance=_everywhere(found.unbalance, webs))
     if least_mass and found.mass_multipliers is None:
         # nothing is proven about the mass but that it is not below 0
-        found = replace(found, mass_multipliers=nothing_proven(part), mass_target=found.objective + share)
+        found = replace(found, mass_multipliers=nothing_proven(part), mass_target=found.objective + asked.share)
     return found
 
 
-def _by_cone_program(
-    statement: Statement, share: float, least_mass: bool, solver: Solver, known: "_Found | None"
-) -> Solution | Unreachable:
-    first = solver.smallest_objective(statement, _SHARPNESS * share, known.smallest if known else None)
-    if first.excess > 0:
-        # perhaps only by rounding: the sign of the smallest excess decides
-        nearest = solver.smallest_excess(statement.ceilings, statement.limits)
-        certify_s = first.certify_s + nearest.certify_s
-        if nearest.lower_bound > 0:
-            assert nearest.multipliers is not None  # they are what proves the bound
-            return Unreachable(
-                nearest.unbalance, nearest.objective, nearest.lower_bound, certify_s, nearest.multipliers
-            )
-        first = replace(first, certify_s=certify_s)
-        if not first.keeps_ceilings:
-            first = first.moved_to(statement, nearest.unbalance)
-    if least_mass and first.keeps_ceilings:
-        first = solver.least_mass(statement, first, share, _MASS_GAP, known.lightest if known else None)
-    return first
+def _under_ceilings(statement: Statement, asked: _Asked, solver: Solver, quick: "_Found") -> Solution | Unreachable:
+    """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
+    nearest = _smallest_excess(statement, solver)
+    if nearest.lower_bound > CEILING_ROUNDING:
+        assert nearest.multipliers is not None  # they are what proves the bound
+        return Unreachable(
+            nearest.unbalance, nearest.objective, nearest.lower_bound, nearest.certify_s, nearest.multipliers
+        )
+    if asked.least_mass and (rest := _at_rest(statement, asked, quick.smallest)):
+        return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
+    if nearest.objective <= -_AMPLE:
+        found = _by_all(statement, asked, solver, quick, nearest.unbalance, precisions=())
+        if _proven(found, asked):
+            return replace(found, certify_s=found.certify_s + nearest.certify_s)
+    # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
+    raised = replace(statement, ceilings=statement.ceilings.raised(_RAISED))
+    quick = _interior_point(raised, asked)
+    found = quick.lightest if quick.certified else _by_all(raised, asked, solver, quick, nearest.unbalance)
+    return _proven_again(statement, replace(found, certify_s=found.certify_s + nearest.certify_s))
 
 
-def _proven(found: Solution | Unreachable, share: float, least_mass: bool) -> bool:
+def _at_rest(statement: Statement, asked: _Asked, known: Solution) -> Solution | None:
+    """No counterweights, where they are an optimum but for the tolerance of the ceilings: nothing is lighter."""
+    rest = known.moved_to(statement, np.zeros_like(known.unbalance))
+    if not rest.keeps_ceilings or rest.below_ceilings:
+        return None
+    rest = replace(rest, mass_lower_bound=0.0, mass_multipliers=nothing_proven(statement))
+    rest = replace(rest, mass_target=rest.objective + asked.share)
+    assert known.multipliers is not None  # those of rest, at least
+    allowance = ceiling_allowance(statement, known.multipliers, statement.ceilings.excess(rest.unbalance))
+    return rest if rest.gap + float(allowance) <= asked.share else None
+
+
+def _proven_again(statement: Statement, found: Solution) -> Solution:
+    """The same point with its bounds, both for the ceilings that were asked for."""
+    found = found.moved_to(statement, found.unbalance)
+    if found.multipliers is not None:
+        found = replace(found, lower_bound=float(objective_lower_bound(statement, found.multipliers)))
+    if found.mass_multipliers is not None:
+        target = np.asarray(found.mass_target)
+        found = replace(found, mass_lower_bound=float(mass_lower_bound(statement, found.mass_multipliers, target)))
+    return found
+
+
+def _smallest_excess(statement: Statement, solver: Solver) -> Solution:
+    """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
+    program = statement.excess()
+    asked = _Asked(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
+    found = _interior_point(program, asked).lightest
+    return found if _tells(found) else solver.smallest_objective(program, _TOLD, found, _tells)
+
+
+def _tells(excess: Solution) -> bool:
+    return excess.lower_bound > CEILING_ROUNDING or excess.objective <= -_AMPLE or excess.gap <= _TOLD
+
+
+def _by_all(
+    statement: Statement,
+    asked: _Asked,
+    solver: Solver,
+    quick: "_Found",
+    inside: Complex | None = None,
+    precisions: tuple[Precision, ...] = PRECISIONS,
+) -> Solution:
+    """One method after the other, each with what is known already.
+
+    Parameters
+    ----------
+    inside : a point as far below the ceilings as there is.
+    """
+    quick = _lightened(statement, asked, _polished(statement, asked, quick, inside))
+    if quick.certified:
+        return quick.lightest
+    first = solver.smallest_objective(statement, _SHARPNESS * asked.share, quick.smallest)
+    if asked.least_mass and first.below_ceilings:
+        first = solver.least_mass(statement, first, asked.share, _MASS_GAP, quick.lightest)
+    found = first
+    for precision in precisions:
+        if _proven(found, asked) or not 0 < statement.limits.radius.size <= precision.most_webs:
+            break
+        fine = _polished(statement, asked, _interior_point(statement, asked, precision), inside)
+        fine = _lightened(statement, asked, fine, precision)
+        found = fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
+    return found
+
+
+def _polished(statement: Statement, asked: _Asked, found: "_Found", inside: Complex | None) -> "_Found":
+    """The same with points below the ceilings and sharper multipliers, which is often all that is missing."""
+    if statement.limits.radius.size == 0 or found.certified:
+        return found
+    began = time.perf_counter()
+    smallest, lightest = (_pulled(statement, each, inside) for each in (found.smallest, found.lightest))
+    assert smallest.multipliers is not None  # those of rest, at least
+    for multipliers in objective_multipliers(statement, smallest.unbalance, smallest.multipliers):
+        bound = float(objective_lower_bound(statement, multipliers))
+        smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
+    if asked.least_mass and smallest.below_ceilings:
+        counted = np.asarray(smallest.objective + asked.share)
+        candidates = [supporting_multipliers(statement, lightest.unbalance)] if np.any(lightest.unbalance) else []
+        if lightest.mass_multipliers is not None:
+            candidates += mass_multipliers(statement, lightest.unbalance, lightest.mass_multipliers)
+        for multipliers in candidates:
+            bound = float(mass_lower_bound(statement, multipliers, counted))
+            lightest = lightest.weighed(bound, multipliers, float(counted))
+    enough = (ENOUGH_FOR_MASS if asked.least_mass else ENOUGH) * asked.share
+    certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= asked.share
+    if asked.least_mass:
+        certified &= lightest.mass - lightest.mass_lower_bound <= MASS_ENOUGH * lightest.mass
+    spent = time.perf_counter() - began
+    smallest, lightest = (replace(each, certify_s=each.certify_s + spent) for each in (smallest, lightest))
+    return _Found(smallest, lightest, certified)
+
+
+def _lightened(statement: Statement, asked: _Asked, found: "_Found", precision: Precision | None = None) -> "_Found":
+    """The least mass again, in units of the least so far: where next to nothing has to be fitted, all else is far away.
+
+    No web carries more than all of them together in anything lighter.
+    """
+    if found.certified or not asked.least_mass or statement.limits.radius.size == 0:
+        return found
+    for _ in range(_LIGHTENINGS):
+        before = found.lightest
+        if not (before.below_ceilings and before.gap <= asked.share and before.mass > 0.0):
+            break
+        limits = statement.limits
+        near = replace(limits, max_mass=np.minimum(limits.max_mass, _ROOM_FOR_MASS * before.mass))
+        again = _interior_point(replace(statement, limits=near), asked, precision).lightest
+        if again.below_ceilings and again.objective <= before.lower_bound + asked.share and again.mass < before.mass:
+            lightest = before.moved_to(statement, again.unbalance)
+        else:
+            lightest = before
+        lightest = replace(lightest, mass_multipliers=again.mass_multipliers, mass_lower_bound=0.0)
+        polished = _polished(statement, asked, _Found(found.smallest, lightest, False), None)
+        weighed = polished.lightest.weighed(before.mass_lower_bound, before.mass_multipliers, before.mass_target)
+        found = _Found(polished.smallest, weighed, polished.certified)
+        if found.certified or weighed.mass > 0.5 * before.mass:
+            break
+    return found
+
+
+def _pulled(statement: Statement, found: Solution, inside: Complex | None) -> Solution:
+    """A point above a ceiling, moved towards one below it just so far; excesses are convex."""
+    if inside is None or found.below_ceilings:
+        return found
+    least = float(np.max(statement.ceilings.excess(inside)))
+    step = 1.0 if least >= 0.0 else found.excess / (found.excess - least)
+    return found.moved_to(statement, found.unbalance + step * (inside - found.unbalance))
+
+
+def _proven(found: Solution, asked: _Asked) -> bool:
     """Whether finer numbers are not worth their time."""
-    if isinstance(found, Unreachable):
-        return True
-    proven = found.keeps_ceilings and found.gap <= share
-    return proven and (not least_mass or found.mass - found.mass_lower_bound <= _MASS_WORTH * found.mass)
+    proven = found.below_ceilings and found.gap <= asked.share
+    return proven and (not asked.least_mass or found.mass - found.mass_lower_bound <= _MASS_WORTH * found.mass)
 
 
-def _better_of(one: Solution | Unreachable, other: Solution, share: float) -> Solution | Unreachable:
+def _better_of(one: Solution, other: Solution, share: float) -> Solution:
     """The better point with the better bound on the objective; of two optima the lighter one."""
-    if isinstance(one, Unreachable) or not other.keeps_ceilings:
-        return one
     one = one.bounded(other.lower_bound, other.multipliers)
+    if not other.below_ceilings:
+        return one
     bound = one.lower_bound
     both_optimal = max(one.objective, other.objective) - bound <= share
     lighter = other.mass < one.mass
-    chosen = other if not one.keeps_ceilings or (lighter if both_optimal else other.objective < one.objective) else one
+    chosen = other if not one.below_ceilings or (lighter if both_optimal else other.objective < one.objective) else one
     # a bound on the mass holds for its own first stage only, unless that stage was the worse one
     heavier = other if other.mass_lower_bound > one.mass_lower_bound else one
     proof = heavier if both_optimal else chosen
@@ -151,10 +301,11 @@ class _Found(NamedTuple):
     certified: bool
 
 
-def _interior_point(
-    statement: Statement, share: float, demand: float, least_mass: bool, precision: Precision | None = None
-) -> _Found:
-    found = fast(statement.alone(), np.array([share]), np.array([demand]), least_mass, precision)
+def _interior_point(statement: Statement, asked: _Asked, precision: Precision | None = None) -> _Found:
+    if statement.limits.radius.size == 0:
+        nothing = evaluated(statement, np.zeros(0, complex))
+        return _Found(nothing, nothing, False)
+    found = fast(statement.alone(), np.array([asked.share]), np.array([asked.demand]), asked.least_mass, precision)
     method = precision.name if precision else INTERIOR_POINT
     nothing = Solution(
         found.smallest[0],
@@ -169,10 +320,11 @@ def _interior_point(
     )
     smallest = nothing.moved_to(statement, found.smallest[0])
     lightest = smallest
-    if least_mass:
+    if asked.least_mass:
         lightest = replace(
             smallest,
-            mass_lower_bound=float(found.mass_lower_bound[0]),
+            # what exceeds the ceilings has an objective below the smallest: too few would count as optima
+            mass_lower_bound=float(found.mass_lower_bound[0]) if smallest.below_ceilings else 0.0,
             mass_multipliers=found.mass_multipliers.chosen(0),
             mass_target=float(found.mass_target[0]),
         )

@@ -8,6 +8,8 @@ from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
+#: an excess that rounding alone may make, as a share of the size: solvers keep the ceilings they are given up to here
+CEILING_ROUNDING = 1e-13
 #: optima are within this share of the objective without counterweights (docs/api.md)
 OPTIMUM_SHARE = 1e-6
 #: counterweights below this share of the largest are left out where the answer stays optimal
@@ -40,7 +42,13 @@ class Solution:
 
     @property
     def keeps_ceilings(self) -> bool:
+        """Within their tolerance."""
         return self.excess <= CEILING_TOLERANCE
+
+    @property
+    def below_ceilings(self) -> bool:
+        """Up to rounding."""
+        return self.excess <= CEILING_ROUNDING
 
     def bounded(self, bound: float, multipliers: Multipliers | None) -> "Solution":
         """The same point with the better of two proofs of its objective."""

@@ -5,7 +5,7 @@ subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -68,16 +68,22 @@ class Ceilings:
     norms: Norms
     cap: Real  # (..., I)
     size: Real  # (..., I) > 0, what an excess is measured by
+    tolerance: float = CEILING_TOLERANCE  # up to which they count as kept, as a share of the size
 
     def excess(self, u: Complex) -> Real:
         """How far each response is above its ceiling, relative to its size; <= 0 if met."""
         return (np.abs(self.norms.at(u)) - self.cap) / self.size
 
+    def raised(self, share: float) -> "Ceilings":
+        """Every ceiling higher by a share of its size, which is taken from the tolerance."""
+        return replace(self, cap=self.cap + share * self.size, tolerance=self.tolerance - share)
+
     def chosen(self, programs: "int | np.ndarray") -> "Ceilings":
-        return Ceilings(self.names, self.norms.chosen(programs), self.cap[programs], self.size[programs])
+        norms = self.norms.chosen(programs)
+        return replace(self, norms=norms, cap=self.cap[programs], size=self.size[programs])
 
     def only(self, webs: np.ndarray) -> "Ceilings":
-        return Ceilings(self.names, self.norms.only(webs), self.cap, self.size)
+        return replace(self, norms=self.norms.only(webs))
 
 
 class Term(NamedTuple):
@@ -124,6 +130,15 @@ class Statement:
         """Total counterweight mass, kg."""
         return np.sum(np.abs(u) / self.limits.radius, axis=-1)
 
+    def excess(self) -> "Statement":
+        """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
+        size, constant = self.ceilings.size, self.ceilings.norms.constant
+        norms = Norms(constant / size, self.ceilings.norms.influence / size[..., None])
+        none = Ceilings((), Norms(constant[..., :0], norms.influence[..., :0, :]), size[..., :0], size[..., :0])
+        called = self.ceilings.names
+        names = Names(tuple(Term(name, "co") for name in called), called)
+        return Statement(norms, np.arange(size.shape[-1]), -self.ceilings.cap / size, none, self.limits, names)
+
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
         limits, ceilings = self.limits, self.ceilings
@@ -136,6 +151,7 @@ class Statement:
                 Norms(ceilings.norms.constant[None], ceilings.norms.influence[None]),
                 ceilings.cap[None],
                 ceilings.size[None],
+                ceilings.tolerance,
             ),
             Limits(
                 limits.radius[None],

@@ -2,11 +2,13 @@
 
 The functions are those of :mod:`optimizer.program.kernel.interior_point` before compilation. First with numpy's
 longdouble (64 bits of mantissa on x86; where it is no finer than double it gains nothing), then with
-mpmath at 50 digits.
+50 decimal digits.
 """
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
+from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from functools import cache
 from types import FunctionType, SimpleNamespace
 from typing import Any
@@ -22,57 +24,99 @@ class Precision:
     most_webs: int  # up to which the time is bearable
     finest: float  # gap at which the first stage ends
     mass: float  # the same of the second, relative to the mass
-    numbers: Callable[[], SimpleNamespace]
+    number: Callable[[float], Any]
+    dtype: Any
+    sqrt: Callable[[Any], Any]
+    isfinite: Callable[[Any], bool]
+    arithmetic: Callable[[], AbstractContextManager[object]]  # in which they are reckoned with
+
+    def array(self, values: Any) -> Any:
+        """The same numbers in this precision, exactly."""
+        flat = [self.number(value) for value in np.ravel(values).tolist()]
+        return np.array(flat, dtype=self.dtype).reshape(np.shape(values))
+
+    def numpy(self) -> SimpleNamespace:
+        """What the compiled functions use of numpy."""
+
+        def filled(value: float) -> Callable[..., Any]:
+            one = self.number(value)
+            return lambda shape, dtype=self.dtype: np.full(shape, one if dtype == self.dtype else value, dtype=dtype)
+
+        return SimpleNamespace(
+            zeros=filled(0.0),
+            ones=filled(1.0),
+            empty=filled(0.0),
+            sqrt=self.sqrt,
+            isfinite=self.isfinite,
+            inf=self.number(np.inf),
+            max=max,
+            int64=np.int64,
+        )
 
 
-def _new(make: Callable[..., Any], zero: Any, dtype: Any) -> Callable[..., Any]:
-    def array(shape: Any, dtype: Any = dtype) -> Any:
-        values = make(shape, dtype=dtype)
-        return values + zero if dtype is object else values
-
-    return array
-
-
-def _long_double() -> SimpleNamespace:
-    same = {name: getattr(np, name) for name in ("sqrt", "isfinite", "inf", "max", "int64")}
-    new = {name: _new(getattr(np, name), None, np.longdouble) for name in ("zeros", "ones", "empty")}
-    return SimpleNamespace(**new, **same)
-
-
-def _fifty_digits() -> SimpleNamespace:
-    from mpmath import MPContext
-
-    context = MPContext()
-    context.dps = 50
-    zero = context.mpf(0)
-    new = {name: _new(getattr(np, name), zero, object) for name in ("zeros", "ones")}
-    return SimpleNamespace(
-        **new, empty=new["zeros"], sqrt=context.sqrt, isfinite=context.isfinite, inf=np.inf, max=max, int64=np.int64
-    )
-
-
-EXTENDED = Precision("interior point, extended precision", 64, 1e-16, 1e-12, _long_double)
-FIFTY_DIGITS = Precision("interior point, 50 digits", 16, 1e-24, 1e-14, _fifty_digits)
+#: nothing is trapped: what is undefined becomes a NaN, which ends the search, as in compiled numbers
+_FIFTY = Context(prec=50, Emin=MIN_EMIN, Emax=MAX_EMAX, traps=[])
+EXTENDED = Precision(
+    "interior point, extended precision",
+    64,
+    1e-16,
+    1e-12,
+    np.longdouble,
+    np.longdouble,
+    np.sqrt,
+    np.isfinite,
+    nullcontext,
+)
+FIFTY_DIGITS = Precision(
+    "interior point, 50 digits",
+    16,
+    1e-24,
+    1e-14,
+    Decimal,
+    object,
+    Decimal.sqrt,
+    Decimal.is_finite,
+    lambda: localcontext(_FIFTY),
+)
 PRECISIONS = (EXTENDED, FIFTY_DIGITS)
 
 
-def interpreted(numbers: SimpleNamespace) -> dict[str, Any]:
-    """Everything of the interior point before compilation, by name, with other numbers in place of numpy."""
+def interpreted(numpy: SimpleNamespace, number: Callable[[float], Any] = float) -> dict[str, Any]:
+    """Everything of the interior point before compilation, by name, with other numbers in place of doubles.
+
+    Parameters
+    ----------
+    numpy : what stands in for it.
+    number : what a literal becomes: decimals refuse to be mixed with doubles.
+    """
     from optimizer.program.kernel import cones, interior_point, lanes, newton, webs
 
     names = {name: value for part in (cones, lanes, webs, newton, interior_point) for name, value in vars(part).items()}
-    space: dict[str, Any] = {**names, "np": numbers}
+    space: dict[str, Any] = {name: _literal(value, number) for name, value in names.items()}
+    space["np"] = numpy
     for name, value in names.items():
         if hasattr(value, "py_func"):
             source = value.py_func
-            space[name] = FunctionType(source.__code__, space, name, source.__defaults__)
+            code = source.__code__.replace(co_consts=_literal(source.__code__.co_consts, number))
+            space[name] = FunctionType(code, space, name, source.__defaults__)
     return space
+
+
+def _literal(value: Any, number: Callable[[float], Any]) -> Any:
+    if type(value) is tuple:
+        return tuple(_literal(each, number) for each in value)
+    return number(value) if type(value) is float else value
 
 
 @cache
 def solve_in(precision: Precision) -> Callable[..., Any]:
     """:func:`optimizer.program.kernel.interior_point.solve` in other numbers; its arrays come back as they are."""
-    space = interpreted(precision.numbers())
-    solve, zeros = space["solve"], space["np"].zeros
-    # the data in those numbers as well, or their products are rounded before anything is added to them
-    return lambda data, *rest: solve(data._make(a if a.dtype == np.int64 else a + zeros(a.shape) for a in data), *rest)
+    solve = interpreted(precision.numpy(), precision.number)["solve"]
+
+    def solved(data: Any, least_mass: bool, *rest: Any) -> Any:
+        with precision.arithmetic():
+            # the data in those numbers as well, or their products are rounded before anything is added to them
+            data = data._make(a if a.dtype == np.int64 else precision.array(a) for a in data)
+            return solve(data, least_mass, *(precision.array(each) for each in rest))
+
+    return solved

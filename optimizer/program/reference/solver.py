@@ -9,7 +9,6 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
-from optimizer.program.limits import Limits
 from optimizer.program.polish import (
     mass_multipliers,
     objective_multipliers,
@@ -19,7 +18,7 @@ from optimizer.program.polish import (
 from optimizer.program.reference.modelling import CompiledPrograms, ScaledData, ScaledSolution
 from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
 from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
-from optimizer.program.statement import CEILING_TOLERANCE, Ceilings, Names, Norms, Statement, Term
+from optimizer.program.statement import Statement
 
 
 class _Attempt(NamedTuple):
@@ -56,7 +55,13 @@ class Solver:
     def __init__(self, programs: CompiledPrograms | None = None) -> None:
         self._programs = programs or CompiledPrograms()
 
-    def smallest_objective(self, statement: Statement, enough: float, start: Solution | None = None) -> Solution:
+    def smallest_objective(
+        self,
+        statement: Statement,
+        enough: float,
+        start: Solution | None = None,
+        told: Callable[[Solution], bool] = lambda best: False,
+    ) -> Solution:
         """The smallest objective, with its bound.
 
         Tries harder until the certified gap is at most ``enough``. If no point that keeps the
@@ -66,6 +71,7 @@ class Solver:
         ----------
         enough : gap that ends the search, in units of the objective.
         start : what is known already.
+        told : whether the best so far is all that has to be known.
         """
         best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
         best = _proven(statement, best, resting_multipliers(statement))
@@ -75,7 +81,7 @@ class Solver:
         if start is not None:
             chosen, other = (start, best) if _better_objective(best, start) else (best, start)
             best = chosen.bounded(other.lower_bound, other.multipliers)
-        if statement.limits.radius.size == 0 or (best.keeps_ceilings and best.gap <= enough):
+        if statement.limits.radius.size == 0 or (best.below_ceilings and best.gap <= enough):
             return best
         natural, largest = float(natural_reach(statement)), float(np.max(statement.limits.reach))
         for attempt in _ATTEMPTS:
@@ -86,7 +92,7 @@ class Solver:
                 began = time.perf_counter()
                 best = _proven(statement, best, objective_multipliers(statement, *solved))
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
-            if best.keeps_ceilings and best.gap <= enough:
+            if told(best) or (best.below_ceilings and best.gap <= enough):
                 break
         return best
 
@@ -105,7 +111,7 @@ class Solver:
         rounding = float(statement.rounding(first.unbalance))
         target = max(first.objective, first.lower_bound + (1.0 - _TARGET_MARGIN) * share - rounding)
         nothing = first.moved_to(statement, np.zeros_like(first.unbalance))
-        if nothing.objective <= target and nothing.keeps_ceilings:
+        if nothing.objective <= target and nothing.below_ceilings:
             return nothing
         # the smallest objective lies between first.lower_bound and first.objective: a bound for all
         # that are within the share of it must allow for the larger
@@ -114,7 +120,7 @@ class Solver:
         needed, largest = float(np.max(np.abs(first.unbalance))), float(np.max(statement.limits.reach))
 
         def admit(old: Solution, new: Solution) -> bool:
-            return new.keeps_ceilings and new.objective <= target and new.mass < old.mass
+            return new.below_ceilings and new.objective <= target and new.mass < old.mass
 
         if start is not None:
             known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
@@ -140,13 +146,6 @@ class Solver:
                 break
         return best
 
-    def smallest_excess(self, ceilings: Ceilings, limits: Limits) -> Solution:
-        """The smallest largest excess over the ceilings; its sign decides whether they can be kept.
-
-        objective <= 0: they can; lower_bound > 0: they cannot, which is then proven.
-        """
-        return self.smallest_objective(excess_program(ceilings, limits), 0.1 * CEILING_TOLERANCE)
-
     def _attempt(
         self,
         statement: Statement,
@@ -171,20 +170,10 @@ class Solver:
         return best, (u, scaling.multipliers(statement, found))
 
 
-def excess_program(ceilings: Ceilings, limits: Limits) -> Statement:
-    """The program of the smallest largest excess over the ceilings, each relative to its size."""
-    size = ceilings.size
-    norms = Norms(ceilings.norms.constant / size, ceilings.norms.influence / size[:, None])
-    nothing = np.zeros(0)
-    none = Ceilings((), Norms(np.zeros(0, complex), np.zeros((0, limits.radius.size))), nothing, nothing)
-    names = Names(tuple(Term(name, "co") for name in ceilings.names), ceilings.names)
-    return Statement(norms, np.arange(size.size), -ceilings.cap / size, none, limits, names)
-
-
 def _better_objective(old: Solution, new: Solution) -> bool:
-    if old.keeps_ceilings and new.keeps_ceilings:
+    if old.below_ceilings and new.below_ceilings:
         return new.objective < old.objective
-    return new.keeps_ceilings or (not old.keeps_ceilings and new.excess < old.excess)
+    return new.below_ceilings or (not old.below_ceilings and new.excess < old.excess)
 
 
 def _tidied(u: Complex) -> tuple[Complex, ...]:

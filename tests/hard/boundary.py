@@ -1,0 +1,218 @@
+"""``python -m tests.hard.boundary --count N``: ceilings on, and a hair to either side of, what can just be reached.
+
+Every machine is asked several times, its ceilings put at a place times 1 + d: at the smallest peaks that can be
+reached, at those without counterweights, at those of the optimum without ceilings, at the floor. Analytic: the
+smallest objective does not grow, and no ceiling gets out of reach, as the ceilings are raised.
+"""
+
+import argparse
+import json
+import sys
+import time
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from rich.console import Console
+from rich.table import Table
+
+from optimizer.formulate import formulate, limits
+from optimizer.optimize import optimize
+from optimizer.program.optimum import optimum, yardstick
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import CEILING_TOLERANCE, Solution
+from optimizer.program.statement import statement, weighted_peak
+from optimizer.response import Response
+from optimizer.scene import prepare
+from schemas.requests import OptimizeRequest
+from tests.hard.cases.case import Body, machine, row, throw, web
+
+#: how far the ceilings are from the place
+DISTANCES = (-1e-3, -1e-6, -1e-8, -1e-9, -1e-10, -1e-12, 0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-3)
+#: answers count as on the boundary up to here
+NEAR = 1e-8
+PLACES = ("reachable", "at rest", "unlimited", "floor")
+FIELDS = {"force": "force_ceiling_N", "moment": "moment_ceiling_Nm"}
+#: what two answers of the same optimum may differ by: the asked gap, relative to the yardstick
+_GAP = 1.01e-6
+_SOLVER = Solver()
+
+
+@dataclass(frozen=True)
+class Asked:
+    """One answer."""
+
+    distance: float
+    body: Body
+    status: str
+    objective: float  # NaN where infeasible
+    method: str
+    cpu_s: float
+
+
+@dataclass(frozen=True)
+class Ladder:
+    """One machine with its ceilings at one place times 1 + distance, in rising order."""
+
+    place: str
+    ceilings: Mapping[str, float]
+    yardstick: float
+    asked: Sequence[Asked]
+    faults: Sequence[str] = field(default_factory=list)
+
+
+def bodies(rng: np.random.Generator) -> Body:
+    """A machine of moderate size with every kind of limit, and an objective without ceilings."""
+    angles = [0.0, 60.0, 90.0, 120.0, 180.0, 240.0, 270.0]
+
+    def angle() -> float:
+        return float(rng.choice(angles) if rng.random() < 0.5 else rng.uniform(0, 360))
+
+    throws = [
+        throw(
+            float(rng.uniform(-0.5, 0.5)),
+            angle(),
+            [row(angle(), float(rng.uniform(1, 20))) for _ in range(rng.integers(0, 3))],
+            rotating=float(rng.choice([0.0, rng.uniform(0.1, 10)])),
+        )
+        for _ in range(rng.integers(1, 5))
+    ]
+    sectors, largest = rng.random() < 0.3, float(rng.choice([0.3, 3.0, 30.0, 1e4]))
+    webs = [
+        web(
+            str(k),
+            float(rng.uniform(-0.6, 0.6)),
+            largest * float(rng.uniform(0.1, 1.0)) * float(rng.choice([1.0, 1.0, 1e-6])),
+            float(rng.uniform(0.05, 0.3)),
+            (angle(), float(rng.choice([1.0, 30.0, 60.0, 90.0]))) if sectors and rng.random() < 0.6 else None,
+        )
+        for k in range(rng.choice([1, 2, 2, 3, 4, 4, 6, 8, 16, 32]))
+    ]
+    budget = {} if rng.random() < 0.7 else {"max_total_mass_kg": 0.4 * sum(web["max_mass_kg"] for web in webs)}
+    goal = {
+        "combine": str(rng.choice(["sum", "max"])),
+        "direction_weights": {"x": 1.0, "y": float(rng.choice([1.0, 1.0, 0.3, 0.0]))},
+        "force_weight": float(rng.choice([1.0, 1.0, 0.0, 1e-3])),
+        "least_mass": bool(rng.random() < 0.8),
+    }
+    return {"machine": machine(throws, webs, **budget), "objective": goal}
+
+
+def ladders(rng: np.random.Generator, distances: Sequence[float] = DISTANCES) -> Iterator[Ladder]:
+    """The places of one random machine that it has."""
+    body = bodies(rng)
+    request = OptimizeRequest.model_validate(body)
+    scene = prepare(request)
+    limited = [response for response in scene.responses if rng.random() < 0.6] or [scene.responses[0]]
+    without = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    size = float(yardstick(without)) * scene.omega_squared
+    for place in PLACES:
+        peaks = _peaks(place, request, limited, without)
+        ceilings = {FIELDS[name]: peak * scene.omega_squared for name, peak in peaks.items()}
+        if all(ceiling > 0 for ceiling in ceilings.values()):
+            asked = [_ask(body, ceilings, distance) for distance in distances]
+            yield Ladder(place, ceilings, size, asked, list(faults(asked, size)))
+
+
+def _peaks(place: str, request: OptimizeRequest, limited: Sequence[Response], without: object) -> dict[str, float]:
+    """The peaks at a place, in kg m and kg m^2."""
+    rest = {response.name: float(response.baseline.peak) for response in limited}
+    if place == "at rest":
+        return rest
+    if place == "floor":
+        return {response.name: float(np.abs(response.baseline.counter)) for response in limited}
+    if place == "unlimited":
+        best = optimum(without, 1e-6, request.objective.least_mass, _SOLVER)
+        return {response.name: float(response.to(best.unbalance).peak) for response in limited}
+    if not all(rest.values()):
+        return dict.fromkeys(rest, 0.0)
+    # all of them by the same share of what they are without counterweights
+    lowered = [weighted_peak(response, 1.0 / rest[response.name]) for response in limited]
+    least = optimum(statement(lowered, "max", [], limits(request.machine)), 1e-13, False, _SOLVER)
+    assert isinstance(least, Solution)
+    return {name: peak * least.objective for name, peak in rest.items()}
+
+
+def _ask(body: Body, ceilings: Mapping[str, float], distance: float) -> Asked:
+    put = {name: ceiling * (1.0 + distance) for name, ceiling in ceilings.items()}
+    whole = {**body, "objective": {**body["objective"], **put}}
+    began = time.process_time()
+    answer = optimize(OptimizeRequest.model_validate(whole))
+    cpu_s = time.process_time() - began
+    proof = answer.certificate
+    if proof is None:
+        return Asked(distance, whole, answer.status, np.nan, "", cpu_s)
+    return Asked(distance, whole, answer.status, proof.objective, proof.method, cpu_s)
+
+
+def faults(asked: Sequence[Asked], size: float) -> Iterator[str]:
+    """Jumps: an objective that grows, or a ceiling that gets out of reach, as the ceilings are raised."""
+    for at, lower in enumerate(asked):
+        for higher in asked[at + 1 :]:
+            if np.isnan(lower.objective):
+                continue
+            step = f"from {lower.distance:g} to {higher.distance:g}"
+            if higher.status == "infeasible":
+                if lower.status == "optimal" or higher.distance - lower.distance > 2 * CEILING_TOLERANCE:
+                    yield f"{step}: out of reach"
+            elif higher.distance - lower.distance > 2 * CEILING_TOLERANCE:
+                rise = (higher.objective - lower.objective) / size
+                # a point that breaks its ceilings says so, and shows nothing about smaller ones
+                if rise > _GAP and lower.status == "optimal":
+                    yield f"{step}: the objective rises by {rise:.1e} ({lower.status}, {higher.status})"
+
+
+def run(count: int, seed: int, distances: Sequence[float] = DISTANCES) -> list[Ladder]:
+    """The ladders of some machines; a machine depends on its own number alone."""
+    return [each for n in range(count) for each in ladders(np.random.default_rng((seed, n)), distances)]
+
+
+def summary(found: Sequence[Ladder], console: Console) -> None:
+    table = Table("place", "answers", "optimal", "infeasible", "inaccurate", "near", "of them inaccurate", "jumps", "s")
+    for place in (*PLACES, "all"):
+        chosen = [each for each in found if place in (each.place, "all")]
+        asked = [one for each in chosen for one in each.asked]
+        near = [one for one in asked if abs(one.distance) <= NEAR]
+        statuses, undecided = Counter(one.status for one in asked), Counter(one.status for one in near)["inaccurate"]
+        table.add_row(
+            place,
+            str(len(asked)),
+            *(str(statuses[name]) for name in ("optimal", "infeasible", "inaccurate")),
+            str(len(near)),
+            f"{undecided} ({undecided / max(len(near), 1):.2%})",
+            str(sum(bool(each.faults) for each in chosen)),
+            f"{max((one.cpu_s for one in asked), default=0.0):.2f}",
+        )
+    console.print(table)
+    asked = [one for each in found for one in each.asked]
+    console.print(dict(Counter(one.method or one.status for one in asked).most_common()))
+    slow = sorted((one.cpu_s for one in asked), reverse=True)
+    console.print(
+        f"CPU time of an answer: {sum(t > 1 for t in slow)} above 1 s, {sum(t > 0.3 for t in slow)} above 0.3 s"
+    )
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.hard.boundary", description=__doc__)
+    parser.add_argument("--count", type=int, default=100, metavar="N", help="machines, of up to 56 answers each")
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--show", type=int, default=0, metavar="N", help="requests that are inaccurate or jump, whole")
+    arguments = parser.parse_args()
+    console = Console()
+    found = run(arguments.count, arguments.seed)
+    summary(found, console)
+    for each in [each for each in found if each.faults][: arguments.show]:
+        print(each.place, each.ceilings, *each.faults, *(json.dumps(one.body) for one in each.asked[:1]), sep="\n  ")
+        for one in each.asked:
+            print(f"    {one.distance:8.0e} {one.status:10} {one.objective:.12g} {one.method}")
+    bad = [one for each in found for one in each.asked if one.status == "inaccurate"]
+    for one in bad[: arguments.show]:
+        print(one.distance, one.method, json.dumps(one.body))
+    near = [one for each in found for one in each.asked if abs(one.distance) <= NEAR]
+    share = sum(one.status == "inaccurate" for one in near) / max(len(near), 1)
+    return int(share > 1e-3 or any(each.faults for each in found))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
