@@ -19,12 +19,12 @@ from rich.table import Table
 
 from optimizer.formulate import formulate, limits
 from optimizer.optimize import optimize
+from optimizer.outputs import prepare
 from optimizer.program.optimum import optimum, yardstick
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_TOLERANCE, Solution
 from optimizer.program.statement import statement, weighted_peak
 from optimizer.response import Response
-from optimizer.scene import prepare
 from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
 
@@ -103,7 +103,7 @@ def ladders(rng: np.random.Generator, distances: Sequence[float] = DISTANCES) ->
     """The places of one random machine that it has."""
     body = bodies(rng)
     request = OptimizeRequest.model_validate(body)
-    scene = prepare(request)
+    scene = prepare(request, ("residual",))
     limited = [response for response in scene.responses if rng.random() < 0.6] or [scene.responses[0]]
     without = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
     size = float(yardstick(without)) * scene.omega_squared

@@ -110,13 +110,14 @@ def _literal(value: Any, number: Callable[[float], Any]) -> Any:
 
 @cache
 def solve_in(precision: Precision) -> Callable[..., Any]:
-    """:func:`optimizer.program.kernel.interior_point.solve` in other numbers; its arrays come back as they are."""
+    """:func:`optimizer.program.kernel.interior_point.solve` in other numbers; its arrays come back as doubles."""
     solve = interpreted(precision.numpy(), precision.number)["solve"]
 
     def solved(data: Any, least_mass: bool, *rest: Any) -> Any:
         with precision.arithmetic():
             # the data in those numbers as well, or their products are rounded before anything is added to them
             data = data._make(a if a.dtype == np.int64 else precision.array(a) for a in data)
-            return solve(data, least_mass, *(precision.array(each) for each in rest))
+            found = solve(data, least_mass, *(precision.array(each) for each in rest))
+        return tuple(np.asarray(values, dtype=float) for values in found)
 
     return solved
