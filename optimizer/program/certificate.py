@@ -17,6 +17,10 @@ _EPS = float(np.finfo(float).eps)
 #: roundings of one product of a bound with its data (responses, sectors, multipliers of sum 1), in eps; a sum of n
 #: such products is off by less than n + this times eps of the sum of their magnitudes (Higham 2002, section 3.1)
 _EACH = 16
+#: of these, those of influences (arms, weights) and of multipliers as they are printed, which no finer sum mends
+_DATA = 6
+#: a slope is summed in finer numbers where its rounding would cost the bound this share of its constant
+_DEAR = 1e-10
 
 
 @dataclass(frozen=True)
@@ -73,13 +77,12 @@ def nothing_proven(statement: Statement) -> Multipliers:
 
 @dataclass(frozen=True)
 class _Minorant:
-    """constant + sum_k Re(conj(slope_k) u_k), and the sums of magnitudes that their rounding is a share of."""
+    """constant + sum_k Re(conj(slope_k) u_k), and what they may be off by."""
 
     constant: Real  # (...)
-    constant_size: Real
+    constant_size: Real  # (...) sum of magnitudes that the rounding of the constant is a share of
     slope: Complex  # (..., K)
-    slope_size: Real
-    terms: int  # that a slope is a sum of
+    slope_rounding: Real  # (..., K)
 
 
 def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Real:
@@ -173,15 +176,30 @@ def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Min
         ],
         axis=-1,
     )
-    influence = np.concatenate([norms.influence, ceilings.norms.influence], axis=-2)
+    size = np.sum(np.abs(fixed), axis=-1)
+    return _Minorant(np.sum(fixed, axis=-1), size, *_slope(statement, multipliers, size))
+
+
+def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple[Complex, Real]:
+    """Slopes of the minorant and what they may be off by (..., K).
+
+    Parameters
+    ----------
+    worth : (...) what the rounding is cheap or dear beside, in units of what is bounded.
+    """
+    influence = np.concatenate([statement.norms.influence, statement.ceilings.norms.influence], axis=-2)
     price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
-    return _Minorant(
-        np.sum(fixed, axis=-1),
-        np.sum(np.abs(fixed), axis=-1),
-        np.sum(influence * price, axis=-2),
-        np.sum(np.abs(influence) * np.abs(price), axis=-2),
-        price.shape[-2],
-    )
+    terms = price.shape[-2]
+    slope, size = np.sum(influence * price, axis=-2), np.sum(np.abs(influence) * np.abs(price), axis=-2)
+    rounding = _EPS * (_EACH + terms) * size
+    dear = np.sum(statement.limits.reach * rounding, axis=-1) > _DEAR * worth
+    if not np.any(dear):
+        return slope, rounding
+    # webs that can hardly be told apart, with limits that are far away: what is left of the data, no more
+    finer = np.sum(influence * price.astype(np.clongdouble), axis=-2)
+    rest = float(np.finfo(np.longdouble).eps) * (2 + terms) * size
+    slope = np.where(dear[..., None], finer.astype(complex), slope)
+    return slope, np.where(dear[..., None], _EPS * (_DATA * size + _EACH * np.abs(slope)) + rest, rounding)
 
 
 def _rounding(statement: Statement, size: Real) -> Real:
@@ -195,8 +213,7 @@ def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) ->
     One kilogram on web k gains at best R_k sigma_k - cost; the rounding of the slope is a gain too, so that it counts
     as far as the limits let the web reach. With a budget the webs are filled in falling order of that gain.
     """
-    slope = minorant.slope
-    support = limits.support(-slope) + _EPS * (_EACH + minorant.terms) * minorant.slope_size
+    support = limits.support(-minorant.slope) + minorant.slope_rounding
     gain = np.maximum(limits.radius * support - mass_cost, 0.0)
     gained = np.sum(gain * limits.filled(gain), axis=-1)
-    return -gained * (1.0 + _EPS * (_EACH + 2 * slope.shape[-1]))
+    return -gained * (1.0 + _EPS * (_EACH + 2 * gain.shape[-1]))

@@ -5,6 +5,8 @@ All expected numbers are independent: tests/hard/reference.json, computed by tes
 
 import pytest
 
+from optimizer.optimize import optimize
+from schemas.requests import OptimizeRequest
 from tests.hard import stored
 from tests.hard.battery import run
 from tests.hard.cases import all_cases
@@ -63,3 +65,16 @@ def test_what_a_double_cannot_hold_is_called_inaccurate() -> None:
     verdict = run(beyond, reference(beyond.body))
     assert verdict.status == "inaccurate"
     assert not [fault for fault in verdict.faults if "bound" in fault or "below" in fault]
+
+
+@pytest.mark.parametrize("gap", [1e-9, 1e-12, 1e-15])
+@pytest.mark.parametrize(("place", "limit"), [(0.0, 1e9), (0.1, 1e12)])
+def test_bounds_hold_where_the_webs_can_hardly_be_told_apart(place: float, limit: float, gap: float) -> None:
+    """Slopes that cancel, times a reach of up to 1e12 kg (independent: the 100-digit reference)."""
+    webs = [web("a", place, limit), web("b", place + gap, limit)]
+    asked = case("webs/far", "slope times reach", machine(v_twin(), webs))
+    found, expected = optimize(OptimizeRequest.model_validate(asked.body)), reference(asked.body)
+    assert found.certificate.lower_bound <= expected.objective <= found.certificate.objective
+    assert found.certificate.mass_lower_bound_kg <= expected.mass
+    # sharp all the same
+    assert expected.objective - found.certificate.lower_bound <= 1e-4 * found.certificate.yardstick

@@ -52,7 +52,7 @@ def test_least_over_limits_is_the_knapsack(seed: int, budget: bool) -> None:
     value = 0.2 - limits.radius * limits.support(-slope)
     constraint = {"A_ub": np.ones((1, 5)), "b_ub": [limits.max_total_mass]} if budget else {}
     expected = linprog(value, bounds=[(0, m) for m in limits.max_mass], **constraint).fun
-    minorant = _Minorant(np.zeros(()), np.zeros(()), slope, np.abs(slope), 1)
+    minorant = _Minorant(np.zeros(()), np.zeros(()), slope, 18 * np.finfo(float).eps * np.abs(slope))
     least = _least_over_limits(minorant, 0.2, limits)
     assert least == pytest.approx(expected, rel=1e-12, abs=1e-12)
     assert least <= expected + 1e-15 * abs(expected)
