@@ -22,9 +22,11 @@ def test_the_settings_are_ones_of_the_service(monkeypatch: pytest.MonkeyPatch) -
     for name, value in {**dockerfile_environment(), **SERVICES["service"]["environment"]}.items():
         if name.startswith("COUNTERWEIGHT_"):
             assert name in settings_variables()
-            monkeypatch.setenv(name, value)
+            # as compose reads ${NAME:-default}
+            monkeypatch.setenv(name, re.sub(r"\$\{\w+:-(\w*)\}", r"\1", value))
     settings = Settings()
     assert settings.database_url is not None
+    assert settings.concurrent_solves == 2
     assert re.fullmatch(r"postgresql://\w+@postgres/\w+", settings.database_url)
     assert settings.engine == "dask:tcp://scheduler:8786"
     assert engine(settings.engine, 1) is not None
@@ -62,6 +64,19 @@ def test_workers_read_the_folder_at_the_same_path() -> None:
     assert SERVICES["service"]["volumes"] == ["data:/data"]
     assert SERVICES["worker"]["volumes"] == ["data:/data:ro"]
     assert dockerfile_environment()["COUNTERWEIGHT_DATA_DIR"] == "/data"
+
+
+def test_memory_suffices_for_the_computations_that_it_allows() -> None:
+    """As by default; dask sweeps, so there are no sweep workers beside the service."""
+    limit, solves = (
+        int(re.fullmatch(r"\$\{COUNTERWEIGHT_\w+:-(\d+)g?\}", value)[1])  # type: ignore[index]
+        for value in (
+            SERVICES["service"]["mem_limit"],
+            SERVICES["service"]["environment"]["COUNTERWEIGHT_CONCURRENT_SOLVES"],
+        )
+    )
+    # one more, for a client that has none
+    assert ((solves + 1) * Settings().solve_memory_mb + 300) * 1_000_000 < limit * 2**30
 
 
 def test_it_waits_longer_for_the_end_than_the_service_needs() -> None:

@@ -108,8 +108,18 @@ def test_several_replicas_share_what_they_must() -> None:
 
 def test_memory_suffices_for_the_computations_that_it_allows() -> None:
     limit = int(CONTAINER["resources"]["limits"]["memory"].removesuffix("Gi")) * 2**30
-    solves = int(ALL["ConfigMap"]["data"]["COUNTERWEIGHT_CONCURRENT_SOLVES"])
-    assert solves * Settings().solve_memory_mb * 1_000_000 < limit
+    set_here = ALL["ConfigMap"]["data"]
+    # one more, for a client that has none; docs/operation.md: 300 MB for the service and for each sweep worker
+    solves = int(set_here["COUNTERWEIGHT_CONCURRENT_SOLVES"]) + 1
+    others = int(set_here["COUNTERWEIGHT_SWEEP_WORKERS"]) + 1
+    assert (solves * Settings().solve_memory_mb + others * 300) * 1_000_000 < limit
+
+
+def test_no_proxy_is_believed_and_hosts_need_no_list_where_keys_are_asked_for() -> None:
+    """Hosts are compared only where nobody needs a key, and there is a file of keys here."""
+    assert ALL["ConfigMap"]["data"]["COUNTERWEIGHT_TRUSTED_PROXIES"] == ""
+    assert "COUNTERWEIGHT_KEYS_FILE" in ALL["ConfigMap"]["data"]
+    assert "COUNTERWEIGHT_ALLOW_WITHOUT_KEYS" not in ALL["ConfigMap"]["data"]
 
 
 def test_the_network_lets_in_http_and_out_what_is_needed() -> None:
