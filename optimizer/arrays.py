@@ -1,5 +1,9 @@
 """Arrays and their exact sums. Leading axes are programs or machines; vectors across the shaft are complex, x + jy."""
 
+from collections.abc import Callable
+from dataclasses import fields, is_dataclass, replace
+from typing import Any, TypeVar
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -8,10 +12,24 @@ Complex = NDArray[np.complex128]
 #: one number, or one for each of many programs
 Reals = Real | float
 
+Part = TypeVar("Part")
+
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
 _ROUNDING = 16 * np.finfo(float).eps
 #: nothing real is this small; below it quotients lose their digits and then overflow
 SMALLEST = 1e-250
+
+
+def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
+    """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
+    changed: dict[str, Any] = {}
+    for field in fields(part):  # type: ignore[arg-type]  # a dataclass, which Part cannot say
+        value = getattr(part, field.name)
+        if isinstance(value, np.ndarray | np.generic):
+            changed[field.name] = function(value)
+        elif is_dataclass(value):
+            changed[field.name] = mapped(value, function)
+    return replace(part, **changed)  # type: ignore[type-var]
 
 
 def total(terms: Complex) -> Complex:

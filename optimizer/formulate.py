@@ -11,7 +11,7 @@ from optimizer.arrays import SMALLEST, Real, Reals
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Response
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Objective
@@ -73,12 +73,14 @@ def formulate(
     """The program in mass-radius products: forces over omega^2, so that speed plays no part."""
     wanted, across = weights(machine, objective), objective.direction_weights
     return statement(
-        [
-            weighted_peak(response, wanted[response.name], across.x, across.y)
-            for response in responses
-            if wanted[response.name] > 0
-        ],
-        objective.combine,
+        combined(
+            [
+                weighted_peak(response, wanted[response.name], across.x, across.y)
+                for response in responses
+                if wanted[response.name] > 0
+            ],
+            objective.combine,
+        ),
         [
             (response, ceilings(objective)[response.name] / omega_squared)
             for response in responses
@@ -91,4 +93,4 @@ def formulate(
 def smallest_peak(response: Response, machine: Machine) -> Statement:
     """The program for one peak alone, without ceilings."""
     # the larger of one is that one, and its row has its name
-    return statement([weighted_peak(response, 1.0)], "max", [], limits(machine))
+    return statement(combined([weighted_peak(response, 1.0)], "max"), [], limits(machine))

@@ -71,16 +71,23 @@ class Phasors:
 
 @dataclass(frozen=True)
 class Response:
-    """A first-order response that is affine in the unbalance u of the counterweights.
+    """A response that is affine in the unbalance u of the counterweights.
 
-    name : what it is, "force" or "moment".
-    baseline : without counterweights; kg m for forces, kg m^2 for moments (divided by omega^2).
-    influence : (..., webs) real, change of the co-rotating phasor for one kg m on each web.
+    name : what it is, unique among the responses of a program.
+    unit : of the response times omega^2: "N", "N m".
+    baseline : without counterweights, divided by omega^2: kg m for a force, kg m^2 for a moment.
+    influence : (..., webs) change of the co-rotating phasor for one kg m on each web; complex where a counterweight
+        answers out of line with itself.
+    order : how often the vectors turn while the shaft turns once.
+    sense : +1 if the co-rotating vector turns with the shaft, -1 if against it.
     """
 
     name: str
+    unit: str
     baseline: Phasors
-    influence: Real
+    influence: Real | Complex
+    order: int = 1
+    sense: int = 1
 
     def to(self, unbalance: Complex) -> Phasors:
         """Response with counterweights, baseline + influence @ unbalance.
@@ -91,3 +98,12 @@ class Response:
         """
         change = np.sum(self.influence * unbalance, axis=-1)
         return Phasors(self.baseline.co + change, self.baseline.counter)
+
+    def over_turn(self, unbalance: Complex, turned_rad: Real) -> Complex:
+        """Response with counterweights while the shaft turns (..., n).
+
+        Parameters
+        ----------
+        turned_rad : (..., n) how far the shaft has turned.
+        """
+        return self.to(unbalance).at(self.sense * turned_rad, self.order)

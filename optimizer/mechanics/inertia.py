@@ -83,8 +83,8 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
     """
     arm = layout.webs.position - layout.reference_plane[..., None]
     return (
-        Response("force", baseline.force, np.ones_like(arm)),
-        Response("moment", baseline.moment, arm),
+        Response("force", "N", baseline.force, np.ones_like(arm)),
+        Response("moment", "N m", baseline.moment, arm),
     )
 
 

@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.formulate import ceilings, limits
 from optimizer.program.certificate import Multipliers
-from optimizer.program.statement import Norms, Statement, statement, weighted_peak
+from optimizer.program.statement import Norms, Statement, combined, statement, weighted_peak
 from optimizer.response import Response
 from schemas.machine import Machine
 from schemas.requests import Objective
@@ -27,8 +27,7 @@ class Trade:
 
     def peaks(self, u: Complex) -> Real:
         """Weighted peak force [kg m] and moment [kg m^2] with counterweights u (..., K), (..., 2)."""
-        sizes = np.abs(self.both.norms.at(u))
-        return self.both.floor + np.sum(self.both.membership * sizes[..., None, :], axis=-1)
+        return self.both.rows(np.abs(self.both.norms.at(u)))
 
     def one_by_one(self, u: Complex) -> Real:
         """Sum of what every counterweight by itself adds to each peak at most, (..., 2)."""
@@ -86,6 +85,6 @@ def trade(machine: Machine, objective: Objective, responses: Sequence[Response],
     force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in responses)
     bounds = limits(machine)
     return Trade(
-        both=statement([force, moment], "max", caps, bounds),
-        alone=(statement([force], "sum", caps, bounds), statement([moment], "sum", caps, bounds)),
+        both=statement(combined([force, moment], "max"), caps, bounds),
+        alone=(statement(combined([force], "sum"), caps, bounds), statement(combined([moment], "sum"), caps, bounds)),
     )

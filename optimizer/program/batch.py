@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers
+from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.fast import fast
-from optimizer.program.optimum import Unreachable, optimum, within_reach
+from optimizer.program.optimum import Unreachable, optimum, suits_kernel, within_reach
 from optimizer.program.reach import far_limits
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import INTERIOR_POINT, OPTIMUM_SHARE, Solution
+from optimizer.program.solution import CONE_PROGRAM, INTERIOR_POINT, OPTIMUM_SHARE, Solution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 
@@ -44,22 +44,25 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     """
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
-    found = fast(statement, share, demand, least_mass)
-    answer = Optima(
-        found.unbalance,
-        found.objective,
-        found.lower_bound,
-        found.mass,
-        found.mass_lower_bound,
-        found.excess,
-        np.zeros(share.shape, bool),
-        np.full(share.shape, INTERIOR_POINT, dtype=object),
-        found.multipliers,
-        found.mass_multipliers,
-        found.mass_target,
-        _no_conflict(statement),
-    )
-    for n in map(int, np.flatnonzero(~found.certified)):
+    if not suits_kernel(statement):
+        answer, open_ones = _nothing(statement), np.arange(size.size)
+    else:
+        found = fast(statement, share, demand, least_mass)
+        open_ones = np.flatnonzero(~found.certified)
+        answer = replace(
+            _nothing(statement),
+            unbalance=found.unbalance,
+            objective=found.objective,
+            lower_bound=found.lower_bound,
+            mass=found.mass,
+            mass_lower_bound=found.mass_lower_bound,
+            excess=found.excess,
+            method=np.full(size.shape, INTERIOR_POINT, dtype=object),
+            multipliers=found.multipliers,
+            mass_multipliers=found.mass_multipliers,
+            mass_target=found.mass_target,
+        )
+    for n in map(int, open_ones):
         _put(answer, n, statement.chosen(n), optimum(statement.chosen(n), relative_gap, least_mass, solver))
     return answer
 
@@ -88,9 +91,24 @@ def joined(parts: Sequence[Optima], order: np.ndarray) -> Optima:
     return whole
 
 
-def _no_conflict(statement: Statement) -> Multipliers:
-    ceilings = statement.ceilings.cap.shape
-    return Multipliers(np.zeros(ceilings, complex), np.zeros(ceilings), np.zeros((*ceilings[:-1], 0), complex))
+def _nothing(statement: Statement) -> Optima:
+    """Nothing found, nothing proven."""
+    webs, ceilings = statement.limits.radius.shape, statement.ceilings.cap.shape
+    endless = np.full(webs[:-1], np.inf)
+    return Optima(
+        unbalance=np.zeros(webs, complex),
+        objective=endless,
+        lower_bound=-endless,
+        mass=endless.copy(),
+        mass_lower_bound=np.zeros(webs[:-1]),
+        excess=endless.copy(),
+        unreachable=np.zeros(webs[:-1], bool),
+        method=np.full(webs[:-1], CONE_PROGRAM, dtype=object),
+        multipliers=nothing_proven(statement),
+        mass_multipliers=nothing_proven(statement),
+        mass_target=endless.copy(),
+        conflict=Multipliers(np.zeros(ceilings, complex), np.zeros(ceilings), np.zeros((*ceilings[:-1], 0), complex)),
+    )
 
 
 def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreachable) -> None:

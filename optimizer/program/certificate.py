@@ -1,15 +1,15 @@
 """Lower bounds in closed form: arrays in, bound out, whichever solver found the multipliers.
 
-For |y_j| <= 1, P(u) >= sum_r lam_r (floor_r + sum_{j in r} Re(conj(y_j) a_j(u))), an affine function
-of u whose minimum over the limits is a support function and a knapsack (docs/mathematics.md section 5). So any
-multipliers give a rigorous bound; better ones give a better bound.
+For |y_j| <= 1 and lam of sum 1 in each group, P(u) >= sum_r lam_r (floor_r + sum_{j in r} Re(conj(y_j) a_j(u))), an
+affine function of u whose minimum over the limits is a support function and a knapsack (docs/mathematics.md section 5).
+So any multipliers give a rigorous bound; better ones give a better bound.
 """
 
 from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, mapped
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
@@ -51,19 +51,35 @@ class Multipliers:
 
     def chosen(self, programs: "int | np.ndarray") -> "Multipliers":
         """Those of some of the programs of one leading axis."""
-        return Multipliers(self.term[programs], self.row[programs], self.ceiling[programs])
+        return mapped(self, lambda array: array[programs])
 
     def put(self, n: int, one: "Multipliers") -> None:
         """Those of program n of one leading axis, in place."""
         self.term[n], self.row[n], self.ceiling[n] = one.term, one.row, one.ceiling
 
+    def price(self, statement: Statement) -> Real:
+        """What a unit of the objective costs: the sum of the rows of a group, alike in all if admissible (...)."""
+        return np.sum(self.row[..., statement.group == 0], axis=-1)
+
     def admissible(self, statement: Statement) -> "Multipliers":
-        """The same multipliers with lam >= 0 and |y| <= 1, without which they prove nothing."""
-        row = np.maximum(self.row, 0.0)
+        """The same multipliers with lam >= 0 of one sum in every group and |y| <= 1, or they prove nothing."""
+        row = _alike(statement, np.maximum(self.row, 0.0))
         allowed = row[..., statement.row]
         size = np.abs(self.term)
         shrink = np.where(size > allowed, allowed / np.where(size > 0, size, 1.0), 1.0)
         return Multipliers(self.term * shrink, row, self.ceiling)
+
+
+def _alike(statement: Statement, row: Real) -> Real:
+    """Multipliers of rows with the same sum, the price of the objective, in every group (..., rows).
+
+    What a group lacks it gets at its highest floor, which is true of any u.
+    """
+    if statement.group[-1] == 0:
+        return row
+    price = np.add.reduceat(row, statement.first_rows, axis=-1)
+    lacking = np.max(price, axis=-1, keepdims=True) - price
+    return row + statement.where_largest(statement.floor) * lacking[..., statement.group]
 
 
 def nothing_proven(statement: Statement) -> Multipliers:
@@ -102,13 +118,13 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
     Parameters
     ----------
     multipliers : in kg per unit of objective (rows, terms) and of response (ceilings); the sum of
-        the rows is the price nu of P(u) <= target.
+        the rows of a group is the price nu of P(u) <= target.
     target : (...) largest objective that still counts as optimal.
     """
     usable = multipliers.admissible(statement)
     ceilings = statement.ceilings
     minorant = _minorant(statement, usable, ceilings.cap + ceilings.tolerance * ceilings.size)
-    charge = np.sum(usable.row, axis=-1) * target
+    charge = usable.price(statement) * target
     least = _least_over_limits(minorant, 1.0, statement.limits)
     rounding = _rounding(statement, minorant.constant_size + np.abs(charge))
     return np.maximum(minorant.constant - charge + least - rounding, 0.0)
@@ -157,9 +173,9 @@ def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Re
 
 
 def normalised(statement: Statement, multipliers: Multipliers) -> tuple[Multipliers, np.ndarray]:
-    """Admissible multipliers whose rows sum to 1, and where there are any (...)."""
+    """Admissible multipliers whose rows sum to 1 in every group, and where there are any (...)."""
     usable = multipliers.admissible(statement)
-    total = np.sum(usable.row, axis=-1)
+    total = usable.price(statement)
     known = (total > 0) & np.isfinite(total)
     return usable.times(1.0 / np.where(known, total, 1.0)), known
 
@@ -187,7 +203,7 @@ def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple
     ----------
     worth : (...) what the rounding is cheap or dear beside, in units of what is bounded.
     """
-    influence = np.concatenate([statement.norms.influence, statement.ceilings.norms.influence], axis=-2)
+    influence = np.conj(np.concatenate([statement.norms.influence, statement.ceilings.norms.influence], axis=-2))
     price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
     terms = price.shape[-2]
     slope, size = np.sum(influence * price, axis=-2), np.sum(np.abs(influence) * np.abs(price), axis=-2)

@@ -1,6 +1,6 @@
 """Where the counterweights may be: mass, sector, budget."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 
@@ -20,7 +20,7 @@ class Limits:
     centre: Complex  # (..., K) unit vectors
     half_angle_cos: Real  # (..., K)
     half_angle_sin: Real  # (..., K)
-    max_total_mass: Real  # (...) kg, inf where there is no budget
+    max_total_mass: Real  # (...) kg, inf where there is no budget; last, as it is no limit of a web
 
     @property
     def reach(self) -> Real:
@@ -87,26 +87,7 @@ class Limits:
         outwards = np.abs(rotated.imag) * self.half_angle_sin + rotated.real * self.half_angle_cos > 0
         return np.where(self.free | ~outwards, 0.0, np.maximum(growth, 0.0))
 
-    def chosen(self, programs: "int | np.ndarray") -> "Limits":
-        """The limits of some of the programs of one leading axis."""
-        return Limits(
-            self.radius[programs],
-            self.max_mass[programs],
-            self.free[programs],
-            self.centre[programs],
-            self.half_angle_cos[programs],
-            self.half_angle_sin[programs],
-            self.max_total_mass[programs],
-        )
-
     def only(self, webs: np.ndarray) -> "Limits":
-        """The limits of some of the webs, for one program (no leading axes)."""
-        return Limits(
-            self.radius[webs],
-            self.max_mass[webs],
-            self.free[webs],
-            self.centre[webs],
-            self.half_angle_cos[webs],
-            self.half_angle_sin[webs],
-            self.max_total_mass,
-        )
+        """The limits of some of the webs (K,) bool."""
+        of_webs = {field.name: getattr(self, field.name)[..., webs] for field in fields(self)[:-1]}
+        return Limits(**of_webs, max_total_mass=self.max_total_mass)

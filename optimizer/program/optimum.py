@@ -16,9 +16,14 @@ from optimizer.program.certificate import (
 )
 from optimizer.program.fast import ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH, fast
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
-from optimizer.program.polish import mass_multipliers, objective_multipliers, supporting_multipliers
+from optimizer.program.polish import (
+    mass_multipliers,
+    objective_multipliers,
+    resting_multipliers,
+    supporting_multipliers,
+)
 from optimizer.program.reach import bounded, far_limits
-from optimizer.program.reference.solver import Solver
+from optimizer.program.reference.solver import Solver, proven
 from optimizer.program.solution import CEILING_ROUNDING, INTERIOR_POINT, OPTIMUM_SHARE, Solution, evaluated
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.program.verdict import yardstick
@@ -62,6 +67,12 @@ class Unreachable:
     multipliers: Multipliers  # of the excess: rows and terms are those of the ceilings, each over its size
 
 
+def suits_kernel(statement: Statement) -> bool:
+    """Whether the compiled interior point takes such programs: one group, real influences. Others are cone programs."""
+    influences = (statement.norms.influence, statement.ceilings.norms.influence)
+    return bool(statement.group[-1] == 0 and not any(np.iscomplexobj(each) for each in influences))
+
+
 def within_reach(statement: Statement, solver: Solver) -> Statement:
     """One program with a finite, proven limit where there is none, or one far beyond any need (reach.py)."""
     if not np.any(far_limits(statement)):
@@ -82,7 +93,7 @@ def within_reach(statement: Statement, solver: Solver) -> Statement:
 def _above(statement: Statement, point: Complex) -> float:
     """A level that leaves room for all that counts as an optimum, if this point may be reached."""
     value = float(statement.objective(point))
-    return value + (value - float(np.min(statement.floor)))
+    return value + (value - float(np.sum(-statement.largest(-statement.floor))))
 
 
 def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Solution | Unreachable:
@@ -196,7 +207,8 @@ def _by_all(
         first = solver.least_mass(statement, first, asked.share, _MASS_GAP, quick.lightest)
     found = first
     for precision in precisions:
-        if _proven(found, asked) or not 0 < statement.limits.radius.size <= precision.most_webs:
+        few = 0 < statement.limits.radius.size <= precision.most_webs
+        if _proven(found, asked) or not few or not suits_kernel(statement):
             break
         fine = _polished(statement, asked, _interior_point(statement, asked, precision), inside)
         fine = _lightened(statement, asked, fine, precision)
@@ -302,9 +314,11 @@ class _Found(NamedTuple):
 
 
 def _interior_point(statement: Statement, asked: _Asked, precision: Precision | None = None) -> _Found:
-    if statement.limits.radius.size == 0:
-        nothing = evaluated(statement, np.zeros(0, complex))
-        return _Found(nothing, nothing, False)
+    radius = statement.limits.radius
+    if radius.size == 0 or not suits_kernel(statement):
+        resting = evaluated(statement, np.zeros(radius.shape, complex))
+        resting = proven(statement, resting, resting_multipliers(statement))
+        return _Found(resting, resting, False)
     found = fast(statement.alone(), np.array([asked.share]), np.array([asked.demand]), asked.least_mass, precision)
     method = precision.name if precision else INTERIOR_POINT
     nothing = Solution(

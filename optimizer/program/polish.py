@@ -22,11 +22,8 @@ def resting_multipliers(statement: Statement) -> Iterator[Multipliers]:
     norms = statement.norms
     size = np.abs(norms.constant)
     none = np.zeros_like(statement.ceilings.norms.constant)
-    rows = np.arange(statement.floor.shape[-1])
-    floor = (rows == np.argmax(statement.floor, axis=-1)[..., None]).astype(float)
-    yield Multipliers(np.zeros_like(norms.constant), floor, none)
-    at_rest = statement.floor + np.sum(statement.membership * size[..., None, :], axis=-1)
-    largest = (rows == np.argmax(at_rest, axis=-1)[..., None]).astype(float)
+    yield Multipliers(np.zeros_like(norms.constant), statement.where_largest(statement.floor), none)
+    largest = statement.where_largest(statement.rows(size))
     direction = norms.constant / np.where(size > 0, size, 1.0)
     yield Multipliers(direction * largest[..., statement.row], largest, none)
 
@@ -38,7 +35,7 @@ def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers)
     interior = _interior(statement, u)
     if statement.mass(u) >= statement.limits.max_total_mass * (1.0 - TOUCHED) or not np.any(interior):
         return
-    # sum_j H_jk y_j + sum_i H_ik p_i = 0 for every interior web k, at the least change
+    # sum_j conj(H_jk) y_j + sum_i conj(H_ik) p_i = 0 for every interior web k, at the least change
     influence = np.concatenate(
         [statement.norms.influence[:, interior], statement.ceilings.norms.influence[:, interior]]
     )
@@ -48,7 +45,7 @@ def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers)
     basis, size, _ = np.linalg.svd(influence / scale, full_matrices=False)
     basis = basis[:, size > 1e-12 * size[0]]
     weighted = stacked * scale[:, 0]
-    stacked = (weighted - basis @ (basis.T @ weighted)) / scale[:, 0]
+    stacked = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
     terms = usable.term.size
     allowed = usable.row[statement.row]
     over = float(np.max(np.abs(stacked[:terms]) / np.where(allowed > 0, allowed, np.inf), initial=1.0))
@@ -61,7 +58,8 @@ def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> I
     """The solver's multipliers, and the largest multiple at which no untouched web is worth more mass."""
     yield solver
     usable = solver.admissible(statement)
-    slope = usable.term @ statement.norms.influence + usable.ceiling @ statement.ceilings.norms.influence
+    norms, limited = statement.norms, statement.ceilings.norms
+    slope = usable.term @ np.conj(norms.influence) + usable.ceiling @ np.conj(limited.influence)
     worth = statement.limits.radius * statement.limits.support(-slope)
     untouched = np.abs(u) < statement.limits.reach * (1.0 - TOUCHED)
     most = float(np.max(worth[untouched], initial=0.0))
@@ -80,7 +78,7 @@ def supporting_multipliers(statement: Statement, u: Complex) -> Multipliers:
     size = np.max(np.abs(influence), axis=1, initial=0.0)
     size = np.where(size > 0, size, 1.0)
     worth = -u[inside] / np.abs(u[inside]) / statement.limits.radius[inside]
-    found = np.linalg.lstsq((influence / size[:, None]).T, worth, rcond=None)[0] / size
+    found = np.linalg.lstsq(np.conj(influence / size[:, None]).T, worth, rcond=None)[0] / size
     row = np.zeros(statement.floor.size)
     np.maximum.at(row, statement.row, np.abs(found[:terms]))
     return Multipliers(found[:terms], row, found[terms:])

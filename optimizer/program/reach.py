@@ -70,8 +70,10 @@ def _mass(statement: Statement, far: np.ndarray, level: float) -> float:
 
 def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real]:
     """What the far webs can change: rows of influence (s, far) of size 1, and the most that each may change (s,)."""
-    norms, ceilings, floor = statement.norms, statement.ceilings, statement.floor[statement.row]
+    norms, ceilings, highest = statement.norms, statement.ceilings, statement.largest(statement.floor)
     # a term is no larger than what the objective leaves it, a limited response no larger than its cap
+    others = np.sum(highest) - highest
+    floor = (statement.floor + others[statement.group])[statement.row]
     within = np.concatenate([level - floor, ceilings.cap + CEILING_TOLERANCE * ceilings.size])
     constant = np.concatenate([norms.constant, ceilings.norms.constant])
     influence = np.concatenate([norms.influence, ceilings.norms.influence])

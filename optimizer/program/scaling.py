@@ -77,17 +77,17 @@ def cancelling(statement: Statement, passes: int = 1) -> Complex:
     # one term after the other, each by the least change that leaves those before it alone
     u = np.zeros_like(influence[..., 0, :], dtype=complex)
     for _ in range(passes):
-        basis: list[Real] = []
+        basis: list[Real | Complex] = []
         for term in range(influence.shape[-2]):
             direction = influence[..., term, :]
             for other in basis * passes:
-                direction = direction - np.sum(direction * other, axis=-1, keepdims=True) * other
-            length = np.sqrt(np.sum(direction**2, axis=-1))
+                direction = direction - np.sum(direction * np.conj(other), axis=-1, keepdims=True) * other
+            length = np.sqrt(np.sum(np.abs(direction) ** 2, axis=-1))
             new = length > _DEPENDENT
             length = np.where(new, length, 1.0)
             direction = np.where(new[..., None], direction / length[..., None], 0.0)
             left = constant[..., term] + np.sum(influence[..., term, :] * u, axis=-1)
-            u = u - direction * (left / length)[..., None]
+            u = u - np.conj(direction) * (left / length)[..., None]
             basis.append(direction)
     return u
 
@@ -116,12 +116,14 @@ def scale(
         unit = float(np.sum(np.abs(norms.influence) * reach)) or 1.0
     budget = bool(np.sum(reach / limits.radius) > limits.max_total_mass)
     sectors = not bool(np.all(limits.free))
-    count, cap = len(ceilings.names), ceilings.cap / ceilings.size
+    count, cap, highest = len(ceilings.names), ceilings.cap / ceilings.size, statement.largest(statement.floor)
     data = ScaledData(
-        shape=Shape(stage, reach.size, tuple(int(r) for r in statement.row), count, sectors, budget),
+        shape=Shape(
+            stage, reach.size, tuple(statement.row.tolist()), tuple(statement.group.tolist()), count, sectors, budget
+        ),
         constant=_parts(norms.constant / unit),
         matrix=_matrix(Norms(norms.constant, norms.influence / unit), statement, reach),
-        floor=(statement.floor - np.max(statement.floor)) / unit,
+        floor=(statement.floor - highest[statement.group]) / unit,
         ceiling_constant=_parts(ceilings.norms.constant / ceilings.size),
         ceiling_matrix=_matrix(
             Norms(ceilings.norms.constant, ceilings.norms.influence / ceilings.size[:, None]), statement, reach
@@ -132,7 +134,7 @@ def scale(
         slack=np.where(limits.free, 2.0, 0.0),
         mass=reach / limits.radius / mass_unit,
         budget=reach / limits.radius / limits.max_total_mass if budget else np.zeros_like(reach),
-        target=float((target - np.max(statement.floor)) / unit),
+        target=np.array([(target - np.sum(highest)) / unit]),
     )
     return data, Scaling(unit, reach, unit if stage == "objective" else mass_unit)
 

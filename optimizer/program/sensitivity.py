@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers, knapsack_price
+from optimizer.program.certificate import Multipliers, knapsack_price, normalised
 from optimizer.program.statement import Statement
 
 
@@ -32,11 +32,10 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     u : (..., K) kg m, an optimum.
     multipliers : with rows that are not all 0.
     """
-    usable = multipliers.admissible(statement)
-    usable = usable.times(1.0 / np.sum(usable.row, axis=-1))
+    usable, _ = normalised(statement, multipliers)
     limits = statement.limits
-    slope = np.sum(statement.norms.influence * usable.term[..., :, None], axis=-2)
-    slope = slope + np.sum(statement.ceilings.norms.influence * usable.ceiling[..., :, None], axis=-2)
+    slope = np.sum(np.conj(statement.norms.influence) * usable.term[..., :, None], axis=-2)
+    slope = slope + np.sum(np.conj(statement.ceilings.norms.influence) * usable.ceiling[..., :, None], axis=-2)
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     worth = limits.radius * limits.support(-slope)

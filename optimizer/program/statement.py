@@ -1,16 +1,16 @@
 """The program in physical units: what is to be small, under which limits.
 
-minimise    P(u) = max_r ( floor_r + sum_{j in r} |c_j + H_j u| )
+minimise    P(u) = sum_g max_{r in g} ( floor_r + sum_{j in r} |c_j + H_j u| )
 subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal, NamedTuple
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Complex, Real, Reals, total
+from optimizer.arrays import SMALLEST, Complex, Real, Reals, mapped, total
 from optimizer.program.limits import Limits
 from optimizer.response import Response
 
@@ -29,7 +29,7 @@ class Norms:
     """Terms |c_j + H_j u|."""
 
     constant: Complex  # (..., J)
-    influence: Real  # (..., J, K)
+    influence: Real | Complex  # (..., J, K)
 
     def at(self, u: Complex) -> Complex:
         """Vectors c_j + H_j u, (..., J)."""
@@ -40,9 +40,6 @@ class Norms:
         """Largest |H_jk| over the webs, (..., J); 1 where no web has any."""
         largest = np.max(np.abs(self.influence), axis=-1, initial=0.0)
         return np.where(largest > 0, largest, 1.0)
-
-    def chosen(self, programs: "int | np.ndarray") -> "Norms":
-        return Norms(self.constant[programs], self.influence[programs])
 
     def only(self, webs: np.ndarray) -> "Norms":
         return Norms(self.constant, self.influence[..., webs])
@@ -78,10 +75,6 @@ class Ceilings:
         """Every ceiling higher by a share of its size, which is taken from the tolerance."""
         return replace(self, cap=self.cap + share * self.size, tolerance=self.tolerance - share)
 
-    def chosen(self, programs: "int | np.ndarray") -> "Ceilings":
-        norms = self.norms.chosen(programs)
-        return replace(self, norms=norms, cap=self.cap[programs], size=self.size[programs])
-
     def only(self, webs: np.ndarray) -> "Ceilings":
         return replace(self, norms=self.norms.only(webs))
 
@@ -106,6 +99,7 @@ class Statement:
 
     norms: Norms
     row: np.ndarray  # (J,) row of the objective to which a term belongs
+    group: np.ndarray  # (rows,) group of the objective to which a row belongs, in rising order from 0
     floor: Real  # (..., rows)
     ceilings: Ceilings
     limits: Limits
@@ -118,8 +112,29 @@ class Statement:
 
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
-        rows = self.floor + np.sum(self.membership * np.abs(self.norms.at(u))[..., None, :], axis=-1)
-        return np.max(rows, axis=-1)
+        return np.sum(self.largest(self.rows(np.abs(self.norms.at(u)))), axis=-1)
+
+    @property
+    def first_rows(self) -> np.ndarray:
+        """First row of each group (groups,)."""
+        return np.searchsorted(self.group, np.arange(self.group[-1] + 1))
+
+    def rows(self, sizes: Real) -> Real:
+        """Rows of the objective (..., rows) for sizes of its terms (..., J)."""
+        return self.floor + np.sum(self.membership * sizes[..., None, :], axis=-1)
+
+    def largest(self, rows: Real) -> Real:
+        """Largest of each group (..., groups) of what rows have (..., rows)."""
+        return np.maximum.reduceat(rows, self.first_rows, axis=-1)
+
+    def where_largest(self, rows: Real) -> Real:
+        """1 at the first of the largest rows of each group, 0 elsewhere (..., rows)."""
+        largest = np.zeros(rows.shape)
+        for group, first in enumerate(self.first_rows):
+            members = rows[..., self.group == group]
+            place = first + np.argmax(members, axis=-1)[..., None]
+            np.put_along_axis(largest, place, 1.0, axis=-1)
+        return largest
 
     def rounding(self, u: Complex) -> Real:
         """What the objective may change by where masses and angles are rounded (...)."""
@@ -137,33 +152,12 @@ class Statement:
         none = Ceilings((), Norms(constant[..., :0], norms.influence[..., :0, :]), size[..., :0], size[..., :0])
         called = self.ceilings.names
         names = Names(tuple(Term(name, "co") for name in called), called)
-        return Statement(norms, np.arange(size.shape[-1]), -self.ceilings.cap / size, none, self.limits, names)
+        rows = np.arange(size.shape[-1])
+        return Statement(norms, rows, np.zeros_like(rows), -self.ceilings.cap / size, none, self.limits, names)
 
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
-        limits, ceilings = self.limits, self.ceilings
-        return Statement(
-            Norms(self.norms.constant[None], self.norms.influence[None]),
-            self.row,
-            self.floor[None],
-            Ceilings(
-                ceilings.names,
-                Norms(ceilings.norms.constant[None], ceilings.norms.influence[None]),
-                ceilings.cap[None],
-                ceilings.size[None],
-                ceilings.tolerance,
-            ),
-            Limits(
-                limits.radius[None],
-                limits.max_mass[None],
-                limits.free[None],
-                limits.centre[None],
-                limits.half_angle_cos[None],
-                limits.half_angle_sin[None],
-                limits.max_total_mass[None],
-            ),
-            self.names,
-        )
+        return self._mapped(lambda array: array[None])
 
     def each(self) -> Iterator["Statement"]:
         """The programs one by one, of one leading axis (N,)."""
@@ -172,19 +166,23 @@ class Statement:
 
     def chosen(self, programs: "int | np.ndarray") -> "Statement":
         """Some of the programs of one leading axis."""
-        return Statement(
-            self.norms.chosen(programs),
-            self.row,
-            self.floor[programs],
-            self.ceilings.chosen(programs),
-            self.limits.chosen(programs),
-            self.names,
-        )
+        return self._mapped(lambda array: array[programs])
 
     def only(self, webs: np.ndarray) -> "Statement":
-        """The program with some of the webs, for one program (no leading axes)."""
-        norms, ceilings, limits = self.norms.only(webs), self.ceilings.only(webs), self.limits.only(webs)
-        return Statement(norms, self.row, self.floor, ceilings, limits, self.names)
+        """The program with some of the webs (K,) bool."""
+        return replace(
+            self, norms=self.norms.only(webs), ceilings=self.ceilings.only(webs), limits=self.limits.only(webs)
+        )
+
+    def _mapped(self, function: Callable[[Any], Any]) -> "Statement":
+        """A function of every array that has the leading axes."""
+        return replace(
+            self,
+            norms=mapped(self.norms, function),
+            floor=function(self.floor),
+            ceilings=mapped(self.ceilings, function),
+            limits=mapped(self.limits, function),
+        )
 
 
 def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weight_y: Reals = 1.0) -> WeightedPeak:
@@ -211,30 +209,45 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     return WeightedPeak(response.name, np.zeros_like(p), Norms(constant, influence))
 
 
-def statement(
-    peaks: Sequence[WeightedPeak], combine: str, ceilings: Sequence[tuple[Response, Reals]], limits: Limits
-) -> Statement:
+class Row(NamedTuple):
+    """A sum of weighted peaks."""
+
+    name: str
+    peaks: tuple[WeightedPeak, ...]
+
+
+def combined(peaks: Sequence[WeightedPeak], combine: str) -> tuple[tuple[Row, ...], ...]:
+    """The "sum" or the "max" of weighted peaks, at least one, as the only group of an objective."""
+    if combine == "max":
+        return (tuple(Row(peak.name, (peak,)) for peak in peaks),)
+    return ((Row(combine, tuple(peaks)),),)
+
+
+def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response, Reals]], limits: Limits) -> Statement:
     """Put a program together, or many of one shape.
 
     Parameters
     ----------
-    peaks : the weighted peaks to be small, at least one.
-    combine : "sum" or "max" of them.
+    groups : what is to be small, at least one: their sum, each the largest of its rows.
     ceilings : responses with the largest peak allowed (...), in the units of the response.
     """
-    floors = np.stack(np.broadcast_arrays(*(peak.floor for peak in peaks)), axis=-1)
-    owner = np.repeat(np.arange(len(peaks)), [peak.norms.constant.shape[-1] for peak in peaks])
+    rows = [row for group in groups for row in group]
+    peaks = [peak for row in rows for peak in row.peaks]
+    terms = [peak.norms.constant.shape[-1] for peak in peaks]
+    owner = np.repeat(np.arange(len(rows)), [len(row.peaks) for row in rows])
     norms = _join([peak.norms for peak in peaks])
-    floors = np.broadcast_to(floors, (*norms.constant.shape[:-1], floors.shape[-1]))
+    leading = norms.constant.shape[:-1]
+    floor = np.stack([np.broadcast_to(sum(peak.floor for peak in row.peaks), leading) for row in rows], axis=-1)
     return Statement(
         norms=norms,
-        row=owner if combine == "max" else np.zeros_like(owner),
-        floor=floors if combine == "max" else floors.sum(axis=-1, keepdims=True),
+        row=np.repeat(owner, terms),
+        group=np.repeat(np.arange(len(groups)), [len(group) for group in groups]),
+        floor=floor,
         ceilings=_ceilings(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
         names=Names(
-            tuple(Term(peak.name, part) for peak in peaks for part in _PARTS[: peak.norms.constant.shape[-1]]),
-            tuple(peak.name for peak in peaks) if combine == "max" else (combine,),
+            tuple(Term(peak.name, part) for peak, count in zip(peaks, terms, strict=True) for part in _PARTS[:count]),
+            tuple(row.name for row in rows),
         ),
     )
 

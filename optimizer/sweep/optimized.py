@@ -1,6 +1,6 @@
 """Optimum counterweights of many designs of one shape, as columns."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +16,7 @@ from optimizer.program.batch import Optima, all_within_reach, joined, optima
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
-from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.program.verdict import INFEASIBLE, claim, verdict
 from optimizer.response import Phasors, Response
 from optimizer.sweep.proofs import multipliers_as_text
@@ -24,9 +24,6 @@ from schemas.requests import OptimizeRequest
 from schemas.sweep.columns import MULTIPLIERS
 
 Columns = dict[str, Any]
-
-#: the limit that is not one of each web
-_WHOLE = "max_total_mass"
 
 
 def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
@@ -75,7 +72,7 @@ def _found(program: Statement, request: OptimizeRequest, solver: Solver) -> Opti
     parts = []
     for k, webs in enumerate(patterns):
         designs = np.flatnonzero(which.reshape(-1) == k)
-        part = _solved(_only(program.chosen(designs), webs), request, solver)
+        part = _solved(program.chosen(designs).only(webs), request, solver)
         everywhere = np.zeros((designs.size, webs.size), complex)
         everywhere[:, webs] = part.unbalance
         parts.append((designs, replace(part, unbalance=everywhere)))
@@ -91,18 +88,6 @@ def _solved(program: Statement, request: OptimizeRequest, solver: Solver) -> Opt
     return replace(found, method=np.where(found.unreachable, CONE_PROGRAM, found.method))
 
 
-def _only(program: Statement, webs: np.ndarray) -> Statement:
-    """The programs with some of the webs."""
-    limits = program.limits
-    chosen = {field.name: getattr(limits, field.name)[..., webs] for field in fields(Limits) if field.name != _WHOLE}
-    return replace(
-        program,
-        norms=program.norms.only(webs),
-        ceilings=program.ceilings.only(webs),
-        limits=replace(limits, **chosen),
-    )
-
-
 def _statement(request: OptimizeRequest, layout: Layout, baseline: Wrench, square: Real) -> Statement:
     """The programs of all designs, every array with the leading axis (count,)."""
     count, webs, goal = square.shape, len(request.machine.webs), request.objective
@@ -112,12 +97,14 @@ def _statement(request: OptimizeRequest, layout: Layout, baseline: Wrench, squar
     ceilings = {"force": goal.force_ceiling_N, "moment": goal.moment_ceiling_Nm}
     responses = [_spread(response, count) for response in first_order_responses(layout, baseline)]
     return statement(
-        [
-            weighted_peak(response, weights[response.name], weight_x, weight_y)
-            for response in responses
-            if weights[response.name][0] > 0
-        ],
-        goal.combine,
+        combined(
+            [
+                weighted_peak(response, weights[response.name], weight_x, weight_y)
+                for response in responses
+                if weights[response.name][0] > 0
+            ],
+            goal.combine,
+        ),
         [
             (response, np.broadcast_to(np.asarray(ceilings[response.name]), count) / square)
             for response in responses
@@ -130,7 +117,7 @@ def _statement(request: OptimizeRequest, layout: Layout, baseline: Wrench, squar
 def _spread(response: Response, count: tuple[int, ...]) -> Response:
     baseline = Phasors(np.broadcast_to(response.baseline.co, count), np.broadcast_to(response.baseline.counter, count))
     influence = np.broadcast_to(response.influence, (*count, response.influence.shape[-1]))
-    return Response(response.name, baseline, influence)
+    return replace(response, baseline=baseline, influence=influence)  # type: ignore[arg-type]  # real or complex
 
 
 def _spread_limits(limits: Limits, count: tuple[int, ...], webs: int) -> Limits:

@@ -9,7 +9,7 @@ import numpy as np
 from optimizer.accuracy.methods import Task
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.program.limits import Limits
-from optimizer.program.statement import statement, weighted_peak
+from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from schemas.accuracy import AccuracyRequest
 from service.documents.examples import load
@@ -31,9 +31,9 @@ def free_limits(reach: Sequence[float]) -> Limits:
 
 def single(co: complex, counter: complex, reach: float) -> Task:
     """One force, one web: the smallest peak is max(|co| - reach, 0) + |counter|."""
-    response = Response("force", Phasors(np.asarray(co), np.asarray(counter)), np.ones(1))
+    response = Response("force", "N", Phasors(np.asarray(co), np.asarray(counter)), np.ones(1))
     return Task(
-        statement([weighted_peak(response, 1.0)], "sum", [], free_limits([reach])),
+        statement(combined([weighted_peak(response, 1.0)], "sum"), [], free_limits([reach])),
         OverTheTurn((WeightedResponse(response, 1.0),), "sum", ()),
     )
 
@@ -48,7 +48,7 @@ def random_task(
     inside = random_point(rng, limits)
     allowed = [(one, 1.05 * float(one.to(inside).peak)) for one in responses] if ceilings else []
     return Task(
-        statement([weighted_peak(one, 1.0, *weights) for one in responses], combine, allowed, limits),
+        statement(combined([weighted_peak(one, 1.0, *weights) for one in responses], combine), allowed, limits),
         OverTheTurn(
             tuple(WeightedResponse(one, 1.0, *weights) for one in responses),
             combine,

@@ -27,7 +27,7 @@ from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
-from optimizer.program.statement import statement, weighted_peak
+from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.accuracy.problems import free_limits, random_task, single
 from tests.program.cases import COMBINATIONS
@@ -233,6 +233,6 @@ def test_finer_numbers_are_not_tried_on_many_webs() -> None:
     for method in methods():
         if method.name == "interior_point_interpreted":
             limits = free_limits([1.0] * 65)
-            force = Response("force", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(65))
-            task = Task(statement([weighted_peak(force, 1.0)], "sum", [], limits), OverTheTurn((), "sum", ()))
+            force = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(65))
+            task = Task(statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits), OverTheTurn((), "sum", ()))
             assert "too large: 65 webs" in str(method.prepare()(task, 0.0, 5.0))

@@ -10,7 +10,7 @@ import numpy as np
 from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Statement, statement, weighted_peak
+from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 
 DIRECTION_WEIGHTS = ((1.0, 1.0), (1.0, 0.3), (0.0, 1.0))
@@ -42,8 +42,8 @@ def random_responses(rng: np.random.Generator, webs: int) -> tuple[Response, Res
         return Phasors(values[0], values[1])
 
     return (
-        Response("force", pair(), np.ones(webs)),
-        Response("moment", pair(), rng.uniform(-1.0, 1.0, webs)),
+        Response("force", "N", pair(), np.ones(webs)),
+        Response("moment", "N m", pair(), rng.uniform(-1.0, 1.0, webs)),
     )
 
 
@@ -63,7 +63,9 @@ def random_statement(
     responses = random_responses(rng, webs)
     inside = random_point(rng, limits)
     allowed = [(response, 1.01 * float(response.to(inside).peak)) for response in responses] if ceilings else []
-    return statement([weighted_peak(response, 1.0, *weights) for response in responses], combine, allowed, limits)
+    return statement(
+        combined([weighted_peak(response, 1.0, *weights) for response in responses], combine), allowed, limits
+    )
 
 
 def stacked(problems: Sequence[Statement]) -> Statement:
@@ -78,7 +80,7 @@ def stacked(problems: Sequence[Statement]) -> Statement:
         assert all(part == first for part in parts)
         return first
 
-    return replace(stack(list(problems)), row=problems[0].row)
+    return replace(stack(list(problems)), row=problems[0].row, group=problems[0].group)
 
 
 def random_point(rng: np.random.Generator, limits: Limits) -> Complex:

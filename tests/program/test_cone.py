@@ -8,7 +8,7 @@ from optimizer.program.reference.modelling import CompiledPrograms, ConeProgram,
 from optimizer.program.reference.solver import Solver
 from tests.program.cases import random_statement
 
-SHAPE = Shape("objective", webs=2, rows=(0, 0), ceilings=0, sectors=False, budget=False)
+SHAPE = Shape("objective", webs=2, rows=(0, 0), groups=(0,), ceilings=0, sectors=False, budget=False)
 
 
 def test_a_program_that_is_not_dpp_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -21,9 +21,9 @@ def test_a_program_that_is_not_dpp_is_refused(monkeypatch: pytest.MonkeyPatch) -
 @pytest.mark.parametrize("sectors", [False, True])
 @pytest.mark.parametrize("budget", [False, True])
 @pytest.mark.parametrize("ceilings", [0, 2])
-@pytest.mark.parametrize("rows", [(0, 0), (0, 0, 1, 1)])
-def test_every_shape_compiles(stage, sectors, budget, ceilings, rows) -> None:
-    shape = Shape(stage, 3, rows, ceilings, sectors, budget)
+@pytest.mark.parametrize(("rows", "groups"), [((0, 0), (0,)), ((0, 0, 1, 1), (0, 0)), ((0, 0, 1), (0, 1))])
+def test_every_shape_compiles(stage, sectors, budget, ceilings, rows, groups) -> None:
+    shape = Shape(stage, 3, rows, groups, ceilings, sectors, budget)
     assert ConeProgram(shape).shape == shape
 
 

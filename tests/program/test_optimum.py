@@ -11,7 +11,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
-from optimizer.program.statement import CEILING_TOLERANCE, Statement, statement, weighted_peak
+from optimizer.program.statement import CEILING_TOLERANCE, Statement, combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, random_statement
 
@@ -93,13 +93,13 @@ def one_web(max_mass: float = 10.0, half_angle: float | None = None, budget: flo
 
 
 def force(co: complex, counter: complex = 0.0) -> Response:
-    return Response("force", Phasors(np.asarray(co + 0j), np.asarray(counter + 0j)), np.ones(1))
+    return Response("force", "N", Phasors(np.asarray(co + 0j), np.asarray(counter + 0j)), np.ones(1))
 
 
 def single(co: complex, limits: Limits, ceiling: float | None = None, counter: complex = 0.0) -> Statement:
     response = force(co, counter)
     ceilings = [] if ceiling is None else [(response, ceiling)]
-    return statement([weighted_peak(response, 1.0)], "sum", ceilings, limits)
+    return statement(combined([weighted_peak(response, 1.0)], "sum"), ceilings, limits)
 
 
 # every expected number below is analytic: one web of radius 1, force -4 + u
@@ -135,9 +135,9 @@ def test_sector_inactive_active_and_turned_away(half_angle: float) -> None:
 def test_ceiling_inactive_active_at_the_floor_and_below_it() -> None:
     # minimise |m| (a moment that wants u = 0) under a ceiling on the force |-4 + u| + 1
     def problem(ceiling: float, max_mass: float = 10.0) -> Statement:
-        moment = Response("moment", Phasors(np.asarray(2.0 + 0j), np.asarray(0j)), np.ones(1))
+        moment = Response("moment", "N m", Phasors(np.asarray(2.0 + 0j), np.asarray(0j)), np.ones(1))
         limits = one_web(max_mass)
-        return statement([weighted_peak(moment, 1.0)], "sum", [(force(-4, 1), ceiling)], limits)
+        return statement(combined([weighted_peak(moment, 1.0)], "sum"), [(force(-4, 1), ceiling)], limits)
 
     assert solve(problem(9.0)).objective == pytest.approx(0.0, abs=5e-6)  # |-4 - 2| + 1 = 7 is below it
     active = solve(problem(3.0))  # |-4 + u| <= 2, so u = 2 and the moment is 4

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from optimizer.program.statement import statement, weighted_peak
+from optimizer.program.statement import combined, statement, weighted_peak
 from tests.program.cases import COMBINATIONS, random_limits, random_point, random_responses, random_statement
 
 
@@ -29,8 +29,8 @@ def test_sum_and_max_combine_the_same_peaks() -> None:
     peaks = [weighted_peak(response, 1.0, 1.0, 0.2) for response in random_responses(rng, 4)]
     u = random_point(rng, limits)
     values = [peak.floor + np.sum(np.abs(peak.norms.at(u))) for peak in peaks]
-    assert statement(peaks, "sum", [], limits).objective(u) == pytest.approx(sum(values), rel=1e-14)
-    assert statement(peaks, "max", [], limits).objective(u) == pytest.approx(max(values), rel=1e-14)
+    assert statement(combined(peaks, "sum"), [], limits).objective(u) == pytest.approx(sum(values), rel=1e-14)
+    assert statement(combined(peaks, "max"), [], limits).objective(u) == pytest.approx(max(values), rel=1e-14)
 
 
 @pytest.mark.parametrize("case", COMBINATIONS)

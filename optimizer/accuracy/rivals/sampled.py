@@ -10,7 +10,7 @@ is the smallest sampled objective of the smallest true one. It is a relaxation: 
 bound. The matrices go to clarabel directly, without the time of a modelling layer.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -44,7 +44,7 @@ class WeightedResponse:
     weight_y: float = 1.0
 
     def only(self, webs: np.ndarray) -> "WeightedResponse":
-        chosen = Response(self.response.name, self.response.baseline, self.response.influence[webs])
+        chosen = replace(self.response, influence=self.response.influence[webs])
         return WeightedResponse(chosen, self.weight, self.weight_x, self.weight_y)
 
 

@@ -4,10 +4,11 @@ In scaled variables a web's unbalance is u_k = U_k e^{j c_k} (x_k + j s_k y_k): 
 middle of its sector and s_k the sine of its half-angle, so that x, y are of order one however thin
 the sector or small the limit (docs/mathematics.md section 4).
 
-    minimise    value                             (stage "objective")
+    minimise    sum_g level_g                     (stage "objective")
                 mass @ fraction                   (stage "mass")
     subject to  |C_j + M_j (x, y)| <= t_j
-                membership t + floor <= value     (in stage "mass": <= target)
+                membership t + floor <= level_g   for every row of group g
+                sum_g level_g <= target           (stage "mass")
                 |C_i + M_i (x, y)| <= cap_i       ceilings
                 |(x_k, s_k y_k)| <= fraction_k <= 1
                 |y_k| cos B_k <= x_k              sectors
@@ -37,6 +38,7 @@ class Shape(NamedTuple):
     stage: Stage
     webs: int
     rows: tuple[int, ...]  # row of each norm term
+    groups: tuple[int, ...]  # group of each row
     ceilings: int
     sectors: bool
     budget: bool
@@ -58,7 +60,7 @@ class ScaledData:
     slack: Real  # (K,) 0; 2 where the web is free, which no point of the disc exceeds
     mass: Real  # (K,) mass at full reach
     budget: Real  # (K,) the same relative to the budget
-    target: float
+    target: Real  # (1,)
 
 
 class ScaledSolution(NamedTuple):
@@ -86,7 +88,7 @@ class ConeProgram:
         """
         import cvxpy as cp
 
-        webs, terms, rows = shape.webs, len(shape.rows), max(shape.rows, default=0) + 1
+        webs, terms, rows = shape.webs, len(shape.rows), len(shape.groups)
         self.shape = shape
         self._parameters: dict[str, cp.Parameter] = {}
 
@@ -114,12 +116,17 @@ class ConeProgram:
 
         membership = (np.arange(rows)[:, None] == np.array(shape.rows, dtype=int)[None, :]).astype(float)
         total = membership @ norm + self._parameter("floor", rows)
-        if shape.stage == "objective":
-            value = cp.Variable()
-            objective, rows_below = value, total <= value
-        else:
+        groups = shape.groups[-1] + 1
+        level: cp.Expression = cp.Variable(groups)
+        objective = cp.sum(level)
+        if shape.stage == "mass":
             objective = self._parameter("mass", webs) @ fraction
-            rows_below = total <= self._parameter("target", ())
+            target = self._parameter("target", (1,))
+            if groups > 1:
+                limits.append(cp.sum(level) <= target)
+            else:
+                level = target
+        rows_below = total <= level[list(shape.groups)]
         self._problem = cp.Problem(cp.Minimize(objective), [*limits, terms_cone, *ceilings, rows_below])
         if not self._problem.is_dcp(dpp=True):
             raise RuntimeError("the cone program must be DPP, or it would be compiled anew for every machine")

@@ -74,7 +74,7 @@ class Solver:
         told : whether the best so far is all that has to be known.
         """
         best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
-        best = _proven(statement, best, resting_multipliers(statement))
+        best = proven(statement, best, resting_multipliers(statement))
         cancelled = evaluated(statement, statement.limits.into(cancelling(statement, passes=3)))
         if _better_objective(best, cancelled):
             best = cancelled.bounded(best.lower_bound, best.multipliers)
@@ -90,7 +90,7 @@ class Solver:
             best, solved = self._attempt(statement, best, data, scaling, attempt.tolerance, _better_objective)
             if solved is not None:
                 began = time.perf_counter()
-                best = _proven(statement, best, objective_multipliers(statement, *solved))
+                best = proven(statement, best, objective_multipliers(statement, *solved))
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
             if told(best) or (best.below_ceilings and best.gap <= enough):
                 break
@@ -191,7 +191,8 @@ def _blended(statement: Statement, u: Complex, safe: Solution, target: float) ->
     return u + step * (safe.unbalance - u)
 
 
-def _proven(statement: Statement, solution: Solution, candidates: Iterable[Multipliers]) -> Solution:
+def proven(statement: Statement, solution: Solution, candidates: Iterable[Multipliers]) -> Solution:
+    """The same point with the best bound of several multipliers."""
     for multipliers in candidates:
         solution = solution.bounded(float(objective_lower_bound(statement, multipliers)), multipliers)
     return solution
