@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -48,12 +48,12 @@ def inputs_of(needs: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(each for name in effects_of(needs) for each in EFFECTS[name].inputs))
 
 
-@dataclass
+@dataclass(frozen=True)
 class Simulated:
-    """Results of the effects that ran, by name, and the use made of every effect."""
+    """Results of the effects that the outputs name, and the use made of every effect."""
 
-    results: dict[str, Any] = field(default_factory=dict)
-    uses: dict[str, EffectUse] = field(default_factory=dict)
+    results: Mapping[str, Any]
+    uses: Mapping[str, EffectUse]
 
     @property
     def first_order(self) -> Wrench:
@@ -75,24 +75,42 @@ def simulate(
     """
     samples = np.zeros(0) if angle is None else angle
     closures = {output: closure(machine, needs) for output, needs in asked.items()}
-    simulated = Simulated()
-    for name in EFFECTS:
-        needed_by = tuple(output for output, names in closures.items() if name in names)
-        start = time.perf_counter()
-        if needed_by:
-            context = _context(machine, layout, fidelity, samples, name, simulated.results)
-            simulated.results[name] = EFFECTS[name].simulate(context)
-        elapsed = (time.perf_counter() - start) * 1e3 if needed_by else 0.0
-        simulated.uses[name] = EffectUse(simulated=bool(needed_by), needed_by=needed_by, time_ms=elapsed)
-    return simulated
+    wanted = [need for needs in asked.values() for need in needs]
+    results, times = _run(machine, layout, wanted, fidelity, samples)
+    uses = {
+        name: EffectUse(
+            simulated=name in times,
+            needed_by=tuple(output for output, names in closures.items() if name in names),
+            time_ms=times.get(name, 0.0),
+        )
+        for name in EFFECTS
+    }
+    return Simulated(results, uses)
 
 
 def run(machine: Machine, layout: Layout, needs: Sequence[str], fidelity: Fidelity, angle: Real) -> dict[str, Any]:
-    """Results of these effects and of all that they need, by name, at shaft angles (..., T) rad."""
+    """Results of these effects, by name, at shaft angles (..., T) rad."""
+    return _run(machine, layout, needs, fidelity, angle)[0]
+
+
+def _run(
+    machine: Machine, layout: Layout, needs: Sequence[str], fidelity: Fidelity, angle: Real
+) -> tuple[dict[str, Any], dict[str, float]]:
+    """Results of these effects, and the milliseconds of each that ran; what only others need is let go after its use.
+
+    A result over the turn of many designs is large, and memory that is used again is quicker than new memory.
+    """
+    names = closure(machine, needs)
+    last = {need: name for name in names for need in (*EFFECTS[name].needs, name)}
     found: dict[str, Any] = {}
-    for name in closure(machine, needs):
+    times: dict[str, float] = {}
+    for name in names:
+        start = time.perf_counter()
         found[name] = EFFECTS[name].simulate(_context(machine, layout, fidelity, angle, name, found))
-    return found
+        times[name] = (time.perf_counter() - start) * 1e3
+        for done in [each for each in found if last[each] == name and each not in needs]:
+            del found[done]
+    return found, times
 
 
 def _context(

@@ -6,6 +6,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output, largest
+from optimizer.mechanics.angles import turned
 from optimizer.mechanics.bearings import bending_moment, continuous_beam, simple_spans
 from optimizer.mechanics.layout import stacked
 from optimizer.scene import Prepared
@@ -32,7 +33,7 @@ def _carried(scene: Prepared, unbalance: Complex | None) -> _Carried:
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     planes, loads = scene.results["shaft_loads"]
     if unbalance is not None:
-        turn = np.exp(1j * scene.turned_rad)
+        turn = turned(layout.sense, np.deg2rad(scene.angle_deg))
         iron = (unbalance * layout.omega[..., None] ** 2)[..., None] * turn[..., None, :]
         planes, loads = np.concatenate([planes, layout.webs.position], axis=-1), np.concatenate([loads, iron], axis=-2)
     model = simple_spans if scene.request.fidelity.shaft == "simple_spans" else continuous_beam

@@ -277,18 +277,24 @@ OVER_THE_TURN = (
     Output(
         "rod_loads",
         "forces on rod, guide and crank pin; load cases",
-        ("rod_forces",),
+        ("kinematics", "piston_force", "rod_forces"),
         rod_loads,
         Columns(_rod_columns, sampled=True),
     ),
     Output(
         "torque",
         "torque over the turn, its mean, powers, fluctuation energy",
-        ("torque_integrals", "torque_errors"),
+        ("torque", "torque_integrals", "torque_errors"),
         torque,
-        Columns(_torque_columns, sampled=True, needs=("torque_integrals",)),
+        Columns(_torque_columns, sampled=True, needs=("torque", "torque_integrals")),
     ),
-    Output("flywheel", "irregularity of the speed and inertia", ("flywheel",), flywheel, Columns(_flywheel_columns)),
+    Output(
+        "flywheel",
+        "irregularity of the speed and inertia",
+        ("torque_integrals", "flywheel"),
+        flywheel,
+        Columns(_flywheel_columns, needs=("flywheel",)),
+    ),
     Output(
         "overturning",
         "overturning couple on the frame",

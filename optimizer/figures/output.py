@@ -16,7 +16,7 @@ class Columns:
 
     values : of a scene of designs and their counterweights (n, webs) kg m, nan where there are none; (n,) by column.
     sampled : whether they are read off the samples of the turn.
-    needs : effects behind them, where the figure needs others.
+    needs : effects whose results they read, where the figure reads others.
     """
 
     values: Callable[[Prepared, Complex], Mapping[str, Real]]
@@ -29,7 +29,7 @@ class Output:
     """An output.
 
     name, meaning : a word and a line.
-    needs : effects whose results it shows.
+    needs : effects whose results it reads; others are let go before.
     figure : its field of the answer, of a scene and the counterweights (webs,) kg m; None where there are none to show.
     columns : of a sweep; None where a sweep cannot hold it.
     """

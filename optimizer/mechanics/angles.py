@@ -28,6 +28,22 @@ def direction(angle_deg: Real) -> Complex:
     return (cosine + 1j * sine) * np.asarray([1, 1j, -1, -1j])[quadrant.astype(int) % 4]
 
 
+def turned(sense: Real, angle_rad: Real) -> Complex:
+    """Unit vectors e^{j s angle} of shafts that have turned through an angle; designs share what they have in common.
+
+    Parameters
+    ----------
+    sense : (...) +1 counter-clockwise, -1 clockwise.
+    angle_rad : (T,) rad, or (..., T) others for each shaft.
+
+    Returns
+    -------
+    (..., T) complex, dimensionless.
+    """
+    vector = np.exp(1j * angle_rad)
+    return np.where(sense[..., None] > 0.0, vector, np.conj(vector))
+
+
 def _cosine(angle_deg: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cosine on [0, 90] degrees; cos 60 = 1/2 and cos 90 = 0 exactly."""
     small = np.cos(np.deg2rad(angle_deg))

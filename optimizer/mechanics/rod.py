@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.mechanics.angles import turned
 from optimizer.mechanics.kinematics import Motion
 from optimizer.mechanics.layout import Layout
 
@@ -81,6 +82,6 @@ def shaft_loads(piston_force: Real, motion: Motion, layout: Layout, shaft_angle:
     tangent = motion.rod_angle_sine / motion.rod_angle_cosine
     pulled = piston_force * rows.axis[..., None] * (1.0 - 1j * sense * tangent)
     outward = masses.mass * masses.radius * masses.direction * layout.omega[..., None] ** 2
-    turned = outward[..., None] * np.exp(1j * sense * shaft_angle[..., None, :])
+    whirling = outward[..., None] * turned(layout.sense, shaft_angle)[..., None, :]
     planes = np.concatenate([rows.position, masses.position], axis=-1)
-    return planes, np.concatenate([pulled, turned], axis=-2)
+    return planes, np.concatenate([pulled, whirling], axis=-2)

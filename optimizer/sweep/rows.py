@@ -21,7 +21,7 @@ from schemas.sweep.target import Path
 
 Designs = NDArray[np.int64]
 #: rows times angles that are worked on at once, which bounds the memory
-_AT_ONCE = 400_000
+_AT_ONCE = 200_000
 
 
 class Rows:

@@ -124,3 +124,11 @@ def test_every_effect_runs_once_at_the_samples(monkeypatch: pytest.MonkeyPatch) 
     # the integrals over the turn look at other angles, and only at what they need
     elsewhere = {name for name, size in calls if size != 7}
     assert elsewhere == {"kinematics", "gas", "friction", "piston_force", "rod_forces", "torque"}
+
+
+def test_a_result_is_kept_only_for_the_outputs_that_name_it() -> None:
+    machine = ReciprocatingMachine.model_validate(complete())
+    asked = {name: OUTPUTS[name].needs for name in ("rod_loads", "flywheel")}
+    found = simulate(machine, layout(machine), asked, Fidelity(), np.linspace(0.0, 6.0, 7))
+    assert set(found.results) == {need for needs in asked.values() for need in needs}
+    assert {name for name, use in found.uses.items() if use.simulated} > set(found.results)
