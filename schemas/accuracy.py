@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base import Answer, Model
 from schemas.quantities import Count, Milliseconds
 from schemas.requests import OptimizeRequest
 
@@ -133,7 +133,7 @@ class Environment(Model):
     cpus: int = Field(description="processors of the machine; every solve runs on one", examples=[2])
 
 
-class AccuracyAnswer(Model):
+class AccuracyAnswer(Answer):
     """The ladders."""
 
     status: Literal["measured", "nothing_to_choose", "infeasible"] = Field(

@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base import Answer, Model
 from schemas.dynamics import (
     Flywheel,
     Gas,
@@ -27,7 +27,7 @@ from schemas.quantities import (
     NewtonMetres,
     Newtons,
 )
-from schemas.scroll import PinLoadsAnswer
+from schemas.scroll import PinLoads
 
 WebLimit = Literal["max_mass", "sector"]
 MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
@@ -236,10 +236,10 @@ class Outputs(Model):
     flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
     overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
     main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
-    pin_loads: PinLoadsAnswer | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
+    pin_loads: PinLoads | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
 
 
-class OptimizeAnswer(Outputs):
+class OptimizeAnswer(Outputs, Answer):
     """Certified counterweights."""
 
     status: Literal["optimal", "inaccurate", "infeasible"] = Field(
@@ -282,7 +282,7 @@ class OptimizeAnswer(Outputs):
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 4.1}])
 
 
-class AnalyzeAnswer(Outputs):
+class AnalyzeAnswer(Outputs, Answer):
     """The machine as it stands, or with given counterweights."""
 
     counterweights: tuple[Counterweight, ...] = Field(

@@ -3,9 +3,11 @@
 from collections.abc import Iterable
 from typing import NamedTuple
 
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from schemas.version import package_version
 
 
 class Model(BaseModel):
@@ -17,6 +19,14 @@ class Model(BaseModel):
         allow_inf_nan=False,
         hide_input_in_errors=True,
         use_attribute_docstrings=False,
+    )
+
+
+class Answer(Model):
+    """An answer of a computation, which says who computed it."""
+
+    version: str = Field(
+        default_factory=package_version, description="version of the package that answered", examples=["0.1.0"]
     )
 
 

@@ -13,7 +13,7 @@ from schemas.answers import (
     MachineLimit,
     Timing,
 )
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import Answer, FieldProblem, Model, NotEmpty, raise_problems
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
@@ -217,7 +217,7 @@ class ParetoFront(Model):
     )
 
 
-class ParetoAnswer(Model):
+class ParetoAnswer(Answer):
     """The certified trade-off of force, moment and mass."""
 
     status: Status = Field(description="the worst of the fronts", examples=["optimal"])

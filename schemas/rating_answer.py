@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base import Answer, Model
 from schemas.cylinder import Cylinder
 from schemas.quantities import Newtons
 from schemas.units import Unit
@@ -144,7 +144,7 @@ class RatingWarning(Model):
     stage: int | None = Field(description="number of the stage from 1; null is the whole machine", examples=[1])
 
 
-class RatingAnswer(Model):
+class RatingAnswer(Answer):
     """The thermal design of a compressor."""
 
     total_pressure_ratio: float = Field(description="discharge over suction pressure of the machine", examples=[7.0])

@@ -10,7 +10,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import Answer, FieldProblem, Model, NotEmpty, raise_problems
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Degrees, Joules, NewtonMetres, Newtons
 from schemas.requests import Angles
@@ -199,7 +199,7 @@ class PinWarning(Model):
     message: str = Field(description="the same in a sentence", examples=["at least 3 pins are needed"])
 
 
-class PinLoadsAnswer(Model):
+class PinLoads(Model):
     """Loads of the anti-rotation pins over one turn."""
 
     angle_deg: tuple[Degrees, ...] = Field(
@@ -227,3 +227,7 @@ class PinLoadsAnswer(Model):
         description="which pins bear; null without clearances and errors", examples=[None]
     )
     warnings: tuple[PinWarning, ...] = Field(description="things to know", examples=[[]])
+
+
+class PinLoadsAnswer(PinLoads, Answer):
+    """The same, asked for by itself."""

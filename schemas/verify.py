@@ -4,7 +4,7 @@ from typing import Any, Literal
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base import Answer, Model
 
 Verdict = Literal["held", "broken", "not covered"]
 
@@ -36,7 +36,7 @@ class Claim(Model):
     where: str = Field(description="JSON pointer (RFC 6901) of the field", examples=["/answer/certificate/lower_bound"])
 
 
-class VerifyAnswer(Model):
+class VerifyAnswer(Answer):
     """The claims of an answer."""
 
     claims: tuple[Claim, ...] = Field(description="the claims", examples=[[{"claim": "lower_bound"}]])

@@ -3,7 +3,6 @@
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from contextlib import asynccontextmanager
 from functools import partial
-from importlib.metadata import version
 from typing import Any
 
 from anyio import create_task_group, to_thread
@@ -12,6 +11,7 @@ from starlette.middleware import Middleware
 from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
+from schemas.version import package_version
 from service.documents import reference_page
 from service.guard.access import Access
 from service.guard.hosts import Hosts
@@ -129,7 +129,7 @@ def create_app(
             Middleware(Access, keys(chosen), Hosts(chosen.allowed_hosts), RateLimits(chosen), Shares(chosen)),
         ),
         title="counterweight",
-        version=version("counterweight"),
+        version=package_version(),
         description=_DESCRIPTION,
         lifespan=lifespan,
         docs_url=None,

@@ -12,11 +12,11 @@ from optimizer.pins.loads import LoadShapes, PeriodicTable, gas_torques, peaks
 from optimizer.scene import Prepared
 from schemas.machine import CrankPins, ScrollMachine
 from schemas.over_turn import ForceTable, TorqueTable
-from schemas.scroll import PinLoadsAnswer
+from schemas.scroll import PinLoads
 
 
-def _figure(scene: Prepared, _fitted: Complex | None) -> PinLoadsAnswer:
-    found: PinLoadsAnswer = scene.results["pin_loads"]
+def _figure(scene: Prepared, _fitted: Complex | None) -> PinLoads:
+    found: PinLoads = scene.results["pin_loads"]
     return found
 
 

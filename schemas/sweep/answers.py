@@ -4,7 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base import Answer, Model
 
 JobState = Literal["queued", "running", "done", "failed", "cancelled"]
 
@@ -17,7 +17,7 @@ class SweepLinks(Model):
     events: str = Field(description="progress as server-sent events", examples=["/v1/sweeps/5f0c/events"])
 
 
-class SweepState(Model):
+class SweepState(Answer):
     """How far a sweep is."""
 
     id: str = Field(description="name of the sweep", examples=["5f0c"])
@@ -58,7 +58,7 @@ class SweepColumn(Model):
     source: str | None = Field(description="field of the base it belongs to, of axes and webs", examples=[None])
 
 
-class SweepEstimate(Model):
+class SweepEstimate(Answer):
     """What a sweep would be, without running it."""
 
     total: int = Field(description="number of designs", examples=[1000000])

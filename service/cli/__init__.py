@@ -21,9 +21,9 @@ from service.computations import COMPUTATIONS
 
 def _version(asked: bool) -> None:
     if asked:
-        from importlib.metadata import version
+        from schemas.version import package_version
 
-        put(version("counterweight"))
+        put(package_version())
         raise typer.Exit
 
 

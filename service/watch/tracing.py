@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from importlib.metadata import version
 from typing import Protocol
 
+from schemas.version import package_version
 from service.settings import Settings
 
 
@@ -49,7 +49,7 @@ class _OpenTelemetry(Tracing):
             from opentelemetry.sdk.trace.export import BatchSpanProcessor
         except ImportError:
             raise NoTelemetry from None
-        resource = Resource.create({"service.name": "counterweight", "service.version": version("counterweight")})
+        resource = Resource.create({"service.name": "counterweight", "service.version": package_version()})
         # a provider of its own: the global one can be set only once
         self._provider = TracerProvider(resource=resource, shutdown_on_exit=False)
         where = endpoint if endpoint.endswith("/v1/traces") else f"{endpoint.rstrip('/')}/v1/traces"

@@ -1,6 +1,7 @@
 """One entry in the table is all that it takes: routes, scopes, OpenAPI, metrics, documents and commands read it."""
 
 import json
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from pkgutil import resolve_name
@@ -9,6 +10,9 @@ import pytest
 from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
+from schemas.base import Answer
+from schemas.sweep import SweepEstimate, SweepState
+from schemas.version import package_version
 from service.app import create_app
 from service.cli import command_line
 from service.computations import COMPUTATIONS, Computation
@@ -80,3 +84,17 @@ def test_everything_an_entry_names_is_there(one: Computation) -> None:
     assert set(one.options) <= set(one.asks.model_fields)
     for reference in (one.chapters, one.picture, *(form.write for form in one.forms)):
         assert reference is None or callable(resolve_name(reference))
+
+
+def test_every_answer_and_the_state_of_a_sweep_say_which_version_answered() -> None:
+    """Independent: the version of the project's file."""
+    project = tomllib.loads((Path(__file__).parents[2] / "pyproject.toml").read_text())["project"]
+    assert package_version() == project["version"]
+    computed = [one.answers for one in COMPUTATIONS.values() if one.answer is not None and one is not TOY]
+    for model in (*computed, SweepState, SweepEstimate):
+        assert issubclass(model, Answer), model
+        assert model.model_construct().version == package_version()
+        # said once: an answer within an answer does not repeat it
+        written = model.model_json_schema(mode="serialization")
+        others = [name for name, one in written.get("$defs", {}).items() if "version" in one.get("properties", {})]
+        assert others == [], model

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
+from schemas.scroll import PinLoads, PinLoadsAnswer, PinLoadsRequest
 from service.report.blocks import Block, Chapter, Equation, Paragraph, digits, facts, table
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line
@@ -14,12 +14,12 @@ def loaded(_: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
     yield pin_loads(answer)
 
 
-def pin_loads(found: PinLoadsAnswer) -> Chapter:
+def pin_loads(found: PinLoads) -> Chapter:
     """What the pins carry over a turn, and whether they hold the scroll."""
     return Chapter("Pin loads", tuple(_blocks(found)))
 
 
-def _blocks(found: PinLoadsAnswer) -> Iterator[Block]:
+def _blocks(found: PinLoads) -> Iterator[Block]:
     for warning in found.warnings:
         yield Paragraph(warning.message[:1].upper() + warning.message[1:] + ".", "warning")
     held = found.equilibrium
