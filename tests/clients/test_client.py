@@ -20,7 +20,7 @@ def request_2d12(service: Any) -> dict[str, Any]:
 
 
 def test_the_examples_are_listed(service: Any) -> None:
-    assert "2d12" in [one["name"] for one in service.documents.examples()["examples"]]
+    assert "2d12" in [one["name"] for one in service.examples()["examples"]]
 
 
 def test_what_was_optimised_is_what_an_analysis_finds(service: Any, request_2d12: dict[str, Any]) -> None:

@@ -118,6 +118,6 @@ def test_the_key_goes_to_the_service_and_not_to_where_it_redirects(counterweight
 def test_paths_and_links_behind_a_proxy_with_a_prefix(counterweight: ModuleType) -> None:
     with serving(iter([_GOOD, _GOOD])) as (url, seen):
         service = counterweight.Service(f"{url}/balance/")
-        service.documents.examples()
+        service.examples()
         service.state({"links": {"self": "/balance/v1/sweeps/5f0c"}})
     assert [path for path, _ in seen] == ["/balance/v1/examples", "/balance/v1/sweeps/5f0c"]
