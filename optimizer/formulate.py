@@ -23,9 +23,7 @@ _NO_LIMIT = 1e30
 def limits(machine: Machine) -> Limits:
     """Limits of the counterweights on the webs of a machine (..., K)."""
     webs, budget = machine.webs, machine.max_total_mass_kg
-    free = np.array([web.sector is None for web in webs], dtype=bool)
-    centre = stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs])
-    half_angle = stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs])
+    free, centre, half_angle = sectors(machine)
     edge = direction(half_angle)
     return Limits(
         radius=stacked([web.counterweight_radius_m for web in webs]),
@@ -35,6 +33,16 @@ def limits(machine: Machine) -> Limits:
         half_angle_cos=edge.real,
         half_angle_sin=edge.imag,
         max_total_mass=np.asarray(np.inf if budget is None else budget, dtype=float),
+    )
+
+
+def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
+    """Which webs have no sector (K,); centres and half-angles [deg] (..., K), 0 and 90 where there is none."""
+    webs = machine.webs
+    return (
+        np.array([web.sector is None for web in webs], dtype=bool),
+        stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs]),
+        stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs]),
     )
 
 

@@ -79,17 +79,16 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
     )
 
 
-def _fitted(request: OptimizeRequest, scene: Prepared, u: Complex) -> tuple[tuple[Counterweight, ...], Complex]:
+def _fitted(machine: Machine, statement: Statement, u: Complex) -> tuple[tuple[Counterweight, ...], Complex]:
     """Counterweights for an unbalance, and the unbalance that their masses and angles really make."""
-    radius = scene.layout.webs.radius
-    mass, angle = masses_and_angles(u, radius)
-    return counterweights(request.machine, mass, angle), unbalance(mass, angle, radius)
+    mass, angle = masses_and_angles(machine, u, statement.limits)
+    return counterweights(machine, mass, angle), unbalance(mass, angle, statement.limits.radius)
 
 
 def _certified(
     request: OptimizeRequest, scene: Prepared, statement: Statement, solution: Solution
 ) -> dict[str, object]:
-    fitted, u = _fitted(request, scene, solution.unbalance)
+    fitted, u = _fitted(request.machine, statement, solution.unbalance)
     square, goal = scene.omega_squared, request.objective
     mass = float(sum(counterweight.mass_kg for counterweight in fitted))
     claimed = claim(
@@ -205,7 +204,7 @@ def _infeasible(
         smallest[response.name], bound[response.name] = alone.objective * square, alone.lower_bound * square
     impossible = [name for name in allowed if bound[name] > allowed[name]]
     field = {"force": "force_ceiling_N", "moment": "moment_ceiling_Nm"}
-    fitted, u = _fitted(request, scene, proof.closest)
+    fitted, u = _fitted(request.machine, statement, proof.closest)
     return {
         "status": "infeasible",
         "status_reason": INFEASIBLE,

@@ -3,8 +3,10 @@
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.formulate import sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.layout import stacked
+from optimizer.program.limits import Limits
 from schemas.answers import Counterweight, WebLimit
 from schemas.machine import Machine, Web
 from schemas.requests import AnalyzeRequest
@@ -14,9 +16,27 @@ from schemas.requests import AnalyzeRequest
 _TOUCHED = 1e-4
 
 
-def masses_and_angles(unbalance: Complex, radius: Real) -> tuple[Real, Real]:
-    """Masses [kg] and angles [deg] of unbalances [kg m] (..., K)."""
-    return np.abs(unbalance) / radius, angle_deg(unbalance)
+def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
+    """Masses [kg] and angles [deg] of unbalances [kg m] (..., K), within the limits of the webs to the last digit.
+
+    What a sum or the rounding of an angle has left outside is brought to the nearest place inside.
+
+    Parameters
+    ----------
+    limits : (..., K) of the machine.
+    """
+    mass, angle = np.minimum(np.abs(unbalance) / limits.radius, limits.max_mass), angle_deg(unbalance)
+    free, centre, half_angle = sectors(machine)
+    if np.all(free):
+        return mass, angle
+    # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
+    centre = np.mod(centre, 360.0)
+    off = np.mod(angle - centre + 180.0, 360.0) - 180.0
+    over = np.abs(off) - half_angle
+    outside = ~free & (over > 0) & (mass > 0)
+    mass = np.where(outside, mass * np.maximum(np.cos(np.deg2rad(over)), 0.0), mass)
+    edge = np.mod(centre + np.copysign(half_angle, off), 360.0)
+    return mass, np.where(mass > 0, np.where(outside, edge, angle), 0.0)
 
 
 def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:

@@ -141,9 +141,9 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded
 def _point(
     request: ParetoRequest, machine: Machine, scene: Prepared, traded: Trade, found: Front, point: Point
 ) -> ParetoPoint:
-    solution, square, radius = point.solution, scene.omega_squared, scene.layout.webs.radius
-    masses, angles = masses_and_angles(solution.unbalance, radius)
-    fitted, u = counterweights(machine, masses, angles), unbalance(masses, angles, radius)
+    solution, square, limits = point.solution, scene.omega_squared, traded.both.limits
+    masses, angles = masses_and_angles(machine, solution.unbalance, limits)
+    fitted, u = counterweights(machine, masses, angles), unbalance(masses, angles, limits.radius)
     peaks = traded.peaks(u)
     mass = float(sum(counterweight.mass_kg for counterweight in fitted))
     judged = verdict(

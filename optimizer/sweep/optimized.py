@@ -48,7 +48,7 @@ def optimized(
     square = np.broadcast_to(layout.omega**2, (count,))
     program = all_within_reach(_statement(request, layout, baseline, square), solver)
     found = _found(program, request, solver)
-    mass, angle = masses_and_angles(found.unbalance, program.limits.radius)
+    mass, angle = masses_and_angles(request.machine, found.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
     columns = _certified(request, program, found, u, mass, square)
     columns["total_mass_kg"] = np.sum(mass, axis=-1)

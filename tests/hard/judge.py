@@ -154,7 +154,7 @@ def _share(value: Number, rest: Number, noise: Number) -> float:
 def _judge_limits(verdict: Verdict, answer: OptimizeAnswer, data: Machine, asked: Goal, u: list[Any]) -> None:
     webs = verdict.case.body["machine"].get("webs", ())
     for weight, web in zip(answer.counterweights, webs, strict=True):
-        most = web["max_mass_kg"]
+        most = math.inf if web["max_mass_kg"] is None else web["max_mass_kg"]
         verdict.demand(0 <= weight.mass_kg <= most * (1 + ROUNDING), f"web {web['name']}: {weight.mass_kg!r} kg")
         sector = web.get("sector")
         if sector is not None and weight.mass_kg > 0:

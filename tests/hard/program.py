@@ -146,7 +146,7 @@ def _web(web: Body, reference: Number) -> Web:
     common = (
         mp.mpf(web["position_m"]) - reference,
         mp.mpf(web["counterweight_radius_m"]),
-        mp.mpf(web["max_mass_kg"]),
+        mp.inf if web["max_mass_kg"] is None else mp.mpf(web["max_mass_kg"]),
     )
     if sector is None:
         return Web(*common)
