@@ -5,17 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.base import Answer, Model
-from schemas.dynamics import (
-    Flywheel,
-    Gas,
-    Kinematics,
-    MainBearings,
-    Overturning,
-    PistonForce,
-    RodLoads,
-    Torque,
-)
-from schemas.outputs import Hodographs, OrdersComparison, Stages
+from schemas.outputs import OutputFields
 from schemas.proof import InfeasibilityMultipliers, Multipliers
 from schemas.quantities import (
     Degrees,
@@ -27,7 +17,6 @@ from schemas.quantities import (
     NewtonMetres,
     Newtons,
 )
-from schemas.scroll import PinLoads
 
 WebLimit = Literal["max_mass", "sector"]
 MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
@@ -222,24 +211,7 @@ class Infeasibility(Model):
     )
 
 
-class Outputs(Model):
-    """What a scene may ask for beyond the residual; null where it was not asked for."""
-
-    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
-    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
-    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
-    kinematics: Kinematics | None = Field(None, description="motion of every row, if asked for", examples=[None])
-    gas: Gas | None = Field(None, description="gas forces, if asked for", examples=[None])
-    piston_force: PistonForce | None = Field(None, description="piston forces, if asked for", examples=[None])
-    rod_loads: RodLoads | None = Field(None, description="forces in the mechanism, if asked for", examples=[None])
-    torque: Torque | None = Field(None, description="torque, if asked for", examples=[None])
-    flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
-    overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
-    main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
-    pin_loads: PinLoads | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
-
-
-class OptimizeAnswer(Outputs, Answer):
+class OptimizeAnswer(OutputFields, Answer):
     """Certified counterweights."""
 
     status: Literal["optimal", "inaccurate", "infeasible"] = Field(
@@ -282,7 +254,7 @@ class OptimizeAnswer(Outputs, Answer):
     timing: Timing = Field(description="where the time went", examples=[{"total_ms": 4.1}])
 
 
-class AnalyzeAnswer(Outputs, Answer):
+class AnalyzeAnswer(OutputFields, Answer):
     """The machine as it stands, or with given counterweights."""
 
     counterweights: tuple[Counterweight, ...] = Field(

@@ -1,11 +1,22 @@
-"""Outputs beyond the first-order residual: hodograph, orders, stages."""
+"""All outputs: their fields in an answer, the names by which they are asked for, their columns in a sweep."""
 
-from typing import Literal
+from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base import Model, NotEmpty
+from schemas.dynamics import (
+    Flywheel,
+    Gas,
+    Kinematics,
+    MainBearings,
+    Overturning,
+    PistonForce,
+    RodLoads,
+    Torque,
+)
 from schemas.quantities import Degrees, NewtonMetres, Newtons
+from schemas.scroll import PinLoads
 
 
 class Hodograph(Model):
@@ -126,3 +137,70 @@ class Stage(Model):
 
 
 Stages = tuple[Stage, ...]
+
+
+class OutputFields(Model):
+    """What a scene may ask for beyond the residual; null where it was not asked for."""
+
+    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
+    orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
+    stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
+    kinematics: Kinematics | None = Field(None, description="motion of every row, if asked for", examples=[None])
+    gas: Gas | None = Field(None, description="gas forces, if asked for", examples=[None])
+    piston_force: PistonForce | None = Field(None, description="piston forces, if asked for", examples=[None])
+    rod_loads: RodLoads | None = Field(None, description="forces in the mechanism, if asked for", examples=[None])
+    torque: Torque | None = Field(None, description="torque, if asked for", examples=[None])
+    flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
+    overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
+    main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
+    pin_loads: PinLoads | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
+
+
+if TYPE_CHECKING:
+    OutputName = str
+else:
+    #: the residual, which every optimisation answers, and the fields above
+    OutputName = Literal["residual", *OutputFields.model_fields]
+OutputNames = Annotated[tuple[OutputName, ...], Field(max_length=32), NotEmpty()]
+
+Kind = Literal["integer", "number", "text"]
+
+
+class Column(NamedTuple):
+    """One column of the result."""
+
+    name: str
+    kind: Kind
+    unit: str | None
+    meaning: str
+    source: str | None = None  # JSON pointer in the base, of axes and webs
+
+
+#: what each comes to in a sweep; a sweep refuses an output that is not here
+OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
+    "residual": (),
+    "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
+    "piston_force": (
+        Column("peak_piston_force_N", "number", "N", "largest piston force among the samples, magnitude"),
+    ),
+    "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),
+    "torque": (
+        Column("mean_torque_Nm", "number", "N m", "mean torque over the turn, whatever the samples"),
+        Column("peak_torque_Nm", "number", "N m", "largest torque among the samples, magnitude"),
+        Column("fluctuation_energy_J", "number", "J", "energy that a flywheel takes up and gives back"),
+        Column("shaft_power_W", "number", "W", "mean torque times angular speed"),
+        Column("indicated_power_W", "number", "W", "power put into the gas"),
+        Column("friction_power_W", "number", "W", "power lost to friction"),
+    ),
+    "flywheel": (
+        Column("irregularity", "number", None, "range of the speed over its mean"),
+        Column("inertia_J_kg_m2", "number", "kg m2", "polar moment of inertia of all that turns"),
+    ),
+    "overturning": (
+        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple among the samples, magnitude"),
+    ),
+    "main_bearings": (
+        Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),
+    ),
+    "pin_loads": (Column("peak_pin_load_N", "number", "N", "largest load of all anti-rotation pins"),),
+}

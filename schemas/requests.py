@@ -5,27 +5,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field, Strict, model_validator
 
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.angles import Angles
+from schemas.base import FieldProblem, Model, raise_problems
 from schemas.machine import MAX_WEBS, Machine
+from schemas.outputs import OutputNames
 from schemas.quantities import Angle, Flag, Force, Mass, Moment, Name, Weight
 from schemas.units import Unit
-
-Output = Literal[
-    "residual",
-    "hodograph",
-    "orders",
-    "stages",
-    "kinematics",
-    "gas",
-    "piston_force",
-    "rod_loads",
-    "torque",
-    "flywheel",
-    "overturning",
-    "main_bearings",
-    "pin_loads",
-]
-Outputs = Annotated[tuple[Output, ...], Field(max_length=32), NotEmpty()]
 
 
 class DirectionWeights(Model):
@@ -87,26 +72,6 @@ class Accuracy(Model):
     )
 
 
-class Angles(Model):
-    """Where sampled outputs are sampled."""
-
-    step_deg: Annotated[float, Field(ge=0.01, le=120), Unit("deg")] = Field(
-        1.0, description="step of the shaft angle; a turn must hold a whole number of them", examples=[1.0]
-    )
-
-    @model_validator(mode="after")
-    def _check(self) -> "Angles":
-        steps = 360 / self.step_deg
-        if abs(steps - round(steps)) > 1e-9 * steps:
-            raise_problems([FieldProblem(("step_deg",), "360 degrees must be a whole number of steps")])
-        return self
-
-    @property
-    def count(self) -> int:
-        """Number of samples in one turn, the end point not counted twice."""
-        return round(360 / self.step_deg)
-
-
 class Fidelity(Model):
     """How closely effects are simulated."""
 
@@ -142,7 +107,7 @@ class Scene(Model):
             }
         ],
     )
-    outputs: Outputs = Field(("residual",), description="what the answer shall hold", examples=[["residual"]])
+    outputs: OutputNames = Field(("residual",), description="what the answer shall hold", examples=[["residual"]])
     angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
     fidelity: Fidelity = Field(Fidelity(), description="how closely to simulate", examples=[{"kinematics": "exact"}])
 

@@ -10,10 +10,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from schemas.angles import Angles
 from schemas.base import Answer, FieldProblem, Model, NotEmpty, raise_problems
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Degrees, Joules, NewtonMetres, Newtons
-from schemas.requests import Angles
 from schemas.units import Unit, between, non_negative, symmetric
 
 MAX_PINS = 1000

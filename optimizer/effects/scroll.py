@@ -7,9 +7,9 @@ from pydantic import ValidationError
 from optimizer.effects.effect import Context, Effect
 from optimizer.errors import MissingInput
 from optimizer.pins.answer import pin_loads
+from schemas.angles import Angles
 from schemas.base import FieldProblem
 from schemas.machine import CrankPins, Machine, ScrollMachine
-from schemas.requests import Angles
 from schemas.scroll import MAX_LOADS, PinLoadsAnswer, PinLoadsRequest
 
 

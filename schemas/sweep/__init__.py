@@ -1,8 +1,8 @@
 """Sweeps: the request, its axes, the columns of its result, and what is answered about it."""
 
+from schemas.outputs import Column
 from schemas.sweep.answers import JobState, SweepColumn, SweepEstimate, SweepLinks, SweepState
 from schemas.sweep.axes import MAX_DESIGNS, Axis
-from schemas.sweep.columns import Column
 from schemas.sweep.request import SweepRequest, TopFilter
 from schemas.sweep.target import Target, pointer
 

@@ -1,52 +1,10 @@
 """The columns of the result: names, units, and the field or output that each stands for."""
 
 from collections.abc import Iterator, Sequence
-from typing import Literal, NamedTuple
 
+from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.target import Target, pointer
-
-Kind = Literal["integer", "number", "text"]
-
-
-class Column(NamedTuple):
-    """One column of the result."""
-
-    name: str
-    kind: Kind
-    unit: str | None
-    meaning: str
-    source: str | None = None  # JSON pointer in the base, of axes and webs
-
-
-#: columns of the outputs that a sweep can ask for beyond the residual
-OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
-    "residual": (),
-    "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
-    "piston_force": (
-        Column("peak_piston_force_N", "number", "N", "largest piston force among the samples, magnitude"),
-    ),
-    "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),
-    "torque": (
-        Column("mean_torque_Nm", "number", "N m", "mean torque over the turn, whatever the samples"),
-        Column("peak_torque_Nm", "number", "N m", "largest torque among the samples, magnitude"),
-        Column("fluctuation_energy_J", "number", "J", "energy that a flywheel takes up and gives back"),
-        Column("shaft_power_W", "number", "W", "mean torque times angular speed"),
-        Column("indicated_power_W", "number", "W", "power put into the gas"),
-        Column("friction_power_W", "number", "W", "power lost to friction"),
-    ),
-    "flywheel": (
-        Column("irregularity", "number", None, "range of the speed over its mean"),
-        Column("inertia_J_kg_m2", "number", "kg m2", "polar moment of inertia of all that turns"),
-    ),
-    "overturning": (
-        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple among the samples, magnitude"),
-    ),
-    "main_bearings": (
-        Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),
-    ),
-    "pin_loads": (Column("peak_pin_load_N", "number", "N", "largest load of all anti-rotation pins"),),
-}
 
 _ALWAYS = (
     Column(

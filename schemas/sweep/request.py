@@ -7,10 +7,11 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 
 from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Count, Flag
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.axes import MAX_DESIGNS, Axis
-from schemas.sweep.columns import MULTIPLIERS, OUTPUT_COLUMNS, Column, result_columns
+from schemas.sweep.columns import MULTIPLIERS, result_columns
 from schemas.sweep.target import BadPointer, Path, Target, find_target
 
 MAX_AXES = 64

@@ -9,14 +9,14 @@ import typer
 from service.cli.terminal import File, answer, fail, question
 from service.computations import COMPUTATIONS
 
-Outputs = Annotated[
+OutputOptions = Annotated[
     list[str] | None,
     typer.Option("--output", help="What the document shall hold, in place of `outputs` in the file; repeatable."),
 ]
 Target = Annotated[Path, typer.Option("-o", "--to", metavar="FILE", help="Document to write: .html or .pdf.")]
 
 
-def report(file: File, to: Target, output: Outputs = None) -> None:
+def report(file: File, to: Target, output: OutputOptions = None) -> None:
     """Write a document on a machine and its counterweights, to be read, printed and filed."""
     one = COMPUTATIONS["report"]
     form = next((form for form in one.forms if form.suffix == to.suffix.lower()), None)

@@ -3,9 +3,10 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from schemas.angles import Angles
 from schemas.base import FieldProblem, Model
 from schemas.machine import ReciprocatingMachine
-from schemas.requests import Angles, Scene
+from schemas.requests import Scene
 from schemas.sweep import SweepRequest
 from service.http.validation import InvalidRequest, Path
 from service.settings import Settings

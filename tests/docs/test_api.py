@@ -14,9 +14,10 @@ from optimizer.pareto.pareto import pareto
 from optimizer.program import solution
 from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
+from schemas.outputs import OutputName
 from schemas.pareto import ParetoRequest
 from schemas.rating import RatingRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.app import create_app
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES
@@ -106,7 +107,7 @@ def test_the_effects() -> None:
 
 
 def test_the_table_of_outputs_is_complete() -> None:
-    assert first_column("POST /v1/analyze") == list(get_args(Output))
+    assert first_column("POST /v1/analyze") == list(get_args(OutputName))
 
 
 def test_the_table_of_scopes_is_complete() -> None:

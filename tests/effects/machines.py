@@ -3,11 +3,11 @@
 from typing import Any, get_args
 
 from schemas.answers import AnalyzeAnswer
-from schemas.requests import Output
+from schemas.outputs import OutputName
 from tests.analyze.driven import ask, random_driven
 
 # of a reciprocating machine
-EVERY: tuple[str, ...] = tuple(name for name in get_args(Output) if name != "pin_loads")
+EVERY: tuple[str, ...] = tuple(name for name in get_args(OutputName) if name != "pin_loads")
 SCROLL = {
     "kind": "scroll",
     "speed_rpm": 3000.0,

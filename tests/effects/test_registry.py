@@ -13,14 +13,15 @@ from optimizer.mechanics.layout import layout
 from optimizer.outputs import OUTPUTS
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.machine import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest, Fidelity, Output
+from schemas.outputs import OutputName
+from schemas.requests import AnalyzeRequest, Fidelity
 from tests.effects.machines import EVERY, complete
 
 _ASKED = {name: OUTPUTS[name].needs for name in EVERY}
 
 
 def test_every_output_of_the_contract_is_registered_and_answered() -> None:
-    assert set(OUTPUTS) == set(get_args(Output))
+    assert set(OUTPUTS) == set(get_args(OutputName))
     assert len(EVERY) == len(set(EVERY))
     for answer in (AnalyzeAnswer, OptimizeAnswer):
         assert set(OUTPUTS) <= set(answer.model_fields)

@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.requests import Output
+from schemas.outputs import OutputName
 from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Table
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
@@ -178,4 +178,4 @@ def test_formulas(text: str, runs: list[tuple[str, str]]) -> None:
 
 def test_every_output_has_its_chapter() -> None:
     # the first order and the stages stand at places of their own
-    assert set(CHAPTERS) | {"residual", "stages"} == set(get_args(Output))
+    assert set(CHAPTERS) | {"residual", "stages"} == set(get_args(OutputName))

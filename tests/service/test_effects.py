@@ -6,7 +6,7 @@ from starlette.testclient import TestClient
 
 from optimizer.effects.registry import EFFECTS
 from schemas.effects import EffectCatalogue, OutputEntry
-from schemas.requests import Output
+from schemas.outputs import OutputName
 
 
 def catalogue(client: TestClient) -> EffectCatalogue:
@@ -17,7 +17,7 @@ def catalogue(client: TestClient) -> EffectCatalogue:
 
 def test_all_outputs_and_effects_are_there(client: TestClient) -> None:
     found = catalogue(client)
-    assert [one.name for one in found.outputs] == list(get_args(Output))
+    assert [one.name for one in found.outputs] == list(get_args(OutputName))
     assert [one.name for one in found.effects] == list(EFFECTS)
     assert all(one.meaning for one in (*found.outputs, *found.effects))
 

@@ -11,9 +11,9 @@ from starlette.testclient import TestClient
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.base import Model
+from schemas.outputs import OutputName
 from schemas.problem import Problem
 from schemas.rating_answer import RatingAnswer
-from schemas.requests import Output
 from service.documents.examples import bodies
 from tests.service.test_dynamics import OVER_THE_TURN
 
@@ -24,7 +24,7 @@ ANSWERS: Mapping[str, type[Model]] = {
     "/v1/analyze": AnalyzeAnswer,
     "/v1/rating": RatingAnswer,
 }
-OUTPUTS = get_args(Output)
+OUTPUTS = get_args(OutputName)
 RECIPROCATING = sorted(name for name, body in MACHINES.items() if body["machine"]["kind"] == "reciprocating")
 FIRST_ORDER = ["residual", "hodograph", "orders", "stages"]
 

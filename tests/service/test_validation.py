@@ -6,7 +6,8 @@ from typing import Any, get_args
 
 import pytest
 
-from schemas.requests import AnalyzeRequest, OptimizeRequest, Output
+from schemas.outputs import OutputName
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
 
 
@@ -88,7 +89,7 @@ def set_at(body: dict[str, Any], path: str, value: object) -> None:
 
 
 ROW = "/machine/throws/0/rows/0"
-*_FIRST, _LAST = map(repr, get_args(Output))
+*_FIRST, _LAST = map(repr, get_args(OutputName))
 NAMES = f"{', '.join(_FIRST)} or {_LAST}"
 
 

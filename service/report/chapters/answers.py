@@ -3,8 +3,9 @@
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Outputs
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.machine import Machine
+from schemas.outputs import OutputFields
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
@@ -44,7 +45,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     yield from outputs(request.machine, answer)
 
 
-def outputs(machine: Machine, answer: Outputs) -> Iterator[Chapter]:
+def outputs(machine: Machine, answer: OutputFields) -> Iterator[Chapter]:
     """A chapter for every output that was asked for, but for first order and stages, which have their own places."""
     for name, chapter in CHAPTERS.items():
         found = getattr(answer, name)
