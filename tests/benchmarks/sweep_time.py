@@ -102,14 +102,14 @@ def solved(request: SweepRequest, designs: int) -> list[tuple[Any, ...]]:
 
 
 def first_stage_share(request: SweepRequest) -> float:
-    """Share of the first stage in the time of the program, on the same programs."""
+    """Share of the first stage in the time of the program, on the same programs: its own work, best of five."""
     calls, solve = solved(request, min(request.total, 2000)), interior_point.solve
-    seconds = {False: 0.0, True: 0.0}
+    seconds = {False: np.inf, True: np.inf}
     for least_mass in (False, True) * 5:
-        began = time.perf_counter()
+        began = time.thread_time()
         for programs, _, *rest in calls:
             solve(programs, least_mass, *rest)
-        seconds[least_mass] += time.perf_counter() - began
+        seconds[least_mass] = min(seconds[least_mass], time.thread_time() - began)
     return seconds[False] / seconds[True]
 
 

@@ -240,10 +240,10 @@ def test_a_very_long_name_is_not_repeated(body: dict[str, Any]) -> None:
 )
 def test_the_work_and_the_answer_are_bounded(body: dict[str, Any], wrong: dict[str, Any]) -> None:
     body["machine"] |= wrong
-    start = time.perf_counter()
+    start = time.thread_time()
     found = complaints(body)
-    # regression: measured about 0.6 s at most; unbounded it took 3 s and more
-    assert time.perf_counter() - start < 2.5
+    # regression: about 0.6 s of this thread's own work at most, whatever else the processor does; unbounded 3 s and more
+    assert time.thread_time() - start < 2.5
     assert 1 <= len(found) <= MAX_ERRORS
     assert len(str(found)) < 20_000
 
