@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJson
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from schemas.notebook import shown
 from schemas.version import package_version
 
 
@@ -28,6 +29,10 @@ class Answer(Model):
     version: str = Field(
         default_factory=package_version, description="version of the package that answered", examples=["0.1.0"]
     )
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows."""
+        return shown(self)
 
 
 class NotEmpty:

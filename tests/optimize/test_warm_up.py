@@ -2,10 +2,10 @@
 
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 
-from optimizer import optimize as module
 from optimizer.warm_up import warm_up
 
 _SOLVERS = {"numba", "cvxpy", "clarabel"}
@@ -25,6 +25,6 @@ def test_a_wrong_answer_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
     def always(request: object) -> object:
         return type("Answer", (), {"status": "inaccurate"})
 
-    monkeypatch.setattr(module, "optimize", always)
+    monkeypatch.setattr(import_module("optimizer.optimize"), "optimize", always)
     with pytest.raises(RuntimeError, match="answered inaccurate where optimal is right"):
         warm_up()

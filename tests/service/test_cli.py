@@ -3,6 +3,7 @@
 import json
 import subprocess
 import sys
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -87,14 +88,13 @@ def test_infeasible(body: dict[str, Any]) -> None:
 
 
 def test_inaccurate(monkeypatch: pytest.MonkeyPatch, file: Path) -> None:
-    import optimizer.optimize
-
-    real = optimizer.optimize.optimize
+    home = import_module("optimizer.optimize")
+    real = home.optimize
 
     def inaccurate(request: Any) -> OptimizeAnswer:
         return real(request).model_copy(update={"status": "inaccurate"})
 
-    monkeypatch.setattr(optimizer.optimize, "optimize", inaccurate)
+    monkeypatch.setattr(home, "optimize", inaccurate)
     result = run("optimize", str(file))
     assert result.exit_code == 1
     assert "Not certified to the accuracy asked for" in result.stdout

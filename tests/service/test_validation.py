@@ -242,7 +242,7 @@ def test_the_work_and_the_answer_are_bounded(body: dict[str, Any], wrong: dict[s
     body["machine"] |= wrong
     start = time.thread_time()
     found = complaints(body)
-    # regression: about 0.6 s of this thread's own work at most, whatever else the processor does; unbounded 3 s and more
+    # regression: about 0.6 s of this thread's own work, whatever else the processor does; unbounded 3 s and more
     assert time.thread_time() - start < 2.5
     assert 1 <= len(found) <= MAX_ERRORS
     assert len(str(found)) < 20_000

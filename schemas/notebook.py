@@ -1,0 +1,51 @@
+"""An answer as HTML for a notebook: figures in a table, lists of things as tables below, series by their length."""
+
+from collections.abc import Iterator
+from html import escape
+from itertools import chain
+
+from pydantic import BaseModel
+
+#: things of a list that are shown; more are counted
+_MOST = 50
+
+
+def shown(model: BaseModel) -> str:
+    """The answer as tables; what is null or empty is left out."""
+    return f"<h4>{escape(type(model).__name__)}</h4>{_fields(model)}"
+
+
+def _fields(model: BaseModel) -> str:
+    rows = "".join(f"<tr><th>{escape(name)}</th><td>{_value(value)}</td></tr>" for name, value in _given(model))
+    return f"<table>{rows}</table>"
+
+
+def _given(model: BaseModel) -> Iterator[tuple[str, object]]:
+    for name, value in model:
+        if value is not None and value != () and value != {}:
+            yield name, value
+
+
+def _value(value: object) -> str:
+    if isinstance(value, BaseModel):
+        return _fields(value)
+    if isinstance(value, dict):
+        rows = (f"<tr><th>{escape(str(name))}</th><td>{_value(each)}</td></tr>" for name, each in value.items())
+        return f"<table>{''.join(rows)}</table>"
+    if isinstance(value, tuple):
+        return _several(value)
+    return escape(f"{value:.6g}" if isinstance(value, float) else str(value))
+
+
+def _several(values: tuple[object, ...]) -> str:
+    models = [value for value in values if isinstance(value, BaseModel)]
+    if len(models) < len(values):
+        numbers = len(values) > 1 and all(isinstance(value, float | None) for value in values)
+        return f"{len(values)} numbers" if numbers else ", ".join(map(_value, values))
+    # a column for every field that one of them has
+    names = list(dict.fromkeys(chain.from_iterable((name for name, _ in _given(one)) for one in models)))
+    head = "".join(f"<th>{escape(name)}</th>" for name in names)
+    rows = (dict(_given(one)) for one in models[:_MOST])
+    body = "".join(f"<tr>{''.join(f'<td>{_value(row.get(name, str()))}</td>' for name in names)}</tr>" for row in rows)
+    more = f"<caption>{len(models)}, the first {_MOST} of them</caption>" if len(models) > _MOST else ""
+    return f"<table>{more}<tr>{head}</tr>{body}</table>"
