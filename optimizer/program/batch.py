@@ -44,10 +44,10 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     """
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
-    if not suits_kernel(statement):
+    found = fast(statement, share, demand, least_mass) if suits_kernel(statement) else None
+    if found is None:
         answer, open_ones = _nothing(statement), np.arange(size.size)
     else:
-        found = fast(statement, share, demand, least_mass)
         open_ones = np.flatnonzero(~found.certified)
         answer = replace(
             _nothing(statement),
@@ -63,7 +63,8 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
             mass_target=found.mass_target,
         )
     for n in map(int, open_ones):
-        _put(answer, n, statement.chosen(n), optimum(statement.chosen(n), relative_gap, least_mass, solver))
+        program, known = statement.chosen(n), None if found is None else found.chosen(np.array([n]))
+        _put(answer, n, program, optimum(program, relative_gap, least_mass, solver, known))
     return answer
 
 

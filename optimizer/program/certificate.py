@@ -53,8 +53,8 @@ class Multipliers:
         """Those of some of the programs of one leading axis."""
         return mapped(self, lambda array: array[programs])
 
-    def put(self, n: int, one: "Multipliers") -> None:
-        """Those of program n of one leading axis, in place."""
+    def put(self, n: "int | np.ndarray", one: "Multipliers") -> None:
+        """Those of one or some of the programs of one leading axis, in place."""
         self.term[n], self.row[n], self.ceiling[n] = one.term, one.row, one.ceiling
 
     def price(self, statement: Statement) -> Real:
@@ -128,6 +128,12 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
     least = _least_over_limits(minorant, 1.0, statement.limits)
     rounding = _rounding(statement, minorant.constant_size + np.abs(charge))
     return np.maximum(minorant.constant - charge + least - rounding, 0.0)
+
+
+def tolerance_allowance(statement: Statement, multipliers: Multipliers) -> Real:
+    """What a bound on the mass gives up for all that counts as keeping the ceilings but exceeds them (...), kg."""
+    ceilings = statement.ceilings
+    return np.sum(np.abs(multipliers.ceiling) * ceilings.tolerance * ceilings.size, axis=-1)
 
 
 def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: float) -> Real:

@@ -1,12 +1,12 @@
 """The compiled interior point behind the certificate: many programs at once, each with its own proof."""
 
 import time
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, mapped
 from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.polish import resting_multipliers
@@ -32,6 +32,8 @@ class _Tolerances(NamedTuple):
 
 
 _DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-7, 2e-12)
+#: what rounding ended early under ceilings mostly ends well when they are a hair elsewhere
+_ELSEWHERE = _DOUBLE._replace(ceilings=2e-11)
 #: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
 #: the answer and where the lightest is; and the largest relative gap of the mass
 ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
@@ -56,6 +58,19 @@ class Fast:
     mass_target: Real  # (N,) largest objective that this bound counts as an optimum
     certify_s: float  # time spent on bounds
 
+    def chosen(self, programs: np.ndarray) -> "Fast":
+        """Some of the programs."""
+        return mapped(self, lambda array: array[programs])
+
+    def put(self, programs: np.ndarray, others: "Fast") -> None:
+        """Other answers to some of the programs, in place."""
+        for field in fields(self):
+            each, other = getattr(self, field.name), getattr(others, field.name)
+            if isinstance(each, Multipliers):
+                each.put(programs, other)
+            elif isinstance(each, np.ndarray):
+                each[programs] = other
+
 
 def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, precision: Precision | None = None) -> Fast:
     """Both stages of N statements of one shape, one leading axis (N,).
@@ -68,10 +83,35 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     demand : (N,) gap that is asked for; one above the share is met by less than the best.
     precision : solve in finer numbers, interpreted: a thousand times slower.
     """
-    smallest, lightest, multipliers, mass_unit = _solve(statement, share, least_mass, precision)
+    if precision is not None:
+        finest = precision.finest
+        finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
+        return _judged(statement, share, demand, least_mass, _solve(statement, share, least_mass, finer, precision))
+    solved = _solve(statement, share, least_mass, _DOUBLE)
+    found = _judged(statement, share, demand, least_mass, solved)
+    if not statement.ceilings.names or np.all(found.certified):
+        return found
+    left = np.flatnonzero(~found.certified)
+    nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
+    room = _excess(statement.chosen(left), nearest) < 0
+    left, inside = left[room], nearest[room]
+    for tolerances in (_DOUBLE, _ELSEWHERE):
+        if not left.size:
+            break
+        part = statement.chosen(left)
+        points = solved.chosen(left) if tolerances is _DOUBLE else _solve(part, share[left], least_mass, tolerances)
+        again = _judged(part, share[left], demand[left], least_mass, points.pulled(part, inside))
+        found.put(left[again.certified], again.chosen(again.certified))
+        left, inside = left[~again.certified], inside[~again.certified]
+    return found
+
+
+def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> Fast:
+    """Of the points of both stages the ones to take, with their proofs."""
+    smallest, lightest = solved.smallest, solved.lightest
     none = np.zeros_like(smallest)
     began = time.perf_counter()
-    proof = multipliers(0, np.ones_like(share))
+    proof = solved.proof
     lower_bound = objective_lower_bound(statement, proof)
     for each in resting_multipliers(statement):
         bound = objective_lower_bound(statement, each)
@@ -87,13 +127,15 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     else:
         chosen = smallest
         size = np.abs(lightest)
+        # what can be kept up to rounding is not traded for their tolerance
+        kept = np.clip(_excess(statement, lightest), CEILING_ROUNDING, CEILING_TOLERANCE)
         tidied = np.where(size < NEGLIGIBLE * np.max(size, axis=-1, keepdims=True, initial=0.0), 0.0, lightest)
         for point in (lightest, _nearer(statement, lightest, smallest, target), tidied, none):
             lighter = statement.mass(point) < statement.mass(chosen)
-            admitted = (statement.objective(point) <= target) & (_excess(statement, point) <= CEILING_TOLERANCE)
+            admitted = (statement.objective(point) <= target) & (_excess(statement, point) <= kept)
             chosen = np.where((lighter & admitted)[:, None], point, chosen)
         began = time.perf_counter()
-        mass_proof = multipliers(1, mass_unit)
+        mass_proof = solved.mass_proof
         mass_bound = mass_lower_bound(statement, mass_proof, counted)
         certify_s += time.perf_counter() - began
     mass, excess = statement.mass(chosen), _excess(statement, chosen)
@@ -121,15 +163,30 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     )
 
 
-def _solve(statement: Statement, share: Real, least_mass: bool, precision: Precision | None):  # type: ignore[no-untyped-def]
-    """Points of both stages, the multipliers of either, and the unit of mass."""
+@dataclass(frozen=True)
+class _Solved:
+    """Where the stages of N programs ended."""
+
+    smallest: Complex  # (N, K) kg m, the end of the first stage
+    lightest: Complex  # (N, K) kg m, the end of the second one
+    proof: Multipliers  # (N, ...), of the objective
+    mass_proof: Multipliers  # (N, ...), of the mass
+
+    def chosen(self, programs: np.ndarray) -> "_Solved":
+        return mapped(self, lambda array: array[programs])
+
+    def pulled(self, statement: Statement, inside: Complex) -> "_Solved":
+        points = pulled(statement, self.smallest, inside), pulled(statement, self.lightest, inside)
+        return _Solved(*points, self.proof, self.mass_proof)
+
+
+def _solve(
+    statement: Statement, share: Real, least_mass: bool, tolerances: _Tolerances, precision: Precision | None = None
+) -> _Solved:
     # the compiler is loaded when it is first needed
     from optimizer.program.kernel.interior_point import solve
 
-    tolerances, method = _DOUBLE, solve
-    if precision is not None:
-        tolerances = _Tolerances(1e-7, precision.finest, 100 * precision.finest, precision.mass, 0.1 * CEILING_ROUNDING)
-        method = solve_in(precision)
+    method = solve if precision is None else solve_in(precision)
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
     unit = np.sum(np.abs(norms.constant), axis=-1)
@@ -156,7 +213,15 @@ def _solve(statement: Statement, share: Real, least_mass: bool, precision: Preci
             ceiling=vectors[stage, :, terms:] * value[:, None] / ceilings.size,
         )
 
-    return points[0], points[1], multipliers, mass_unit
+    return _Solved(points[0], points[1], multipliers(0, np.ones_like(share)), multipliers(1, mass_unit))
+
+
+def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
+    """Points above a ceiling, moved towards ones below it just so far; excesses are convex (..., K)."""
+    above, below = _excess(statement, u), _excess(statement, inside)
+    needed = above > CEILING_ROUNDING
+    step = np.where(needed, above / np.where(needed, above - np.minimum(below, 0.0), 1.0), 0.0)
+    return u + step[..., None] * (inside - u)
 
 
 def _better(statement: Statement, old: Complex, new: Complex) -> Complex:

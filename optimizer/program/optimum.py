@@ -14,7 +14,7 @@ from optimizer.program.certificate import (
     nothing_proven,
     objective_lower_bound,
 )
-from optimizer.program.fast import ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH, fast
+from optimizer.program.fast import ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH, Fast, fast, pulled
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.polish import (
     mass_multipliers,
@@ -32,8 +32,6 @@ from optimizer.program.verdict import yardstick
 _SHARPNESS = 1e-4
 #: relative gap of the least mass that ends the search
 _MASS_GAP = 1e-6
-#: relative gap of the least mass above which finer numbers are worth their time
-_MASS_WORTH = 1e-5
 
 
 #: room below the ceilings, as a share of their size, from which on they are kept as they are
@@ -46,6 +44,8 @@ _TOLD = 1e-13
 
 #: how often the least mass is sought again in units of the least so far, and what a web may carry of it then
 _LIGHTENINGS, _ROOM_FOR_MASS = 8, 4.0
+#: and the share of a limit below which that is another program
+_WORTH_LESS = 0.01
 
 
 class _Asked(NamedTuple):
@@ -96,7 +96,9 @@ def _above(statement: Statement, point: Complex) -> float:
     return value + (value - float(np.sum(-statement.largest(-statement.floor))))
 
 
-def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Solution | Unreachable:
+def optimum(
+    statement: Statement, relative_gap: float, least_mass: bool, solver: Solver, known: Fast | None = None
+) -> Solution | Unreachable:
     """Certified optimum of a statement; webs that cannot carry anything are left out of the program.
 
     Parameters
@@ -104,6 +106,7 @@ def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver:
     statement : one whose limits are finite (:func:`within_reach`).
     relative_gap : asked gap, relative to the objective without counterweights.
     least_mass : take the least total mass among the optima.
+    known : what the compiled method has found for this program, as the only one of a leading axis (1,).
 
     Returns
     -------
@@ -114,7 +117,8 @@ def optimum(statement: Statement, relative_gap: float, least_mass: bool, solver:
     part = statement.only(webs)
     size = float(yardstick(part))
     asked = _Asked(min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size, least_mass)
-    quick = _interior_point(part, asked)
+    whole = webs.size > 0 and bool(np.all(webs))
+    quick = _taken(part, asked, known) if known is not None and whole else _interior_point(part, asked)
     found: Solution | Unreachable = quick.lightest
     if not quick.certified and part.ceilings.names:
         found = _under_ceilings(part, asked, solver, quick)
@@ -236,8 +240,7 @@ def _polished(statement: Statement, asked: _Asked, found: "_Found", inside: Comp
             lightest = lightest.weighed(bound, multipliers, float(counted))
     enough = (ENOUGH_FOR_MASS if asked.least_mass else ENOUGH) * asked.share
     certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= asked.share
-    if asked.least_mass:
-        certified &= lightest.mass - lightest.mass_lower_bound <= MASS_ENOUGH * lightest.mass
+    certified &= not asked.least_mass or _light(lightest)
     spent = time.perf_counter() - began
     smallest, lightest = (replace(each, certify_s=each.certify_s + spent) for each in (smallest, lightest))
     return _Found(smallest, lightest, certified)
@@ -252,9 +255,11 @@ def _lightened(statement: Statement, asked: _Asked, found: "_Found", precision: 
         return found
     for _ in range(_LIGHTENINGS):
         before = found.lightest
-        if not (before.below_ceilings and before.gap <= asked.share and before.mass > 0.0):
+        if not (before.below_ceilings and before.gap <= asked.share) or _light(before):
             break
         limits = statement.limits
+        if not np.any(_ROOM_FOR_MASS * before.mass < _WORTH_LESS * np.minimum(limits.max_mass, limits.max_total_mass)):
+            break
         near = replace(limits, max_mass=np.minimum(limits.max_mass, _ROOM_FOR_MASS * before.mass))
         again = _interior_point(replace(statement, limits=near), asked, precision).lightest
         if again.below_ceilings and again.objective <= before.lower_bound + asked.share and again.mass < before.mass:
@@ -274,15 +279,18 @@ def _pulled(statement: Statement, found: Solution, inside: Complex | None) -> So
     """A point above a ceiling, moved towards one below it just so far; excesses are convex."""
     if inside is None or found.below_ceilings:
         return found
-    least = float(np.max(statement.ceilings.excess(inside)))
-    step = 1.0 if least >= 0.0 else found.excess / (found.excess - least)
-    return found.moved_to(statement, found.unbalance + step * (inside - found.unbalance))
+    return found.moved_to(statement, pulled(statement, found.unbalance, inside))
 
 
 def _proven(found: Solution, asked: _Asked) -> bool:
     """Whether finer numbers are not worth their time."""
     proven = found.below_ceilings and found.gap <= asked.share
-    return proven and (not asked.least_mass or found.mass - found.mass_lower_bound <= _MASS_WORTH * found.mass)
+    return proven and (not asked.least_mass or _light(found))
+
+
+def _light(found: Solution) -> bool:
+    """Whether the mass is proven as well as is worth any time."""
+    return found.mass - found.mass_lower_bound <= MASS_ENOUGH * found.mass
 
 
 def _better_of(one: Solution, other: Solution, share: float) -> Solution:
@@ -320,7 +328,11 @@ def _interior_point(statement: Statement, asked: _Asked, precision: Precision | 
         resting = proven(statement, resting, resting_multipliers(statement))
         return _Found(resting, resting, False)
     found = fast(statement.alone(), np.array([asked.share]), np.array([asked.demand]), asked.least_mass, precision)
-    method = precision.name if precision else INTERIOR_POINT
+    return _taken(statement, asked, found, precision.name if precision else INTERIOR_POINT)
+
+
+def _taken(statement: Statement, asked: _Asked, found: Fast, method: str = INTERIOR_POINT) -> _Found:
+    """The only answer of a leading axis."""
     nothing = Solution(
         found.smallest[0],
         np.inf,

@@ -23,7 +23,7 @@ from optimizer.outputs import prepare
 from optimizer.program.optimum import optimum, yardstick
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_TOLERANCE, Solution
-from optimizer.program.statement import statement, weighted_peak
+from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.response import Response
 from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
@@ -100,13 +100,15 @@ def bodies(rng: np.random.Generator) -> Body:
 
 
 def ladders(rng: np.random.Generator, distances: Sequence[float] = DISTANCES) -> Iterator[Ladder]:
-    """The places of one random machine that it has."""
+    """The places of one random machine that it has; none where counterweights change nothing that counts."""
     body = bodies(rng)
     request = OptimizeRequest.model_validate(body)
     scene = prepare(request, ("residual",))
     limited = [response for response in scene.responses if rng.random() < 0.6] or [scene.responses[0]]
     without = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
     size = float(yardstick(without)) * scene.omega_squared
+    if size == 0.0:
+        return
     for place in PLACES:
         peaks = _peaks(place, request, limited, without)
         ceilings = {FIELDS[name]: peak * scene.omega_squared for name, peak in peaks.items()}
@@ -129,7 +131,7 @@ def _peaks(place: str, request: OptimizeRequest, limited: Sequence[Response], wi
         return dict.fromkeys(rest, 0.0)
     # all of them by the same share of what they are without counterweights
     lowered = [weighted_peak(response, 1.0 / rest[response.name]) for response in limited]
-    least = optimum(statement(lowered, "max", [], limits(request.machine)), 1e-13, False, _SOLVER)
+    least = optimum(statement(combined(lowered, "max"), [], limits(request.machine)), 1e-13, False, _SOLVER)
     assert isinstance(least, Solution)
     return {name: peak * least.objective for name, peak in rest.items()}
 

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
+from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound, tolerance_allowance
 from optimizer.program.polish import (
     mass_multipliers,
     objective_multipliers,
@@ -105,7 +105,7 @@ class Solver:
         ----------
         first : a solution whose objective is the smallest.
         share : how far above the smallest objective an optimum may be, in units of the objective.
-        enough : relative gap of the mass that ends the search.
+        enough : relative gap of the mass that ends the search, besides what the tolerance of the ceilings is worth.
         start : what is known already; its bound counts all objectives up to the share above its own first stage.
         """
         rounding = float(statement.rounding(first.unbalance))
@@ -142,7 +142,9 @@ class Solver:
                     bound = float(mass_lower_bound(statement, each, np.asarray(counted)))
                     best = best.weighed(bound, each, counted)
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
-            if best.mass - best.mass_lower_bound <= enough * best.mass:
+            proof = best.mass_multipliers
+            given_up = 0.0 if proof is None else float(tolerance_allowance(statement, proof))
+            if best.mass - best.mass_lower_bound - given_up <= enough * best.mass:
                 break
         return best
 
