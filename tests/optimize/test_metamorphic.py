@@ -250,3 +250,28 @@ def test_higher_ceilings_never_hurt(seed: int, step: float) -> None:
         assert high.lower_bound is not None
         assert high.lower_bound <= low.objective + 1.01 * tolerated + rounding
         assert high.objective <= low.objective + 1.01 * tolerated + 1.01 * SHARE * low.objective_without_counterweights
+
+
+@pytest.mark.parametrize("combine", ["sum", "max"])
+@pytest.mark.parametrize("seed", range(6))
+def test_no_jumps_at_the_boundary_of_what_can_be_reached(seed: int, combine: str) -> None:
+    """The smallest force as the ceiling, times 1 -+ 1e-3, 1 -+ 1e-9 and 1.
+
+    Clearly above it is optimal, clearly below infeasible; within the tolerance of ceilings either is right, but it is
+    decided: no answer is inaccurate, and a value is no farther from those beside it than the price of the step.
+    """
+    body = random_machine(seed)
+    smallest = proof(answer(body, {"moment_weight": 0.0, "least_mass": False})).objective
+    factors = (1 - 1e-3, 1 - 1e-9, 1.0, 1 + 1e-9, 1 + 1e-3)
+    found = [answer(body, {"combine": combine, "force_ceiling_N": smallest * factor}) for factor in factors]
+    statuses = [each.status for each in found]
+    assert "inaccurate" not in statuses
+    assert statuses[-1] == "optimal"
+    if smallest > 1e-6:
+        assert statuses[0] == "infeasible"
+    # once the ceilings can be kept, higher ones can
+    assert statuses == sorted(statuses, key=["infeasible", "optimal"].index)
+    values = [proof(each).objective for each in found if each.status == "optimal"]
+    rest = proof(found[-1]).objective_without_counterweights
+    for lower, higher in pairwise(values):
+        assert higher <= lower + 2 * SHARE * rest
