@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test chromium lint bench hard lock settings image smoke sbom licences audit clean
+.PHONY: install run test quick chromium lint bench hard lock settings image smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -18,6 +18,15 @@ run: $(kernels)
 # on two cores; the tests of a file stay together, with the server that they share
 test: lint chromium $(kernels)
 	$(bin)/pytest --numprocesses 2 --dist loadfile
+
+# what goes wrong first, within a minute: for between the changes, not in place of all tests
+quick: .venv/development $(kernels)
+	$(bin)/ruff check .
+	$(bin)/ruff format --check .
+	$(bin)/mypy
+	$(bin)/lint-imports
+	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/figures \
+	    tests/service/test_computations.py tests/optimize/test_optimize.py
 
 # compiled once, in a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls

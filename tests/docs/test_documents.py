@@ -18,6 +18,7 @@ from tests.docs.reading import ROOT, agrees, blocks
 DOCUMENTS = [
     "README.md",
     "CHANGELOG.md",
+    "CONTRIBUTING.md",
     *sorted(str(path.relative_to(ROOT)) for path in (ROOT / "docs").rglob("*.md")),
 ]
 COMMANDS = {command.name or command.callback.__name__ for command in app.registered_commands if command.callback}

@@ -1,0 +1,134 @@
+"""What CONTRIBUTING tells a newcomer to write, written into a copy of the packages and asked for in every way."""
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.docs.reading import ROOT, section
+
+_STEP = re.compile(
+    r"`(?P<file>[\w./]+)`,\s(?:new|above\sthe\sline\s(?P<tick>`+)(?P<line>.+?)(?P=tick)):\n\n"
+    r"```\w+\n(?P<block>.*?)```\n",
+    re.DOTALL,
+)
+_NUMBERS = ("One", "Two", "Three", "Four", "Five", "Six")
+_SCRIPT = """
+import json, time
+from math import asin, degrees
+from pathlib import Path
+
+import schemas
+from optimizer.sweep import run_chunk
+from schemas.requests import OptimizeRequest
+from schemas.sweep import SweepRequest
+from service.app import create_app
+from service.documents.examples import load
+from service.settings import Settings
+from starlette.testclient import TestClient
+
+assert Path(schemas.__file__).parents[1] == Path.cwd()
+body = {**json.loads(load("2d12")), "outputs": ["residual", "obliquity"]}
+machine = OptimizeRequest.model_validate(body).machine.model_dump(mode="json")
+# analytic: sin beta = r / l sin phi
+ratios = [
+    throw["crank_radius_m"] / row["connecting_rod"]["length_m"] for throw in machine["throws"] for row in throw["rows"]
+]
+expected = [degrees(asin(ratio)) for ratio in ratios]
+
+with TestClient(create_app(Settings(), warm_up=lambda: None)) as client:
+    answer = client.post("/v1/optimize", json=body)
+    assert answer.status_code == 200, answer.text
+    found = answer.json()["obliquity"]["largest_deg"]
+    assert all(abs(one - other) < 1e-12 * other for one, other in zip(found, expected, strict=True)), (found, expected)
+    page = client.post("/v1/report", json=body, headers={"Accept": "text/html"})
+    assert page.status_code == 200 and "Lean of the rods" in page.text
+    assert "obliquity" in [one["name"] for one in client.get("/v1/effects").json()["outputs"]]
+    missing = json.loads(json.dumps(body))
+    del missing["machine"]["throws"][0]["rows"][0]["connecting_rod"]
+    refused = client.post("/v1/optimize", json=missing)
+    assert refused.status_code == 422 and "asked for by output 'obliquity'" in refused.text
+
+path = "/machine/throws/0/crank_radius_m"
+axis = {"path": path, "values": [0.1, 0.12, 0.14]}
+base = {"machine": machine, "outputs": ["obliquity"]}
+request = SweepRequest.model_validate({"task": "analyze", "base": base, "axes": [axis]})
+rows = run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist()
+length = machine["throws"][0]["rows"][0]["connecting_rod"]["length_m"]
+for row in rows:
+    largest = max(degrees(asin(row[path] / length)), *expected[1:])
+    assert abs(row["largest_obliquity_deg"] - largest) < 1e-12 * largest, row
+"""
+
+
+@pytest.fixture(scope="module")
+def steps() -> list[re.Match[str]]:
+    found = list(_STEP.finditer(section("CONTRIBUTING.md", "An output")))
+    # none of the blocks is passed over
+    assert len(found) == len(re.findall(r"^```\w+$", section("CONTRIBUTING.md", "An output"), re.MULTILINE))
+    return found
+
+
+@pytest.fixture(scope="module")
+def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The packages, with their compiled kernels, after every step."""
+    place = tmp_path_factory.mktemp("copy")
+    for package in ("schemas", "optimizer", "service", "docs", "examples"):
+        shutil.copytree(ROOT / package, place / package)
+    shutil.copy(ROOT / "pyproject.toml", place)
+    for step in steps:
+        file, line, block = place / step["file"], step["line"], step["block"]
+        if line is None:
+            assert not file.exists()
+            file.write_text(block)
+            continue
+        lines = file.read_text().splitlines(keepends=True)
+        (above,) = (number for number, text in enumerate(lines) if text.startswith(line))
+        apart = "\n\n" if block.startswith("class ") else ""
+        file.write_text("".join([*lines[:above], block + apart, *lines[above:]]))
+    return place
+
+
+def _run(copy: Path, *arguments: str) -> str:
+    environment = {**os.environ, "PYTHONPATH": str(copy)}
+    ran = subprocess.run(
+        [sys.executable, *arguments],
+        cwd=copy,
+        env=environment,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+    assert ran.returncode == 0, ran.stdout + ran.stderr
+    return ran.stdout
+
+
+def test_an_output_takes_as_many_files_as_it_says(steps: list[re.Match[str]]) -> None:
+    files = {step["file"] for step in steps}
+    assert section("CONTRIBUTING.md", "An output").lstrip().startswith(f"{_NUMBERS[len(files) - 1]} files")
+
+
+def test_the_output_is_answered_swept_and_reported(copy: Path) -> None:
+    _run(copy, "-c", _SCRIPT)
+
+
+def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
+    shown = _run(copy, "-m", "service", "analyze", "examples/2d12.json", "--output", "obliquity")
+    assert "Lean of the rods" in shown
+    assert re.search(r"largest angle of any rod, deg\W+\d", shown)
+
+
+def test_the_output_is_written_as_the_linter_wants_it(copy: Path) -> None:
+    for check in (("check",), ("format", "--check")):
+        _run(copy, "-m", "ruff", *check, "--no-cache", "schemas", "optimizer", "service")
+
+
+def test_the_documents_have_a_row_for_it(copy: Path) -> None:
+    rows = re.findall(r"^\| `(\w+)` \| .* \|$", (copy / "docs" / "api.md").read_text(), re.MULTILINE)
+    assert rows.index("obliquity") + 1 == rows.index("pin_loads")
+    assert "| `largest_obliquity_deg` |" in (copy / "docs" / "sweeps.md").read_text()
