@@ -22,7 +22,7 @@ def _fields(model: BaseModel) -> str:
 
 def _given(model: BaseModel) -> Iterator[tuple[str, object]]:
     for name, value in model:
-        if value is not None and value != () and value != {}:
+        if not (value is None or (isinstance(value, tuple | dict) and not value)):
             yield name, value
 
 

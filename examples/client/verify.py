@@ -795,7 +795,7 @@ _OBJECTIVE = (
 )
 
 
-def check_bounds(
+def check_bounds(  # noqa: C901, PLR0912, PLR0915 - reads as docs/verify.md does, claim after claim
     claims: Claims,
     program: Program,
     request: Place,

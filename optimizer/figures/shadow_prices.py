@@ -24,7 +24,7 @@ class _Priced(NamedTuple):
     touched: bool
 
 
-def shadow_prices(
+def shadow_prices(  # noqa: PLR0913, PLR0917 - the statement in the user's words, and what its prices are told from
     machine: Machine,
     objective: Objective,
     weights: Mapping[str, float],

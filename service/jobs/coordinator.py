@@ -70,13 +70,14 @@ class Coordinator:
     clock : monotonic seconds.
     """
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - whom it works with, each by itself in tests
         self,
         store: Store,
         leases: Leases,
         files: JobFiles,
         housekeeping: Housekeeping,
         engine: Engine,
+        *,
         selector: Engine | None = None,
         pace: Pace | None = None,
         run: Run = worker.run,

@@ -50,9 +50,9 @@ class Desk:
             files,
             Housekeeping(store, retention, files),
             engine(settings.engine, settings.sweep_workers),
-            None if reads_files(settings.engine) else engine("processes", 1),
-            pace or Pace(lease_s=settings.lease_s),
-            run,
+            selector=None if reads_files(settings.engine) else engine("processes", 1),
+            pace=pace or Pace(lease_s=settings.lease_s),
+            run=run,
             begun=self._begun,
         )
         self._parts = Parts(store, leases, retention, files, coordinator, Event())
