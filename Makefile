@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test quick chromium lint bench hard lock settings image smoke sbom licences audit clean
+.PHONY: install run test quick chromium lint bench hard nightly lock settings image smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -17,7 +17,7 @@ run: $(kernels)
 
 # on two cores; the tests of a file stay together, with the server that they share
 test: lint chromium $(kernels)
-	$(bin)/pytest --numprocesses 2 --dist loadfile
+	$(bin)/pytest --numprocesses 2 --dist loadfile -m "not nightly"
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)
@@ -52,6 +52,13 @@ bench: .venv/development $(kernels)
 # hard cases of the program and of the effects against high-precision references: a summary of each
 hard: .venv/development $(kernels)
 	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; exit $$failed
+
+# hours: the references against references of their own, and what the tests do a few times, thousands of times
+long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.jobs.crashes tests.jobs.flips tests.jobs.kills \
+    tests.network.attacks tests.network.bystander tests.network.load tests.network.schema
+nightly: .venv/development $(kernels)
+	failed=0; $(MAKE) hard || failed=1; $(bin)/pytest --numprocesses 2 -m nightly || failed=1; \
+	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only
 compile := $(bin)/uv --quiet pip compile pyproject.toml --upgrade --generate-hashes --no-header --no-annotate \

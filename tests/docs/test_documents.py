@@ -107,6 +107,18 @@ def test_commands_are_there(name: str) -> None:
     assert {*re.findall(r"(?:^ *|`|/bin/)counterweight ([a-z-]+)", code(name), re.MULTILINE)} <= COMMANDS | GROUPS
 
 
+def test_every_long_command_of_the_tests_is_run_at_night() -> None:
+    """Those that can be started by themselves and print what they found; the others are servers and benchmarks."""
+    (listed,) = re.findall(r"^long := ((?:.*\\\n)*.*)", document("Makefile"), re.MULTILINE)
+    found = {
+        ".".join(path.relative_to(ROOT).with_suffix("").parts)
+        for folder in ("hard", "hard_effects", "jobs", "network")
+        for path in (ROOT / "tests" / folder).glob("*.py")
+        if 'if __name__ == "__main__"' in path.read_text() and not path.name.startswith(("test_", "__"))
+    }
+    assert set(listed.replace("\\", "").split()) == found - {"tests.jobs.serving"}
+
+
 def test_the_mathematics_names_files_that_are_there() -> None:
     """With their path, or beside the last file that had one."""
     known = {path.name for path in (ROOT / "optimizer").rglob("*.py")}

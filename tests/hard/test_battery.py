@@ -30,6 +30,7 @@ def test_case(case: Case) -> None:
     assert not verdict.faults, "\n".join([case.why, *verdict.faults])
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("case", _SAMPLE, ids=_name)
 def test_stored_reference_is_what_the_reference_computes(case: Case) -> None:
     """Independent: the same numbers again, to the digits that are stored and the gap that is proven."""

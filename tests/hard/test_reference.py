@@ -13,6 +13,8 @@ from tests.hard.interior import mp
 from tests.hard.program import unit
 from tests.hard.reference import OPTIMUM_SHARE, reference
 
+pytestmark = pytest.mark.nightly
+
 _OMEGA = 60.0
 _TIGHT = mp.mpf(10) ** -15
 

@@ -30,6 +30,7 @@ def test_every_case_has_a_name_and_a_reason() -> None:
     assert len(CASES) >= 90
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("hard", MACHINES[:6] + MACHINES[8:12], ids=lambda hard: hard.name)
 def test_reference_of_motion_and_work(hard: object) -> None:
     """Analytic: velocity and acceleration are derivatives of the travel, the torque is that of the work."""
@@ -44,6 +45,7 @@ def test_reference_of_motion_and_work(hard: object) -> None:
             assert abs(state.torque - power) < mp.mpf("1e-15") * (abs(power) + 1)
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("length", [1.001, 1.5, 4.0])
 @pytest.mark.parametrize("order", [2, 4, 6])
 def test_reference_of_the_harmonics(order: int, length: float) -> None:
@@ -62,6 +64,7 @@ def test_reference_of_the_harmonics(order: int, length: float) -> None:
     assert abs(mp.mpmathify(whole - odd) - harmonic(order, mp.mpf(1), mp.mpf(length))) < mp.mpf("1e-12")
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("hard", MACHINES[:1] + MACHINES[2:3] + MACHINES[10:11], ids=lambda hard: hard.name)
 def test_reference_of_the_torque_integrals(hard: object) -> None:
     """Independent: mean torque by quadrature of the torque between its breaks."""
