@@ -57,7 +57,7 @@ def single(request: SweepRequest, row: dict[str, Any]) -> OptimizeAnswer | Analy
         return [pointer(problem.path) for problem in error.problems]
 
 
-def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any]) -> str:
+def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], close: float = CLOSE) -> str:
     """Compare a row with the answer to its design alone; its status."""
     answer = single(request, row)
     if isinstance(answer, list):
@@ -74,19 +74,19 @@ def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any]) 
             # an angle matters as much as the mass that it turns
             turned = (row[name] - value + 180.0) % 360.0 - 180.0
             share = row[name.replace("angle_deg.", "mass_kg.")] / (answer.total_mass_kg or 1.0)
-            assert abs(turned) * share <= CLOSE * 360.0, (name, row[name], value)
+            assert abs(turned) * share <= close * 360.0, (name, row[name], value)
         else:
-            assert_close(name, row[name], value, _size(answer, name))
+            assert_close(name, row[name], value, _size(answer, name), close)
     unseen = set(row) - set(expected) - _labels(request)
     assert not {name for name in unseen if row[name] is not None}, unseen
     return str(row["status"])
 
 
-def assert_close(name: str, found: float | None, expected: float | None, size: float) -> None:
+def assert_close(name: str, found: float | None, expected: float | None, size: float, close: float = CLOSE) -> None:
     if expected is None or found is None:
         assert found is expected, (name, found, expected)
     else:
-        assert abs(found - expected) <= CLOSE * max(abs(expected), size), (name, found, expected, size)
+        assert abs(found - expected) <= close * max(abs(expected), size), (name, found, expected, size)
 
 
 def _labels(request: SweepRequest) -> set[str]:

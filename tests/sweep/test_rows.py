@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from schemas.outputs import OUTPUT_COLUMNS
 from schemas.sweep import SweepRequest
 from schemas.sweep.target import find_target
 from tests.analyze.driven import STYLES, random_driven
@@ -95,6 +96,35 @@ def test_rows_are_the_single_answers(task: str, design: str) -> None:
             request = sweep(base, *random_axes(rng, blank, fields, count), task=task, design=design, **rest)
             seen |= assert_rows(request, rng, 5)
     assert seen >= {"invalid", "optimal" if task == "optimize" else "analyzed"}
+
+
+@pytest.mark.parametrize("seed", range(60))
+def test_columns_of_every_output_are_the_single_answers(seed: int) -> None:
+    # property: to rounding, for as they stand machines bring no solver between
+    rng = np.random.default_rng(seed)
+    if seed % 6 == 5:
+        base = fitted("scroll-three-pins", "residual", "pin_loads", rotation_torque_Nm=rng.uniform(1.0, 50.0))
+    else:
+        machine = random_driven(seed, STYLES[seed % len(STYLES)])
+        shaft, motion = rng.choice(["simple_spans", "continuous"]), rng.choice(["exact", "order_2"])
+        base = {
+            "machine": machine,
+            "outputs": ["residual", *DRIVE],
+            "angles": {"step_deg": 30},
+            "fidelity": {"shaft": str(shaft), "kinematics": str(motion)},
+            "counterweights": [{"web": "a", "mass_kg": rng.uniform(0.0, 20.0), "angle_deg": 70}],
+        }
+    blank = sweep(base, {"path": "/machine/speed_rpm", "values": [1]}, task="analyze")
+    axes = random_axes(rng, blank, int(rng.integers(1, 4)), 4)
+    speed = {"path": "/machine/speed_rpm", "values": list(rng.uniform(100.0, 3000.0, 4))}
+    others = [axis for axis in axes if axis["path"] != speed["path"]]
+    request = sweep(base, speed, *others, task="analyze", design="paired")
+    seen = {assert_row_is_the_single_answer(request, row, 1e-12) for row in table(request).to_pylist()}
+    assert "analyzed" in seen
+
+
+def test_every_output_with_columns_is_compared() -> None:
+    assert {"residual", "pin_loads", *DRIVE} == set(OUTPUT_COLUMNS)
 
 
 @pytest.mark.parametrize(
