@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test quick chromium lint bench hard nightly lock settings image smoke sbom licences audit clean
+.PHONY: install run test quick chromium lint bench hard nightly lock settings image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -53,11 +53,12 @@ bench: .venv/development $(kernels)
 hard: .venv/development $(kernels)
 	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; exit $$failed
 
-# hours: the references against references of their own, and what the tests do a few times, thousands of times
+# hours: the references against references of their own, and what the tests do a few times, thousands of times; the image needs root
 long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.jobs.crashes tests.jobs.flips tests.jobs.kills \
     tests.network.attacks tests.network.bystander tests.network.load tests.network.schema
 nightly: .venv/development $(kernels)
 	failed=0; $(MAKE) hard || failed=1; $(bin)/pytest --numprocesses 2 -m nightly || failed=1; \
+	$(MAKE) image-check || failed=1; \
 	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only
@@ -74,6 +75,10 @@ settings: .venv/runtime
 
 image:
 	docker build --file deploy/Dockerfile --tag counterweight:latest .
+
+# built, measured and run without a container engine; minutes, as root
+image-check:
+	deploy/image-check.sh
 
 smoke:
 	deploy/smoke.sh $(or $(URL),http://127.0.0.1:$(PORT))
@@ -92,7 +97,6 @@ licences: build/runtime/made
 
 # the hash of every package was compared when build/runtime was made; needs no network but for the known faults
 audit: licences
-	$(pip) --python build/runtime/bin/python check
 	deploy/audit.sh requirements.txt requirements-dev.txt deploy/requirements.txt
 
 clean:
@@ -108,11 +112,13 @@ clean:
 	$(pip) install --require-hashes --requirement requirements-dev.txt
 	touch $@
 
-# as in the image: locked versions with their hashes, wheels only, without pip
-build/runtime/made: deploy/requirements.txt pyproject.toml .venv/development
+# as in the image: locked versions with their hashes, wheels only, without pip and what nothing imports
+build/runtime/made: deploy/requirements.txt deploy/prune.py deploy/unused.txt pyproject.toml .venv/development
 	rm -rf build/runtime
 	$(PYTHON) -m venv --without-pip build/runtime
 	$(pip) --python build/runtime/bin/python install --require-hashes --only-binary :all: \
 	    --requirement deploy/requirements.txt
 	$(pip) --python build/runtime/bin/python install --no-deps --no-build-isolation .
+	$(pip) --python build/runtime/bin/python check
+	build/runtime/bin/python deploy/prune.py deploy/unused.txt
 	touch $@

@@ -1,4 +1,4 @@
-"""The image: what it is made of, who runs in it, and what it writes to. There is no engine here to build it with."""
+"""The image: what it is made of, who runs in it, and what it writes to; `make image-check` builds it."""
 
 import json
 import os

@@ -1,0 +1,72 @@
+"""Take out of an environment what unused.txt names, and out of the packages' own lists of files as well.
+
+    /opt/counterweight/bin/python deploy/prune.py deploy/unused.txt
+
+Of the environment whose interpreter runs it. A line that finds nothing is an error: the list is of what there is.
+"""
+
+import csv
+import io
+import sys
+import sysconfig
+from importlib.metadata import distributions
+from pathlib import Path
+
+
+def entries(text: str) -> dict[str, str]:
+    """What the lines of a list name, a package or with a slash a pattern of files, and the reason of each."""
+    lines = [line for line in text.splitlines() if line and not line.startswith("#")]
+    return {name: reason.strip() for name, _, reason in (line.partition(" ") for line in lines)}
+
+
+def find(name: str, site: Path) -> list[Path]:
+    """The files of a package, or those that a pattern finds and those in the folders that it finds."""
+    if "/" in name:
+        found = list(site.glob(name))
+        return [file for path in found for file in (path.rglob("*") if path.is_dir() else [path]) if not file.is_dir()]
+    of_package = (one.files or [] for one in distributions(name=name, path=[str(site)]))
+    return [path for files in of_package for file in files if (path := site / file).exists()]
+
+
+def prune(site: Path, names: list[str]) -> dict[str, int]:
+    """Remove what each name finds in a folder of packages, and say how many bytes that were.
+
+    Raises
+    ------
+    FileNotFoundError
+        if a name finds nothing; nothing is removed then.
+    """
+    found = {name: find(name, site) for name in names}
+    if nothing := [name for name, files in found.items() if not files]:
+        raise FileNotFoundError(f"nothing is found by {', '.join(nothing)}")
+    freed = dict.fromkeys(found, 0)
+    for name, files in found.items():
+        # some may be in what an earlier name removed
+        for file in filter(Path.exists, set(files)):
+            freed[name] += file.lstat().st_size
+            file.unlink()
+    # the innermost first
+    for folder in sorted((path for path in site.rglob("*") if path.is_dir()), reverse=True):
+        if not any(folder.iterdir()):
+            folder.rmdir()
+    for record in site.glob("*.dist-info/RECORD"):
+        shorten(record, site)
+    return freed
+
+
+def shorten(record: Path, site: Path) -> None:
+    """Leave in a package's list of files those that there are."""
+    rows = list(csv.reader(io.StringIO(record.read_text("utf-8"))))
+    kept = [row for row in rows if (site / row[0]).exists()]
+    if len(kept) < len(rows):
+        text = io.StringIO()
+        csv.writer(text, lineterminator="\n").writerows(kept)
+        record.write_text(text.getvalue(), "utf-8")
+
+
+if __name__ == "__main__":
+    unused = entries(Path(sys.argv[1]).read_text("utf-8"))
+    freed = prune(Path(sysconfig.get_path("purelib")), list(unused))
+    for name, size in sorted(freed.items(), key=lambda one: -one[1]):
+        sys.stdout.write(f"{size / 1e6:7.1f} MB  {name}\n")
+    sys.stdout.write(f"{sum(freed.values()) / 1e6:7.1f} MB  removed\n")
