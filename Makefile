@@ -44,6 +44,8 @@ lint: .venv/development
 	$(bin)/ruff format --check .
 	$(bin)/mypy
 	$(bin)/lint-imports
+	$(bin)/deno lint --quiet
+	DENO_NO_UPDATE_CHECK=1 $(bin)/deno check --quiet --no-remote service/portal/static
 	deploy/lint.sh
 
 bench: .venv/development $(kernels)

@@ -24,7 +24,12 @@ async function problem(response) {
   return new Problem(response.status, known ? await response.json().catch(() => null) : null);
 }
 
-// The response, once the service lets us in and is ready. `waiting` hears why it takes longer.
+/**
+ * The response, once the service lets us in and is ready. `waiting` hears why it takes longer.
+ * @param {string} method
+ * @param {string} path
+ * @param {{ body?: unknown, headers?: HeadersInit, signal?: AbortSignal, waiting?: (why: string) => void }} [more]
+ */
 export async function ask(method, path, { body, headers, signal, waiting } = {}) {
   const started = performance.now();
   for (;;) {

@@ -22,6 +22,7 @@ export function s(tag, attributes, ...children) {
   return fill(document.createElementNS(SVG, tag), attributes, children);
 }
 
+/** @type {(id: string) => any} an element of whatever kind the page has there */
 export const byId = (id) => document.getElementById(id);
 
 export function table(caption, heads, rows) {

@@ -50,7 +50,7 @@ function make(description, value, required, change) {
   return input;
 }
 
-function choice({ options, fallback }, value, required, change) {
+function choice({ options, fallback }, value, _required, change) {
   const select = h("select", { change: () => change(select.value) },
     options.map((option) => h("option", { value: option }, label(String(option)))));
   select.value = value ?? fallback ?? options[0];

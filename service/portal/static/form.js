@@ -144,7 +144,7 @@ export class Form {
     // a machine that was pasted may hold anything
     const items = () => [get(this.request, at) ?? []].flat();
     const made = this.fold({ class: "group" }, `${label(name)} (${items().length})`, at, () => [
-      ...items().map((item, index) => this.item(name, at, index, description, () => made)),
+      ...items().map((_, index) => this.item(name, at, index, description, () => made)),
       h("button", { type: "button", class: "add", click: () => {
         const list = items();
         const item = list.length ? another(list) : this.schema.blank(description.items);

@@ -19,6 +19,7 @@ import { theme } from "./theme.js";
 
 const MODEL = "OptimizeRequest";
 const FIRST = "2d12";
+/** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
 const PANELS = [counterweights, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
 const STEP = { step_deg: 2 };
 

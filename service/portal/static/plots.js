@@ -8,16 +8,17 @@ export function load() {
     // The library writes style attributes, which the policy of this page forbids; the same through the object
     // model is allowed, and does not loosen the policy.
     const write = Element.prototype.setAttribute;
+    /** @this {HTMLElement | SVGElement} */
     Element.prototype.setAttribute = function setAttribute(name, value) {
       if (name === "style") this.style.cssText = value;
       else write.call(this, name, value);
     };
     // Nor is the stylesheet of its maps allowed, of which there are none here.
     const append = document.head.appendChild;
-    document.head.appendChild = (node) => (node.tagName === "STYLE" && node.textContent ? node : append.call(document.head, node));
+    document.head.appendChild = (/** @type {any} */ node) => (node.tagName === "STYLE" && node.textContent ? node : append.call(document.head, node));
     const script = document.createElement("script");
     script.src = new URL("plotly.min.js", import.meta.url).href;
-    script.onload = () => { delete document.head.appendChild; resolve(window.Plotly); };
+    script.onload = () => { delete document.head.appendChild; resolve(Reflect.get(globalThis, "Plotly")); };
     script.onerror = () => { library = null; reject(new Error("The plotting library did not arrive.")); };
     document.head.append(script);
   });

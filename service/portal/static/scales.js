@@ -1,6 +1,6 @@
 // How large force and moment are on a machine: what is a billionth of that is rounding.
 
-import { degrees, metres, quantity } from "./drawing/view.js";
+import { metres, quantity } from "./drawing/view.js";
 
 const SPEED = { rpm: 1, Hz: 60, "rad/s": 30 / Math.PI };
 

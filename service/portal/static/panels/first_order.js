@@ -38,6 +38,7 @@ export const hodographs = {
           hovertemplate: "%{x:.5~s}, %{y:.5~s}<extra></extra>" });
         const radius = answer.floor[part.floor];
         const turn = Array.from({ length: 91 }, (_, step) => (step * Math.PI) / 45);
+        /** @type {object[]} */
         const traces = [curve(hodograph.before, "before", { color: before, width: 2, dash: "dash" })];
         if (hodograph.after) traces.push(curve(hodograph.after, "after", { color: after, width: 3 }));
         // what is cancelled is a point, and would not be seen

@@ -17,7 +17,7 @@ export const pareto = {
   id: "pareto", title: "Trade-off of force, moment and mass",
   about: "Points that no other counterweights beat in both peaks. Choose one to see its counterweights.",
   async draw(body, { request, ask, keep, kept }) {
-    const { angles, fidelity, ...rest } = request;
+    const { angles: _angles, fidelity: _fidelity, ...rest } = request;
     const answer = await ask("v1/pareto", { ...rest, points: POINTS });
     const [found] = answer.fronts;
     if (!found.points.length) {

@@ -34,7 +34,7 @@ export const sweep = {
       bar, status, trouble, result);
 
     const asked = () => {
-      const { outputs, ...base } = request;
+      const { outputs: _outputs, ...base } = request;
       const grid = design.value === "grid";
       return { base, axes: axes.value(grid), design: design.value, ...(grid ? {} : { samples: Number(samples.value) }) };
     };
