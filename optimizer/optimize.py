@@ -100,7 +100,7 @@ def _certified(
         np.asarray(solution.mass_lower_bound) if goal.least_mass else None,
     )
     judged = verdict(claimed, request.accuracy.relative_gap)
-    value, rest = float(claimed.value[0]), float(statement.objective(np.zeros_like(u)))
+    value, rest = float(claimed.value[0]), float(statement.at_rest)
     gap = float(judged.gap[0])
     touched = _touched(request, scene, u, mass)
     return {

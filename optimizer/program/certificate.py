@@ -172,6 +172,8 @@ def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Re
     multipliers : those of the bound.
     excess : (..., I) in units of the ceilings' size; what is below 0 is none.
     """
+    if not np.any(excess > 0):
+        return np.zeros(excess.shape[:-1])
     usable, known = normalised(statement, multipliers)
     over = np.maximum(excess, 0.0) * statement.ceilings.size
     allowance = np.sum(np.where(over > 0, np.abs(usable.ceiling) * over, 0.0), axis=-1)

@@ -109,7 +109,6 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
 def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> Fast:
     """Of the points of both stages the ones to take, with their proofs."""
     smallest, lightest = solved.smallest, solved.lightest
-    none = np.zeros_like(smallest)
     began = time.perf_counter()
     proof = solved.proof
     lower_bound = objective_lower_bound(statement, proof)
@@ -118,43 +117,40 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         better = bound > np.where(np.isnan(lower_bound), -np.inf, lower_bound)
         lower_bound, proof = np.where(better, bound, lower_bound), each.where(better, proof)
     certify_s = time.perf_counter() - began
-    smallest = _better(statement, none, smallest)
-    value = statement.objective(smallest)
-    target = np.maximum(value, lower_bound + _TARGET * share - statement.rounding(smallest))
-    counted, mass_proof = np.maximum(value, lower_bound) + share, nothing_proven(statement)
-    if not least_mass:
-        chosen, mass_bound = smallest, np.zeros_like(value)
-    else:
-        chosen = smallest
+    rest = _evaluated(statement, np.zeros_like(smallest))
+    best = _better(rest, _evaluated(statement, smallest))
+    target = np.maximum(best.objective, lower_bound + _TARGET * share - statement.rounding(best.unbalance))
+    counted, mass_proof = np.maximum(best.objective, lower_bound) + share, nothing_proven(statement)
+    chosen, mass_bound = best, np.zeros_like(share)
+    if least_mass:
+        light = _evaluated(statement, lightest)
         size = np.abs(lightest)
         # what can be kept up to rounding is not traded for their tolerance
-        kept = np.clip(_excess(statement, lightest), CEILING_ROUNDING, CEILING_TOLERANCE)
+        kept = np.clip(light.excess, CEILING_ROUNDING, CEILING_TOLERANCE)
         tidied = np.where(size < NEGLIGIBLE * np.max(size, axis=-1, keepdims=True, initial=0.0), 0.0, lightest)
-        for point in (lightest, _nearer(statement, lightest, smallest, target), tidied, none):
-            lighter = statement.mass(point) < statement.mass(chosen)
-            admitted = (statement.objective(point) <= target) & (_excess(statement, point) <= kept)
-            chosen = np.where((lighter & admitted)[:, None], point, chosen)
+        nearer = _nearer(statement, light, best, target)
+        for point in (light, _evaluated(statement, nearer), _evaluated(statement, tidied), rest):
+            lighter = point.mass < chosen.mass
+            admitted = (point.objective <= target) & (point.excess <= kept)
+            chosen = chosen.where(~(lighter & admitted), point)
         began = time.perf_counter()
         mass_proof = solved.mass_proof
         mass_bound = mass_lower_bound(statement, mass_proof, counted)
         certify_s += time.perf_counter() - began
-    mass, excess = statement.mass(chosen), _excess(statement, chosen)
-    objective = statement.objective(chosen)
-    loose = (demand > share) & (objective - lower_bound <= demand)
+    loose = (demand > share) & (chosen.objective - lower_bound <= demand)
     enough = (ENOUGH_FOR_MASS if least_mass else ENOUGH) * share
-    certified = (loose | (value - lower_bound <= enough)) & (excess <= CEILING_ROUNDING)
+    certified = (loose | (best.objective - lower_bound <= enough)) & (chosen.excess <= CEILING_ROUNDING)
     if least_mass:
         # what counts as an optimum is told from a point that keeps the ceilings
-        below = _excess(statement, smallest) <= CEILING_ROUNDING
-        certified &= below & (mass - mass_bound <= MASS_ENOUGH * mass)
+        certified &= (best.excess <= CEILING_ROUNDING) & (chosen.mass - mass_bound <= MASS_ENOUGH * chosen.mass)
     return Fast(
-        chosen,
-        objective,
+        chosen.unbalance,
+        chosen.objective,
         lower_bound,
-        mass,
+        chosen.mass,
         mass_bound,
-        excess,
-        smallest,
+        chosen.excess,
+        best.unbalance,
         certified,
         proof,
         mass_proof,
@@ -224,22 +220,41 @@ def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
     return u + step[..., None] * (inside - u)
 
 
-def _better(statement: Statement, old: Complex, new: Complex) -> Complex:
-    """Of two points the one with the smaller objective, or the smaller excess where one breaks a ceiling (N, K)."""
-    excess = _excess(statement, old), _excess(statement, new)
-    kept = excess[0] <= CEILING_TOLERANCE, excess[1] <= CEILING_TOLERANCE
-    smaller = statement.objective(new) < statement.objective(old)
-    better = np.where(kept[0] & kept[1], smaller, kept[1] | (~kept[0] & (excess[1] < excess[0])))
-    return np.where(better[:, None], new, old)
+class _Points(NamedTuple):
+    """One point of each of N programs, and what it comes to."""
+
+    unbalance: Complex  # (N, K) kg m
+    objective: Real  # (N,)
+    mass: Real  # (N,) kg
+    excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
+
+    def where(self, kept: np.ndarray, other: "_Points") -> "_Points":
+        """These where ``kept`` (N,), others elsewhere."""
+        return _Points(
+            np.where(kept[:, None], self.unbalance, other.unbalance),
+            *(np.where(kept, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),
+        )
 
 
-def _nearer(statement: Statement, lightest: Complex, smallest: Complex, target: Real) -> Complex:
+def _evaluated(statement: Statement, u: Complex) -> _Points:
+    return _Points(u, statement.objective(u), statement.mass(u), _excess(statement, u))
+
+
+def _better(old: _Points, new: _Points) -> _Points:
+    """Of two points the one with the smaller objective, or the smaller excess where one breaks a ceiling."""
+    kept = old.excess <= CEILING_TOLERANCE, new.excess <= CEILING_TOLERANCE
+    smaller = new.objective < old.objective
+    better = np.where(kept[0] & kept[1], smaller, kept[1] | (~kept[0] & (new.excess < old.excess)))
+    return new.where(better, old)
+
+
+def _nearer(statement: Statement, lightest: _Points, smallest: _Points, target: Real) -> Complex:
     """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target."""
-    value, rounding = statement.objective(lightest), statement.rounding(smallest)
-    over, fall = value - target + rounding, value - statement.objective(smallest)
+    over = lightest.objective - target + statement.rounding(smallest.unbalance)
+    fall = lightest.objective - smallest.objective
     needed = (over > 0) & (fall > over)
     step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
-    return lightest + step[:, None] * (smallest - lightest)
+    return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
 
 
 def _excess(statement: Statement, u: Complex) -> Real:

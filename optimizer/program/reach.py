@@ -13,7 +13,7 @@ from scipy.optimize import linprog
 
 from optimizer.arrays import Real
 from optimizer.program.limits import Limits
-from optimizer.program.scaling import natural_reach
+from optimizer.program.scaling import natural_reach, single_reach
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 #: a limit this many times the unbalance that cancels everything is as far away as none
@@ -32,8 +32,15 @@ LARGEST = 1e15
 
 def far_limits(statement: Statement) -> np.ndarray:
     """Webs without a limit, or with one as far away as none (..., K)."""
-    limits, natural = statement.limits, natural_reach(statement)[..., None]
-    return np.isinf(limits.max_mass) | (limits.most > _FAR * natural / limits.radius)
+    limits = statement.limits
+    none = np.isinf(limits.max_mass)
+    # what one term calls for is no more than what all call for, and cheaper to tell
+    far = none | _beyond(limits, single_reach(statement))
+    return none | _beyond(limits, natural_reach(statement)) if np.any(far) else far
+
+
+def _beyond(limits: Limits, natural: Real) -> np.ndarray:
+    return limits.most > _FAR * natural[..., None] / limits.radius
 
 
 def bounded(statement: Statement, level: float) -> Statement:

@@ -47,12 +47,16 @@ def natural_reach(statement: Statement) -> Real:
 
     Far larger counterweights are never needed; limits beyond a multiple of it are as good as none.
     """
-    norms, ceilings = statement.norms, statement.ceilings.norms
-    largest = 0.0
-    for each in (norms, ceilings):
+    return np.maximum(np.max(np.abs(cancelling(statement)), axis=-1, initial=0.0), single_reach(statement))
+
+
+def single_reach(statement: Statement) -> Real:
+    """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
+    largest = np.zeros(())
+    for each in (statement.norms, statement.ceilings.norms):
         apart = np.where(np.any(each.influence != 0, axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
         largest = np.maximum(largest, np.max(apart, axis=-1, initial=0.0))
-    return np.maximum(np.max(np.abs(cancelling(statement)), axis=-1, initial=0.0), largest)
+    return largest
 
 
 def cancelling(statement: Statement, passes: int = 1) -> Complex:

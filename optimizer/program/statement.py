@@ -6,6 +6,7 @@ subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -105,7 +106,7 @@ class Statement:
     limits: Limits
     names: Names
 
-    @property
+    @cached_property
     def membership(self) -> Real:
         """(rows, J) matrix that sums the terms of a row."""
         return (self.row[None, :] == np.arange(self.floor.shape[-1])[:, None]).astype(float)
@@ -114,7 +115,12 @@ class Statement:
         """P(u), exact (..., )."""
         return np.sum(self.largest(self.rows(np.abs(self.norms.at(u)))), axis=-1)
 
-    @property
+    @cached_property
+    def at_rest(self) -> Real:
+        """P(0) (...)."""
+        return self.objective(np.zeros(self.limits.radius.shape, complex))
+
+    @cached_property
     def first_rows(self) -> np.ndarray:
         """First row of each group (groups,)."""
         return np.searchsorted(self.group, np.arange(self.group[-1] + 1))

@@ -139,7 +139,7 @@ def yardstick(statement: Statement) -> Real:
     That is the sum over terms and webs of what the counterweight that cancels everything, or the largest that fits,
     does to a term.
     """
-    rest = statement.objective(np.zeros(statement.limits.radius.shape, complex))
+    rest = statement.at_rest
     if np.all(rest > 0):
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
