@@ -107,6 +107,11 @@ class DesignMultipliers(Model):
     conflict: BoundMultipliers | None = Field(
         description="that the ceilings cannot be kept; only if infeasible", examples=[None]
     )
+    implied_max_mass_kg: dict[Name, float] = Field(
+        description="of webs without a limit, or with one far beyond any need: limits that change nothing, which the"
+        " bounds count with",
+        examples=[{"far": 41.2}],
+    )
 
 
 class EndMultipliers(Model):

@@ -53,7 +53,9 @@ def optimized(
     columns = _certified(request, program, found, u, mass, square)
     columns["total_mass_kg"] = np.sum(mass, axis=-1)
     if multipliers:
-        columns[MULTIPLIERS] = multipliers_as_text(program, found, square, request.objective.least_mass)
+        columns[MULTIPLIERS] = multipliers_as_text(
+            request.machine, program, found, square, request.objective.least_mass
+        )
     for k, web in enumerate(request.machine.webs):
         columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
     columns = {

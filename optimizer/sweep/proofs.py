@@ -4,20 +4,26 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.figures.proof import conflict, named, named_conflict, physical
+from optimizer.formulate import limits
 from optimizer.program.batch import Optima
 from optimizer.program.statement import Statement
+from schemas.machine import Machine
 from schemas.proof import DesignMultipliers
 
 
-def multipliers_as_text(program: Statement, found: Optima, square: Real, least_mass: bool) -> np.ndarray:
+def multipliers_as_text(
+    machine: Machine, program: Statement, found: Optima, square: Real, least_mass: bool
+) -> np.ndarray:
     """Multipliers of every design as JSON, object (count,).
 
     Parameters
     ----------
+    machine : of columns (count,).
     program : of all designs, leading axis (count,).
     square : (count,) omega^2.
     """
     texts = np.full(square.shape, None, dtype=object)
+    implied = _implied(machine, program.limits.max_mass)
     reached = np.flatnonzero(~found.unreachable)
     if reached.size:
         part, speed = program.chosen(reached), square[reached]
@@ -30,11 +36,25 @@ def multipliers_as_text(program: Statement, found: Optima, square: Real, least_m
                 mass=named(part, mass.chosen(k)) if least_mass else None,
                 mass_objective_limit=limit[k] if least_mass else None,
                 conflict=None,
+                implied_max_mass_kg=implied[n],
             ).model_dump_json()
     for n in np.flatnonzero(found.unreachable):
         alone = program.chosen(int(n))
         proof = conflict(alone, found.conflict.chosen(int(n)), square[n])
         texts[n] = DesignMultipliers(
-            objective=None, mass=None, mass_objective_limit=None, conflict=named_conflict(alone, proof)
+            objective=None,
+            mass=None,
+            mass_objective_limit=None,
+            conflict=named_conflict(alone, proof),
+            implied_max_mass_kg=implied[n],
         ).model_dump_json()
     return texts
+
+
+def _implied(machine: Machine, most: Real) -> list[dict[str, float]]:
+    """Limits that the proof of each design counts with in place of those of the machine, kg."""
+    smaller = most < limits(machine).max_mass
+    return [
+        {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
+        for of_design in zip(most.tolist(), smaller.tolist(), strict=True)
+    ]

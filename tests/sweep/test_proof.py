@@ -8,9 +8,12 @@ from typing import Any
 import pytest
 
 from optimizer.program.reference.solver import Solver
+from optimizer.sweep import run_chunk
 from optimizer.sweep.rows import rows
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
+from service.verification import checker
+from tests.hard.cases.case import machine, throw, web
 from tests.optimize import by_hand
 from tests.optimize.machines import random_machine
 
@@ -43,8 +46,8 @@ def designs(body: dict[str, Any], request: SweepRequest) -> Iterator[tuple[dict[
 @pytest.mark.parametrize("seed", range(3))
 def test_every_row_carries_the_proof_of_its_bounds(seed: int, combine: str) -> None:
     """With and without ceilings, kept or in conflict, webs that carry nothing among them (independent, 60 digits)."""
-    machine = {**random_machine(seed), "reference_plane_m": PLANE}
-    body = {"machine": machine, "objective": {"combine": combine, "force_ceiling_N": 1.0}}
+    asked = {**random_machine(seed), "reference_plane_m": PLANE}
+    body = {"machine": asked, "objective": {"combine": combine, "force_ceiling_N": 1.0}}
     statuses = set()
     for request, row in designs(body, swept(body, [1e-3, 3e3, 1e5, None], [0.0, 3.0, 1e3], multipliers=True)):
         statuses.add(row["status"])
@@ -78,3 +81,17 @@ def test_what_is_analyzed_has_no_multipliers() -> None:
     axes = [{"path": "/machine/speed_rpm", "values": [500.0]}]
     with pytest.raises(ValueError, match="no certificate"):
         SweepRequest.model_validate({"task": "analyze", "base": body, "axes": axes, "multipliers": True})
+
+
+def test_rows_say_which_limits_their_bounds_count_with() -> None:
+    """A web without a limit: the row by itself is checked as the answer to its design is; the budget is its reach."""
+    throws = [throw(0.0, 0.0, [], radius=1.0, rotating=10.0)]
+    webs = [web("A", 0.0, 0.32, 2.0), web("B", 0.0, None, 1.0)]
+    base = {"machine": machine(throws, webs, omega=1.0, reference_plane_m=0.0), "objective": {}}
+    for ceiling in (None, 1e-3):
+        base["objective"] = {"force_ceiling_N": ceiling}
+        axis = {"path": "/machine/max_total_mass_kg", "values": [1.0]}
+        body = {"base": base, "axes": [axis], "multipliers": True}
+        row = run_chunk(SweepRequest.model_validate(body).model_dump_json().encode(), 0, 1).to_pylist()[0]
+        assert json.loads(row["multipliers"])["implied_max_mass_kg"] == {"B": pytest.approx(1.0)}
+        assert checker().verify(body, [row])["verdict"] == "held"
