@@ -1,4 +1,4 @@
-"""Answers checked by the file that clients take with them, examples/client/verify.py: there is no second checker."""
+"""Answers checked by the files that clients take with them, examples/client/verify*.py: there is no second checker."""
 
 import sys
 from functools import cache
@@ -9,8 +9,6 @@ from schemas.base import FieldProblem
 from schemas.verify import VerifyAnswer, VerifyRequest
 from service.documents.examples import directory
 from service.http.validation import InvalidRequest
-
-_NAME = "counterweight_verify"
 
 
 def verify(asked: VerifyRequest) -> VerifyAnswer:
@@ -30,11 +28,17 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 
 @cache
 def checker() -> ModuleType:
-    """The file, which belongs to no package and imports nothing of this one."""
-    spec = spec_from_file_location(_NAME, directory() / "client" / "verify.py")
+    """The file for answers of every kind; neither belongs to a package nor imports anything of this one."""
+    # the second file imports the first by its name
+    modules = [_loaded(name) for name in ("verify", "verify_many")]
+    return modules[-1]
+
+
+def _loaded(name: str) -> ModuleType:
+    spec = spec_from_file_location(name, directory() / "client" / f"{name}.py")
     assert spec is not None
     assert spec.loader is not None
     module = module_from_spec(spec)
-    sys.modules[_NAME] = module
+    sys.modules[name] = module
     spec.loader.exec_module(module)
     return module

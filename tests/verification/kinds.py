@@ -16,8 +16,12 @@ _SECTOR = {"centre_deg": 190.0, "half_angle_deg": 40.0}
 _WEBS = [web("a", -0.45, 4.0), web("b", -0.1, 6.0, sector=_SECTOR), web("c", 0.55, 3.0, 0.15)]
 
 
+#: webs without a limit of their mass
+_FREE = [{**one, "max_mass_kg": None} for one in _WEBS]
+
+
 def _body(changes: Body | None = None, **objective: Any) -> Body:
-    return {"machine": machine(_THROWS, _WEBS, **(changes or {})), "objective": objective}
+    return {"machine": {**machine(_THROWS, _WEBS), **(changes or {})}, "objective": objective}
 
 
 def _with_texts(body: Body) -> Body:
@@ -57,6 +61,12 @@ SINGLE: dict[str, Body] = {
     "infeasible together": _body(force_ceiling_N=4100.0, moment_ceiling_Nm=1700.0),
     "infeasible by budget": _body({"max_total_mass_kg": 0.5}, force_ceiling_N=4500.0),
     "texts with units": _with_texts(_body({"max_total_mass_kg": 2.5}, force_ceiling_N=8500.0)),
+    "no limits": _body({"webs": [_FREE[0], _FREE[2]]}, direction_weights={"x": 1, "y": 0.3}),
+    "no limits, max, sector": _body({"webs": _FREE}, combine="max"),
+    "no limits on one plane": _body({"webs": [_FREE[0], _WEBS[1]]}),
+    "no limits, budget, ceiling": _body({"webs": _FREE, "max_total_mass_kg": 1e15}, force_ceiling_N=5000.0),
+    "infeasible without limits": _body({"webs": _FREE}, force_ceiling_N=100.0),
+    "limits beyond any need": _body({"webs": [{**one, "max_mass_kg": 1e300} for one in _WEBS]}),
     "no webs": {"machine": machine(_THROWS, [])},
     "nothing fits": {"machine": machine(_THROWS, [web("a", 0.0, 0.0)])},
     "balances itself": {"machine": machine([throw(0.0, 0.0, [])], [web("a", 0.1)])},

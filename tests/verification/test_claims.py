@@ -56,6 +56,18 @@ def test_multipliers_that_are_too_long_prove_no_more() -> None:
     assert any(one.startswith("lower_bound") for one in broken(body, answer))
 
 
+def test_what_missing_limits_imply_need_not_be_believed() -> None:
+    """Analytic: webs of any mass that force and moment of the multipliers do nothing to gain nothing."""
+    body = SINGLE["no limits"]
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    certificate = answer["certificate"]
+    for mass in (1e-300, 1e300):
+        certificate["implied_max_mass_kg"] = dict.fromkeys(certificate["implied_max_mass_kg"], mass)
+        assert verdict(body, answer) == "held"
+    certificate["lower_bound"] *= 1 + 1e-6
+    assert any(one.startswith("lower_bound") for one in broken(body, answer))
+
+
 def test_what_the_checker_does_not_know_is_not_covered() -> None:
     body = SINGLE["sum"]
     answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
