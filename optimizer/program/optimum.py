@@ -45,7 +45,7 @@ _TOLD = 1e-13
 #: how often the least mass is sought again in units of the least so far, and what a web may carry of it then
 _LIGHTENINGS, _ROOM_FOR_MASS = 8, 4.0
 #: and the share of a limit below which that is another program
-_WORTH_LESS = 0.01
+_WORTH_LESS = 0.1
 
 
 class _Asked(NamedTuple):
