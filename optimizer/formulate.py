@@ -1,18 +1,22 @@
 """From machine, objective and responses to the statement of the convex program.
 
+The only place that translates the fields of the contract that name responses; everything after it goes by name.
 Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Real, Reals
 from optimizer.mechanics.angles import direction
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.inertia import Wrench, first_order_responses
+from optimizer.mechanics.layout import Layout, stacked
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Response
+from schemas.answers import CeilingField, MachineLimit
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Objective
 
@@ -20,19 +24,21 @@ from schemas.requests import Objective
 _NO_LIMIT = 1e30
 
 
-def limits(machine: Machine) -> Limits:
-    """Limits of the counterweights on the webs of a machine (..., K)."""
+def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
+    """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
     webs, budget = machine.webs, machine.max_total_mass_kg
     free, centre, half_angle = sectors(machine)
-    edge = direction(half_angle)
+    edge, shape = direction(half_angle), (*leading, len(webs))
     return Limits(
-        radius=stacked([web.counterweight_radius_m for web in webs]),
-        max_mass=_no_limit(stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in webs])),
-        free=free,
-        centre=direction(centre),
-        half_angle_cos=edge.real,
-        half_angle_sin=edge.imag,
-        max_total_mass=np.asarray(np.inf if budget is None else budget, dtype=float),
+        radius=np.broadcast_to(stacked([web.counterweight_radius_m for web in webs]), shape),
+        max_mass=np.broadcast_to(
+            _no_limit(stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in webs])), shape
+        ),
+        free=np.broadcast_to(free, shape),
+        centre=np.broadcast_to(direction(centre), shape),
+        half_angle_cos=np.broadcast_to(edge.real, shape),
+        half_angle_sin=np.broadcast_to(edge.imag, shape),
+        max_total_mass=np.broadcast_to(np.asarray(np.inf if budget is None else budget, dtype=float), leading),
     )
 
 
@@ -63,39 +69,88 @@ def span(machine: Machine) -> Reals:
     return np.where(length <= SMALLEST, 1.0, length)[()]
 
 
+@dataclass(frozen=True)
+class Weighable:
+    """A response that an objective can weigh and limit."""
+
+    name: str  # of the response
+    unit: str  # of the response
+    response: Callable[[Layout, Wrench], Response]  # from the first order without counterweights
+    weight: Callable[[Machine, Objective], Reals]  # [1/unit of the response]; a number or a column
+    ceiling: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
+    ceiling_field: CeilingField  # of the request
+    limit: MachineLimit  # what a touched ceiling is called
+
+
+FORCE = Weighable(
+    name="force",
+    unit="N",
+    response=lambda layout, baseline: first_order_responses(layout, baseline)[0],
+    weight=lambda machine, objective: objective.force_weight,
+    ceiling=lambda objective: objective.force_ceiling_N,
+    ceiling_field="force_ceiling_N",
+    limit="force_ceiling",
+)
+MOMENT = Weighable(
+    name="moment",
+    unit="N m",
+    response=lambda layout, baseline: first_order_responses(layout, baseline)[1],
+    weight=lambda machine, objective: (
+        1.0 / span(machine) if objective.moment_weight is None else objective.moment_weight
+    ),
+    ceiling=lambda objective: objective.moment_ceiling_Nm,
+    ceiling_field="moment_ceiling_Nm",
+    limit="moment_ceiling",
+)
+#: what can be weighed, in the order of the answer; one more is one more entry
+RESPONSES: dict[str, Weighable] = {each.name: each for each in (FORCE, MOMENT)}
+
+
+def responses(layout: Layout, baseline: Wrench) -> tuple[Response, ...]:
+    """All responses to the unbalance of the counterweights.
+
+    Parameters
+    ----------
+    baseline : first-order force and moment without counterweights.
+    """
+    return tuple(each.response(layout, baseline) for each in RESPONSES.values())
+
+
 def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
     """Weight of each response, by name: w_F [1/N] and w_M [1/(N m)]."""
-    moment = 1.0 / span(machine) if objective.moment_weight is None else objective.moment_weight
-    return {"force": objective.force_weight, "moment": moment}
+    return {each.name: each.weight(machine, objective) for each in RESPONSES.values()}
 
 
 def ceilings(objective: Objective) -> Mapping[str, float]:
     """Hard limits on the peaks, by response: N and N m."""
-    given = {"force": objective.force_ceiling_N, "moment": objective.moment_ceiling_Nm}
+    given = {each.name: each.ceiling(objective) for each in RESPONSES.values()}
     return {name: ceiling for name, ceiling in given.items() if ceiling is not None}
 
 
-def formulate(
-    machine: Machine, objective: Objective, responses: tuple[Response, ...], omega_squared: float
-) -> Statement:
-    """The program in mass-radius products: forces over omega^2, so that speed plays no part."""
-    wanted, across = weights(machine, objective), objective.direction_weights
-    return statement(
-        combined(
-            [
-                weighted_peak(response, wanted[response.name], across.x, across.y)
-                for response in responses
-                if wanted[response.name] > 0
-            ],
-            objective.combine,
-        ),
-        [
-            (response, ceilings(objective)[response.name] / omega_squared)
-            for response in responses
-            if response.name in ceilings(objective)
-        ],
-        limits(machine),
-    )
+def shape_facts(machine: Machine, objective: Objective) -> tuple[np.ndarray, ...]:
+    """What decides of which terms and rows a program is made, each yes or no, a number or a column."""
+    across = objective.direction_weights
+    weighed = (np.asarray(weight) > 0 for weight in weights(machine, objective).values())
+    return (*weighed, np.asarray(across.x) == across.y)
+
+
+def formulate(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: Reals) -> Statement:
+    """The program in mass-radius products: responses over omega^2, so that speed plays no part.
+
+    Parameters
+    ----------
+    omega_squared : (...) rad^2/s^2; one program, or one for each of many machines that have one shape.
+    """
+    leading = np.shape(omega_squared)
+    responses = [response.spread(leading) for response in responses]
+    wanted, allowed, across = weights(machine, objective), ceilings(objective), objective.direction_weights
+    peaks = [
+        weighted_peak(response, wanted[response.name], across.x, across.y)
+        for response in responses
+        if np.all(np.asarray(wanted[response.name]) > 0)
+    ]
+    limited = [(response, allowed[response.name] / omega_squared) for response in responses if response.name in allowed]
+    return statement(combined(peaks, objective.combine), limited, limits(machine, leading))
 
 
 def smallest_peak(response: Response, machine: Machine) -> Statement:

@@ -7,10 +7,11 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
-from optimizer.figures.first_order import first_order
+from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
+from optimizer.figures.machine_limits import touched_limits
 from optimizer.figures.proof import conflict, named, named_conflict, physical
 from optimizer.figures.shadow_prices import shadow_prices as priced
-from optimizer.formulate import ceilings, formulate, smallest_peak, weights
+from optimizer.formulate import RESPONSES, ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
 from optimizer.program.optimum import Unreachable, optimum, within_reach
@@ -25,7 +26,6 @@ from schemas.answers import (
     Closest,
     Counterweight,
     Infeasibility,
-    MachineLimit,
     OptimizeAnswer,
     Timing,
 )
@@ -34,7 +34,6 @@ from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as NamedMultipliers
 from schemas.requests import OptimizeRequest
 
-_TOUCHED = 1e-4
 #: outputs that every answer holds
 _ALWAYS = ("residual",)
 
@@ -102,7 +101,7 @@ def _certified(
     judged = verdict(claimed, request.accuracy.relative_gap)
     value, rest = float(claimed.value[0]), float(statement.at_rest)
     gap = float(judged.gap[0])
-    touched = _touched(request, scene, u, mass)
+    touched = touched_limits(request.machine, goal, scene.responses, u, mass, square)
     return {
         "status": str(judged.status),
         "status_reason": str(judged.reason),
@@ -169,20 +168,6 @@ def proven_or_null(value: Real | float) -> float | None:
     return None if np.isnan(value) else float(value)
 
 
-def _touched(request: OptimizeRequest, scene: Prepared, u: Complex, mass: float) -> tuple[MachineLimit, ...]:
-    """Limits of the whole machine that the counterweights touch."""
-    touched: list[MachineLimit] = []
-    budget = request.machine.max_total_mass_kg
-    if budget is not None and mass >= budget * (1.0 - _TOUCHED):
-        touched.append("max_total_mass")
-    allowed, after = ceilings(request.objective), scene.first_order(u)
-    if "force" in allowed and after.force.peak >= allowed["force"] * (1.0 - _TOUCHED):
-        touched.append("force_ceiling")
-    if "moment" in allowed and after.moment.peak >= allowed["moment"] * (1.0 - _TOUCHED):
-        touched.append("moment_ceiling")
-    return tuple(touched)
-
-
 def _infeasible(
     request: OptimizeRequest, scene: Prepared, statement: Statement, proof: Unreachable, solver: Solver
 ) -> dict[str, object]:
@@ -203,7 +188,6 @@ def _infeasible(
         proofs[response.name] = named(peak, physical(peak, alone.multipliers, "objective", square))
         smallest[response.name], bound[response.name] = alone.objective * square, alone.lower_bound * square
     impossible = [name for name in allowed if bound[name] > allowed[name]]
-    field = {"force": "force_ceiling_N", "moment": "moment_ceiling_Nm"}
     fitted, u = _fitted(request.machine, statement, proof.closest)
     return {
         "status": "infeasible",
@@ -212,17 +196,13 @@ def _infeasible(
         "total_mass_kg": None,
         "certificate": None,
         "infeasibility": Infeasibility(
-            conflict=tuple(field[name] for name in (impossible or allowed)),
-            smallest_force_N=smallest["force"],
-            smallest_moment_Nm=smallest["moment"],
-            smallest_force_lower_bound_N=bound["force"],
-            smallest_moment_lower_bound_Nm=bound["moment"],
+            conflict=tuple(each.ceiling_field for each in RESPONSES.values() if each.name in (impossible or allowed)),
+            **smallest_peaks(smallest, bound),
             implied_max_mass_kg=implied_max_mass(request.machine, most),
             closest=Closest(counterweights=fitted, first_order=first_order(scene.first_order(u))),
             multipliers=InfeasibilityMultipliers(
                 conflict=named_conflict(statement, conflict(statement, proof.multipliers, square)),
-                smallest_force=proofs["force"],
-                smallest_moment=proofs["moment"],
+                **smallest_proofs(proofs),
             ),
         ),
         **answered(scene, None, _ALWAYS),

@@ -5,11 +5,11 @@ shaft are complex, x + jy. A response of order k over the shaft angle theta is
 F(theta) = co e^{j s k theta} + counter e^{-j s k theta}, s the sense of rotation: an ellipse.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, mapped
 
 
 @dataclass(frozen=True)
@@ -88,6 +88,14 @@ class Response:
     influence: Real | Complex
     order: int = 1
     sense: int = 1
+
+    def spread(self, leading: tuple[int, ...]) -> "Response":
+        """The same of as many machines as the leading axes say; what is common to all is not copied."""
+        if not leading:
+            return self
+        baseline = mapped(self.baseline, lambda array: np.broadcast_to(array, leading))
+        influence = np.broadcast_to(np.asarray(self.influence), (*leading, self.influence.shape[-1]))
+        return replace(self, baseline=baseline, influence=influence)  # type: ignore[arg-type]  # real or complex
 
     def to(self, unbalance: Complex) -> Phasors:
         """Response with counterweights, baseline + influence @ unbalance.

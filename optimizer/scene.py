@@ -9,7 +9,8 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import Simulated, simulate
-from optimizer.mechanics.inertia import Wrench, counterweights, first_order_responses
+from optimizer.formulate import responses
+from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.response import Response
 from schemas.machine import ReciprocatingMachine, ScrollMachine
@@ -55,9 +56,9 @@ class Prepared:
         return wrench.times(self.layout.omega**2)
 
     @property
-    def responses(self) -> tuple[Response, Response]:
-        """First-order force and moment as responses to the unbalance of the counterweights."""
-        return first_order_responses(self.layout, self.simulated.first_order)
+    def responses(self) -> tuple[Response, ...]:
+        """What can be weighed, as responses to the unbalance of the counterweights."""
+        return responses(self.layout, self.simulated.first_order)
 
     @property
     def turned_rad(self) -> Real:

@@ -19,6 +19,7 @@ from schemas.quantities import (
 )
 
 WebLimit = Literal["max_mass", "sector"]
+CeilingField = Literal["force_ceiling_N", "moment_ceiling_Nm"]
 MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
 PriceUnit = Literal[
     "N/kg", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/deg", "N m/N", "N m/(N m)"
@@ -184,7 +185,7 @@ class Closest(Model):
 class Infeasibility(Model):
     """Why no counterweights satisfy the ceilings, and what can be reached."""
 
-    conflict: tuple[Literal["force_ceiling_N", "moment_ceiling_Nm"], ...] = Field(
+    conflict: tuple[CeilingField, ...] = Field(
         description="the ceilings that cannot be met, alone or together", examples=[["force_ceiling_N"]]
     )
     smallest_force_N: Newtons = Field(

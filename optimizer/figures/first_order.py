@@ -1,5 +1,7 @@
 """First-order force and moment as ellipses, their floor, and their hodographs."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from optimizer.arrays import Complex, Real
@@ -9,6 +11,7 @@ from optimizer.response import Phasors
 from optimizer.scene import Prepared
 from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual
 from schemas.outputs import Hodograph, Hodographs
+from schemas.proof import BoundMultipliers
 
 FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
@@ -28,6 +31,21 @@ def floor(wrench: Wrench) -> Floor:
 def peaks(wrench: Wrench) -> dict[str, Real]:
     """Peaks of force [N] and moment [N m] as columns (...)."""
     return {"force_peak_N": wrench.force.peak, "moment_peak_Nm": wrench.moment.peak}
+
+
+def smallest_peaks(value: Mapping[str, float], bound: Mapping[str, float]) -> dict[str, float]:
+    """Fields of the smallest peaks by themselves [N], [N m], and of their bounds, from those by response."""
+    return {
+        "smallest_force_N": value["force"],
+        "smallest_moment_Nm": value["moment"],
+        "smallest_force_lower_bound_N": bound["force"],
+        "smallest_moment_lower_bound_Nm": bound["moment"],
+    }
+
+
+def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMultipliers]:
+    """Fields of the proofs of those bounds."""
+    return {"smallest_force": proofs["force"], "smallest_moment": proofs["moment"]}
 
 
 def residual(scene: Prepared, unbalance: Complex | None) -> Residual:

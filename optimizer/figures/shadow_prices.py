@@ -5,6 +5,7 @@ from typing import NamedTuple, get_args
 
 import numpy as np
 
+from optimizer.formulate import RESPONSES, ceilings
 from optimizer.program.sensitivity import ShadowPrices
 from schemas.answers import Counterweight, MachineLimit, PriceUnit, ShadowPrice, WebLimit
 from schemas.machine import Machine
@@ -44,7 +45,7 @@ def shadow_prices(  # noqa: PLR0913, PLR0917 - the statement in the user's words
     touched : limits of the machine that the counterweights touch.
     gap, at_rest : certified gap, and objective without counterweights, over omega^2.
     """
-    weight, quantity = (weights["force"], "N") if weights["force"] > 0 else (weights["moment"], "N m")
+    weight, quantity = next((weights[each.name], each.unit) for each in RESPONSES.values() if weights[each.name] > 0)
     return tuple(
         ShadowPrice(
             limit=each.limit,
@@ -78,11 +79,9 @@ def _every(
     if budget is not None:
         price = float(prices.max_total_mass)
         yield _Priced("max_total_mass", None, price, budget, "kg", "max_total_mass" in touched)
-    ceilings: tuple[tuple[MachineLimit, float | None, str], ...] = (
-        ("force_ceiling", objective.force_ceiling_N, "N"),
-        ("moment_ceiling", objective.moment_ceiling_Nm, "(N m)"),
-    )
-    given = [(limit, size, unit) for limit, size, unit in ceilings if size is not None]
-    for (limit, size, unit), price in zip(given, prices.ceiling, strict=True):
+    allowed = ceilings(objective)
+    given = [each for each in RESPONSES.values() if each.name in allowed]
+    for each, price in zip(given, prices.ceiling, strict=True):
+        unit = f"({each.unit})" if " " in each.unit else each.unit
         # an objective over omega^2 per ceiling over omega^2
-        yield _Priced(limit, None, float(price) / omega_squared, size, unit, limit in touched)
+        yield _Priced(each.limit, None, float(price) / omega_squared, allowed[each.name], unit, each.limit in touched)

@@ -9,8 +9,8 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, floor
+from optimizer.figures.machine_limits import touched_limits
 from optimizer.figures.proof import named, physical
-from optimizer.formulate import ceilings
 from optimizer.optimize import implied_max_mass, optimize, proven_or_null
 from optimizer.outputs import prepare
 from optimizer.pareto.front import Front, Point, front
@@ -19,7 +19,7 @@ from optimizer.program.optimum import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import Claim, verdict
 from optimizer.scene import Prepared
-from schemas.answers import MachineLimit, Timing
+from schemas.answers import Timing
 from schemas.machine import Machine
 from schemas.pareto import (
     CornerCertificate,
@@ -37,7 +37,6 @@ from schemas.requests import OptimizeRequest
 
 #: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
 _STRAIGHT = 1e-4
-_TOUCHED = 1e-4
 _WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
 
 # compiled programs of this process; they are lent to one thread at a time
@@ -171,7 +170,7 @@ def _point(
         weighted_moment_peak_Nm=float(weighted[1]),
         total_mass_kg=mass,
         counterweights=fitted,
-        active_limits=_touched(request, machine, float(plain.force.peak), float(plain.moment.peak), mass),
+        active_limits=touched_limits(machine, request.objective, scene.responses, u, mass, square),
         certificate=CornerCertificate(
             force_N=proven_or_null(proven[0]),
             moment_Nm=proven_or_null(proven[1]),
@@ -236,21 +235,6 @@ def _reason(request: ParetoRequest, found: Front, kept: Sequence[ParetoPoint]) -
     if len(found.points) == 1:
         return "reached_together"
     return "resolution" if len(kept) < request.points else None
-
-
-def _touched(
-    request: ParetoRequest, machine: Machine, force: float, moment: float, mass: float
-) -> tuple[MachineLimit, ...]:
-    """Limits of the whole machine that the counterweights touch."""
-    touched: list[MachineLimit] = []
-    budget, allowed = machine.max_total_mass_kg, ceilings(request.objective)
-    if budget is not None and mass >= budget * (1.0 - _TOUCHED):
-        touched.append("max_total_mass")
-    if "force" in allowed and force >= allowed["force"] * (1.0 - _TOUCHED):
-        touched.append("force_ceiling")
-    if "moment" in allowed and moment >= allowed["moment"] * (1.0 - _TOUCHED):
-        touched.append("moment_ceiling")
-    return tuple(touched)
 
 
 def _infeasible(request: ParetoRequest, machine: Machine, solver: Solver) -> ParetoFront:

@@ -1,0 +1,160 @@
+"""A response is added in one file of its own and a registration, and nothing else has to know it.
+
+What knows the pair of the contract by name is listed here too.
+"""
+
+import re
+from pathlib import Path
+
+import cvxpy as cp
+import numpy as np
+import pytest
+
+import optimizer
+from optimizer.formulate import RESPONSES, Weighable, ceilings, formulate, smallest_peak
+from optimizer.mechanics.inertia import Wrench
+from optimizer.mechanics.layout import Layout
+from optimizer.outputs import prepare
+from optimizer.program.optimum import optimum
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import Solution
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import claim, verdict
+from optimizer.response import Response
+from optimizer.scene import Prepared
+from optimizer.sweep.optimized import optimized
+from schemas.requests import OptimizeRequest
+
+SOLVER = Solver()
+#: plane of a bearing about which a couple shall be small as well, m; its weight [1/(N m)]
+PLANE, WEIGHT = 0.7, 0.2
+MACHINE = {
+    "kind": "reciprocating",
+    "speed_rpm": 900.0,
+    "throws": [
+        {
+            "position_m": z,
+            "crank_radius_m": 0.1,
+            "crank_angle_deg": angle,
+            "rotating_mass_kg": 4.0,
+            "rows": [{"axis_deg": axis, "reciprocating_mass_kg": mass}],
+        }
+        for z, angle, axis, mass in ((-0.3, 0.0, 90.0, 9.0), (0.3, 110.0, 60.0, 12.0))
+    ],
+    "webs": [
+        {"name": name, "position_m": z, "counterweight_radius_m": 0.15, "max_mass_kg": most}
+        for name, z, most in (("a", -0.4, 3.0), ("b", 0.05, 20.0), ("c", 0.4, 20.0))
+    ],
+}
+REQUEST = OptimizeRequest.model_validate({"machine": MACHINE})
+#: where the pair of the contract may be named, and why
+NAMED_IN = {
+    "mechanics/inertia.py": "makes them",
+    "formulate.py": "translates the fields of the contract",
+    "figures/first_order.py": "fields of the answer",
+    "figures/stages.py": "figures of both",
+    "figures/rules_of_thumb.py": "figures of both",
+    "pareto/pareto.py": "a front is of these two: fields of its answer",
+    "sweep/validity.py": "rules between the fields of a request",
+    "warm_up.py": "a request",
+    # another force or torque altogether
+    "effects/dynamics.py": "friction",
+    "figures/dynamics.py": "of the piston",
+    "mechanics/gas.py": "of the gas",
+}
+
+
+def _couple(layout: Layout, baseline: Wrench) -> Response:
+    """Couple about the plane: that about the reference plane, moved by the force."""
+    shift = layout.reference_plane - PLANE
+    return Response("couple", "N m", baseline.moment + baseline.force * shift, layout.webs.position - PLANE)
+
+
+def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> None:
+    couple = Weighable(
+        name="couple",
+        unit="N m",
+        response=_couple,
+        weight=lambda machine, objective: WEIGHT,
+        ceiling=lambda objective: ceiling,
+        ceiling_field="moment_ceiling_Nm",
+        limit="moment_ceiling",
+    )
+    monkeypatch.setitem(RESPONSES, couple.name, couple)
+
+
+def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, Solution]:
+    scene = prepare(request, ("residual",))
+    program = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    found = optimum(program, 1e-6, True, SOLVER)
+    assert isinstance(found, Solution)
+    return scene, program, found
+
+
+def _by_hand(scene: Prepared, limit: float | None) -> float:
+    """Independent: the smallest objective [N], masses summed by hand and posed in complex variables."""
+    turning, rows = scene.layout.rotating, scene.layout.reciprocating
+    u = cp.Variable(3, complex=True)
+    z = np.array([web.position_m for web in scene.machine.webs])
+    span = 0.8  # of throws and webs, m
+    peaks = []
+    for about in (None, float(scene.layout.reference_plane), PLANE):
+        arm, own, web = (
+            (lambda at, about=about: np.ones_like(at) if about is None else at - about)(each)
+            for each in (turning.position, rows.position, z)
+        )
+        half = 0.5 * rows.mass * rows.crank_radius * own
+        co = np.sum(turning.mass * turning.radius * turning.direction * arm) + np.sum(half * rows.crank_direction)
+        counter = np.sum(half * np.conj(rows.crank_direction) * rows.axis**2)
+        peaks.append(cp.abs(co + web @ u) + abs(counter))
+    most = np.array([web.max_mass_kg * web.counterweight_radius_m for web in scene.machine.webs])
+    rules = [cp.abs(u) <= most]
+    if limit is not None:
+        rules.append(peaks[2] <= limit / scene.omega_squared)
+    goal = cp.Minimize(peaks[0] + peaks[1] / span + WEIGHT * peaks[2])
+    return float(cp.Problem(goal, rules).solve(solver=cp.CLARABEL)) * scene.omega_squared
+
+
+@pytest.mark.parametrize("limited", [False, True])
+def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyPatch, limited: bool) -> None:
+    _register(monkeypatch)
+    scene, _, free = _solved(REQUEST)
+    limit = None
+    if limited:
+        least = optimum(smallest_peak(scene.responses[2], REQUEST.machine), 1e-6, False, SOLVER)
+        assert isinstance(least, Solution)
+        # half-way from what it is to what it can be
+        limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared
+        _register(monkeypatch, limit)
+        assert ceilings(REQUEST.objective) == {"couple": limit}
+    scene, program, found = _solved(REQUEST)
+    assert program.names.terms[2].response == "couple"
+    mass = np.asarray(program.mass(found.unbalance))
+    bound, of_mass = np.asarray(found.lower_bound), np.asarray(found.mass_lower_bound)
+    judged = verdict(claim(program, found.unbalance, mass, bound, found.multipliers, of_mass), 1e-6)
+    assert judged.status == "optimal", judged.reason
+    # the objective is what its responses come to over the turn, sampled
+    turned = np.linspace(0.0, 2.0 * np.pi, 20_000)
+    peaks = [np.max(np.abs(each.over_turn(found.unbalance, turned))) for each in scene.responses]
+    assert found.objective == pytest.approx(peaks[0] + peaks[1] / 0.8 + WEIGHT * peaks[2], rel=1e-6)
+    rest = float(program.objective(np.zeros(3, complex))) * scene.omega_squared
+    assert found.objective * scene.omega_squared == pytest.approx(_by_hand(scene, limit), abs=1.01e-6 * rest)
+    if limit is not None:
+        assert peaks[2] * scene.omega_squared == pytest.approx(limit, rel=1e-6)
+        assert found.objective > free.objective
+
+
+def test_a_sweep_knows_the_response_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
+    _register(monkeypatch)
+    scene, _, found = _solved(REQUEST)
+    columns, unbalance = optimized(REQUEST, 3, SOLVER)
+    assert columns["status"].tolist() == ["optimal"] * 3
+    np.testing.assert_allclose(columns["objective"], found.objective * scene.omega_squared, rtol=1e-12)
+    np.testing.assert_allclose(unbalance, np.tile(found.unbalance, (3, 1)), rtol=1e-9, atol=1e-12)
+
+
+def test_only_these_files_name_the_responses_of_the_contract() -> None:
+    root = Path(optimizer.__file__).parent
+    name = re.compile(r"""["'](force|moment)["']|\b(force|moment)_(weight|ceiling)|\.(force|moment)\b""")
+    found = {str(path.relative_to(root)) for path in root.rglob("*.py") if name.search(path.read_text("utf-8"))}
+    assert found == set(NAMED_IN)
