@@ -1,7 +1,7 @@
 """Arrays and their exact sums. Leading axes are programs or machines; vectors across the shaft are complex, x + jy."""
 
 from collections.abc import Callable
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import is_dataclass
 from typing import Any, TypeVar
 
 import numpy as np
@@ -22,14 +22,13 @@ SMALLEST = 1e-250
 
 def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
     """The same dataclass with a function of every array in it, parts within parts too; what is no array stays."""
-    changed: dict[str, Any] = {}
-    for field in fields(part):  # type: ignore[arg-type]  # a dataclass, which Part cannot say
-        value = getattr(part, field.name)
-        if isinstance(value, np.ndarray | np.generic):
-            changed[field.name] = function(value)
-        elif is_dataclass(value):
-            changed[field.name] = mapped(value, function)
-    return replace(part, **changed)  # type: ignore[type-var]
+    return type(part)(**{name: _mapped(value, function) for name, value in vars(part).items()})
+
+
+def _mapped(value: Any, function: Callable[[Any], Any]) -> Any:
+    if isinstance(value, np.ndarray | np.generic):
+        return function(value)
+    return mapped(value, function) if is_dataclass(value) else value
 
 
 def total(terms: Complex) -> Complex:

@@ -53,7 +53,7 @@ def multipliers_as_text(
 
 def _implied(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits that the proof of each design counts with in place of those of the machine, kg."""
-    smaller = most < limits(machine).max_mass
+    smaller = most < limits(machine, most.shape[:-1]).max_mass
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
         for of_design in zip(most.tolist(), smaller.tolist(), strict=True)
