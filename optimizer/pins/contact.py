@@ -84,8 +84,9 @@ def pin_contact(lever: Real, torque: Real, stiffness: Real, clearance: Real, err
     load = _in_equilibrium(scaled, turn, shift)
     gap = _gap(scaled, turn, shift, load)
     force = stiffest * size
+    # |Q - Q*| <= sqrt(2 k gap), and k <= 1 in these units
+    bound = force * (np.sqrt(2.0 * gap) + _rounding(scaled, turn, shift, load))
     turn, shift = turn * size / reach, shift * size
-    bound = force * np.sqrt(2.0 * gap)
     return Contact(
         (load * force[:, None]).reshape(shape),
         turn.reshape(shape[:-1]),
@@ -180,16 +181,21 @@ def _in_equilibrium(scaled: _Scaled, turn: Real, shift: Real) -> Real:
     strain = scaled.strain(turn, shift)
     load = scaled.stiffness * scaled.beyond(strain)
     bearing = np.where(np.abs(strain) > scaled.clearance, scaled.stiffness, 0.0)
-    whole = _or_one(np.sum(bearing, axis=-1))
-    mean = np.sum(bearing * scaled.lever, axis=-1) / whole
-    beyond = scaled.lever - mean[:, None]
-    square = np.sum(bearing * beyond**2, axis=-1)
+    beyond, whole, square, mean = _about_mean(scaled, bearing)
     for _ in range(2):
         force = -np.sum(load, axis=-1)
         moment = scaled.torque - np.sum(load * scaled.lever, axis=-1) - mean * force
         turned = np.where(square > 0.0, moment / _or_one(square), 0.0)
         load = load + bearing * (turned[:, None] * beyond + (force / whole)[:, None])
     return load
+
+
+def _about_mean(scaled: _Scaled, bearing: Real) -> tuple[Real, Real, Real, Real]:
+    """Levers (m, n) about the stiffness's mean of the bearing pins, whole stiffness, second moment, and that mean."""
+    whole = _or_one(np.sum(bearing, axis=-1))
+    mean = np.sum(bearing * scaled.lever, axis=-1) / whole
+    beyond = scaled.lever - mean[:, None]
+    return beyond, whole, np.sum(bearing * beyond**2, axis=-1), mean
 
 
 def _gap(scaled: _Scaled, turn: Real, shift: Real, load: Real) -> Real:
@@ -202,3 +208,20 @@ def _gap(scaled: _Scaled, turn: Real, shift: Real, load: Real) -> Real:
     against = 0.5 * stiffness * np.maximum(over, 0.0) ** 2 + size**2 / (2.0 * stiffness)
     against = against + size * (scaled.clearance + np.abs(strain))
     return np.sum(np.where(same, bears, against), axis=-1)
+
+
+def _rounding(scaled: _Scaled, turn: Real, shift: Real, load: Real) -> Real:
+    """What rounding alone may have done to a load, (m,).
+
+    The strains are sums of parts that may cancel. What is left of the two balances, and what the levers have lost when
+    their mean was taken off, is carried by all bearing pins as :func:`_in_equilibrium` spreads it.
+    """
+    strain = scaled.strain(turn, shift)
+    parts = np.abs(scaled.lever * turn[:, None]) + np.abs(shift)[:, None] + np.abs(scaled.error) + scaled.clearance
+    bearing = np.where(np.abs(strain) > scaled.clearance, scaled.stiffness, 0.0)
+    beyond, whole, square, _ = _about_mean(scaled, bearing)
+    # levers are at most 1: a sum of n products, each with a lever that is known to some eps
+    off = (load.shape[-1] + 8.0) * _EPS * (np.sum(np.abs(load), axis=-1) + np.abs(scaled.torque))
+    turned = np.where(square > 0.0, off / _or_one(square), 0.0)
+    spread = bearing * (turned[:, None] * np.abs(beyond) + (off / whole)[:, None])
+    return np.max(4.0 * _EPS * scaled.stiffness * parts + spread, axis=-1)
