@@ -5,7 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.base import Model
-from schemas.quantities import Degrees, Name
+from schemas.quantities import Degrees, Kilograms, Name
 
 ResponseName = Literal["force", "moment"]
 Part = Literal["co", "counter"]
@@ -107,7 +107,7 @@ class DesignMultipliers(Model):
     conflict: BoundMultipliers | None = Field(
         description="that the ceilings cannot be kept; only if infeasible", examples=[None]
     )
-    implied_max_mass_kg: dict[Name, float] = Field(
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
         description="of webs without a limit, or with one far beyond any need: limits that change nothing, which the"
         " bounds count with",
         examples=[{"far": 41.2}],

@@ -36,11 +36,12 @@ def measure(console: Console, request: SweepRequest, processes: int, marks: int 
     with tempfile.TemporaryDirectory() as folder:
         desk = Desk(Settings(data_dir=Path(folder), database_url=None, engine="processes", sweep_workers=processes))
         try:
-            job, _ = desk.sweep(request)
+            jobs = desk.of()
+            job, _ = jobs.sweep(request)
             began, mark = time.perf_counter(), 1
             while job.active:
                 time.sleep(0.1)
-                job = desk.get(job.id)
+                job = jobs.get(job.id)
                 if job.done * marks >= mark * job.total:
                     mark = job.done * marks // job.total + 1
                     table.add_row(f"{job.done:,}", *_memory(Path(folder)), f"{job.done / _since(began):,.0f}")
@@ -48,8 +49,8 @@ def measure(console: Console, request: SweepRequest, processes: int, marks: int 
                 raise RuntimeError(f"the sweep {job.state}: {job.error}")
             for name, known in FORMATS.items():
                 began = time.perf_counter()
-                schema = desk.schema(job)
-                size = sum(len(part) for part in known.encode(schema, desk.rows(job, schema, 0, None)))
+                schema = jobs.schema(job)
+                size = sum(len(part) for part in known.encode(schema, jobs.rows(job, schema).batches))
                 rate = job.total / _since(began)
                 table.add_row(f"read as {name}", *_memory(Path(folder))[:2], f"{size / _MB:,.0f}", f"{rate:,.0f}")
         finally:

@@ -35,10 +35,11 @@ def seconds(request: SweepRequest, workers: int) -> float:
 
 
 def _run(desk: Desk, request: SweepRequest) -> None:
-    job, _ = desk.sweep(request)
+    jobs = desk.of()
+    job, _ = jobs.sweep(request)
     while job.active:
         time.sleep(0.02)
-        job = desk.get(job.id)
+        job = jobs.get(job.id)
     if (job.state, job.done) != ("done", request.total):
         raise RuntimeError(f"the sweep {job.state}: {job.error}")
 

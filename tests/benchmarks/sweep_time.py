@@ -25,7 +25,7 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.sweep.optimized:layout_of",
         "optimizer.sweep.optimized:rotating",
         "optimizer.sweep.optimized:reciprocating",
-        "optimizer.sweep.optimized:_statement",
+        "optimizer.sweep.optimized:formulate",
     ),
     _STAGES: ("optimizer.program.kernel.interior_point:solve",),
     "scaling, choice of the point": ("optimizer.program.batch:fast", "optimizer.program.batch:yardstick"),

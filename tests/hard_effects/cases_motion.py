@@ -20,7 +20,7 @@ from tests.hard_effects.exact import Number, Row, State, mp
 from tests.hard_effects.exact_turn import Machine, angle_at
 from tests.hard_effects.machines import MACHINES, Hard
 
-_EFFECTS = ("torque", "torque_integrals", "rod_forces", "shaft_loads")
+_EFFECTS = ("kinematics", "gas", "piston_force", "torque", "torque_integrals", "rod_forces", "shaft_loads")
 _BEARINGS = [{"name": "A", "position_m": -0.3}, {"name": "B", "position_m": 0.7}]
 
 
