@@ -15,6 +15,7 @@ from optimizer.program.fast import Fast, fast
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.polish import objective_multipliers
+from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.modelling import CompiledPrograms
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
@@ -197,8 +198,8 @@ def _polygonal(sides: int) -> Run:
     return lambda task, position, limit: _proving(task, polygonal(task.statement, sides, position, limit))
 
 
-def _proving(task: Task, point: matrices.Point | matrices.NoPoint) -> Found | str:
-    if isinstance(point, matrices.NoPoint):
+def _proving(task: Task, point: matrices.Point | NoPoint) -> Found | str:
+    if isinstance(point, NoPoint):
         return point.reason
 
     def prove() -> float:

@@ -25,6 +25,7 @@ from optimizer.accuracy.rivals.sampled import OverTheTurn, half_turn, sampled
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import combined, statement, weighted_peak
@@ -45,7 +46,7 @@ def rest(task: Task) -> float:
     return float(task.statement.objective(np.zeros(task.statement.limits.radius.shape, complex)))
 
 
-def solved(outcome: matrices.Point | matrices.NoPoint) -> matrices.Point:
+def solved(outcome: matrices.Point | NoPoint) -> matrices.Point:
     assert isinstance(outcome, matrices.Point), outcome
     return outcome
 
@@ -120,7 +121,7 @@ def test_points_of_polygons_keep_limits_and_ceilings(sides: int, seed: int) -> N
     """The polygons lie within the discs: what is feasible for the linear program is feasible."""
     task = random_task(seed, "sum", (1.0, 1.0), True, True, True)
     found = polygonal(task.statement, sides, 0.25, 5.0)
-    if isinstance(found, matrices.NoPoint):
+    if isinstance(found, NoPoint):
         assert sides == 4  # a square of the ceilings may hold no point where the circle does
         return
     limits, size = task.statement.limits, np.abs(found.unbalance)
@@ -181,7 +182,7 @@ def test_a_program_that_cannot_keep_its_ceilings_says_so() -> None:
         matrices.exact(hopeless, 1e-8, 5.0),
         sampled(hopeless, turn, 72, 0.0, 5.0),
     ):
-        assert isinstance(outcome, matrices.NoPoint)
+        assert isinstance(outcome, NoPoint)
         assert outcome.reason == "no counterweights keep the ceilings of this program"
 
 
@@ -193,7 +194,7 @@ def test_a_limit_of_time_is_kept() -> None:
         polygonal(task.statement, 256, 0.0, 1e-9),
         matrices.exact(task.statement, 1e-8, 1e-9),
     ):
-        assert isinstance(outcome, matrices.NoPoint)
+        assert isinstance(outcome, NoPoint)
         assert "not solved within" in outcome.reason
 
 

@@ -9,18 +9,9 @@ multipliers are multipliers of the true norm. With N sides either is off by 1 - 
 import numpy as np
 from scipy.optimize import linprog
 
-from optimizer.accuracy.rivals.matrices import (
-    Assembly,
-    NoPoint,
-    Part,
-    Point,
-    add_limits,
-    add_rows,
-    dense,
-    point,
-    scaled,
-)
+from optimizer.accuracy.rivals.matrices import Point, add_rows, point, scaled
 from optimizer.arrays import Complex, Real
+from optimizer.program.reference.assembled import Assembly, NoPoint, Part, add_limits, dense
 from optimizer.program.statement import Statement
 
 #: ceilings are lowered by this share of their size: the feasibility tolerance of HiGHS

@@ -14,19 +14,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.accuracy.rivals.matrices import (
-    Assembly,
-    NoPoint,
-    Part,
-    Point,
-    add_discs,
-    add_limits,
-    dense,
-    point,
-    scaled,
-    vector_duals,
-)
+from optimizer.accuracy.rivals.matrices import Point, point, scaled
 from optimizer.arrays import Complex, Real
+from optimizer.program.reference.assembled import Assembly, NoPoint, Part, add_discs, add_limits, dense, vector_duals
 from optimizer.program.scaling import Scaling
 from optimizer.program.statement import Statement
 from optimizer.response import Response

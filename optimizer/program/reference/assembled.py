@@ -1,0 +1,252 @@
+"""The cone program as matrices, handed to clarabel without a modelling layer: for shapes that no two programs share.
+
+    minimise    cost @ v
+    subject to  constant + matrix @ v >= 0            rows
+                |vector_i(v)| <= size_i(v)            cones in the plane
+
+The variables begin with the scaled x, y and fraction of every web (:mod:`optimizer.program.reference.modelling`); what
+follows belongs to the program at hand.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+from scipy import sparse
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.reference.modelling import ScaledData, ScaledSolution
+
+#: rows of a second-order cone in the plane: size, real part, imaginary part
+_PLANE = 3
+
+
+@dataclass(frozen=True)
+class NoPoint:
+    """A program that found nothing, and why."""
+
+    reason: str
+
+
+@dataclass(frozen=True)
+class Part:
+    """Entries of a few columns of some rows."""
+
+    row: np.ndarray
+    column: np.ndarray
+    value: Real
+
+
+def dense(column: int, values: Real) -> Part:
+    """A dense part (m, n) that begins at a column."""
+    row, inside = np.nonzero(values)
+    return Part(row, column + inside, values[row, inside])
+
+
+def diagonal(column: int, values: Real) -> Part:
+    """A diagonal part (m,), the first entry at a column."""
+    index = np.arange(values.size)
+    return Part(index, column + index, values)
+
+
+class Assembly:
+    """Rows and cones put together one after the other."""
+
+    def __init__(self, columns: int) -> None:
+        self.columns = columns
+        self._parts: list[Part] = []
+        self._constants: list[Real] = []
+        self._cones: list[tuple[bool, int]] = []  # whether cones in the plane, number of rows
+        self._rows = 0
+
+    @property
+    def rows(self) -> int:
+        return self._rows
+
+    def nonnegative(self, constant: Real, *parts: Part) -> slice:
+        """Rows constant + parts @ v >= 0; returns where they stand."""
+        return self._add(constant, parts, cones=False)
+
+    def cones(self, size: Real, size_parts: tuple[Part, ...], vectors: Real, vector_parts: tuple[Part, ...]) -> slice:
+        """Cones |vector_i| <= size_i; returns where they stand.
+
+        Parameters
+        ----------
+        size : (count,) constants of the right sides.
+        vectors : (2 count,) constants of the vectors; all real parts stand first, as in their parts.
+        """
+        count = size.size
+
+        def moved(row: np.ndarray, offset: int) -> np.ndarray:
+            # the solver wants the rows of a cone together
+            row = row + offset
+            return _PLANE * (row % count) + row // count
+
+        constant = np.empty(_PLANE * count)
+        constant[moved(np.arange(count), 0)] = size
+        constant[moved(np.arange(2 * count), count)] = vectors
+        parts = [Part(moved(part.row, 0), part.column, part.value) for part in size_parts]
+        parts += [Part(moved(part.row, count), part.column, part.value) for part in vector_parts]
+        return self._add(constant, parts, cones=True)
+
+    def _add(self, constant: Real, parts: Sequence[Part], cones: bool) -> slice:
+        start = self._rows
+        self._parts += [Part(start + part.row, part.column, part.value) for part in parts]
+        self._constants.append(constant)
+        self._rows += constant.size
+        if constant.size:
+            self._cones.append((cones, constant.size))
+        return slice(start, self._rows)
+
+    def matrix(self) -> sparse.csc_matrix:
+        """(rows, columns)."""
+        row, column, value = (
+            np.concatenate([getattr(part, name) for part in self._parts]) for name in ("row", "column", "value")
+        )
+        return sparse.csc_matrix((value, (row, column)), shape=(self._rows, self.columns))
+
+    def constant(self) -> Real:
+        """(rows,)."""
+        return np.concatenate(self._constants)
+
+    def solve(self, cost: Real, tolerance: float, time_limit_s: float) -> tuple[Real, Real] | NoPoint:
+        """Solve by clarabel: variables and the multipliers of all rows.
+
+        Parameters
+        ----------
+        tolerance : of the gap, absolute and relative, and of feasibility, in scaled units.
+        time_limit_s : after which the solver gives up.
+        """
+        import clarabel
+
+        settings = clarabel.DefaultSettings()
+        settings.verbose = False
+        settings.time_limit = time_limit_s
+        settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+        cones: list[object] = []
+        for plane, rows in self._cones:
+            cones += (
+                [clarabel.SecondOrderConeT(_PLANE)] * (rows // _PLANE) if plane else [clarabel.NonnegativeConeT(rows)]
+            )
+        # clarabel: A v + s = b with s in the cones
+        quadratic = sparse.csc_matrix((self.columns, self.columns))
+        found = clarabel.DefaultSolver(quadratic, cost, -self.matrix(), self.constant(), cones, settings).solve()
+        v, dual, status = np.array(found.x), np.array(found.z), clarabel.SolverStatus
+        if found.status == status.MaxTime:
+            return NoPoint(f"not solved within {time_limit_s:.3g} s")
+        if found.status in (status.PrimalInfeasible, status.AlmostPrimalInfeasible):
+            return NoPoint("no counterweights keep the ceilings of this program")
+        usable = (status.Solved, status.AlmostSolved, status.InsufficientProgress, status.MaxIterations)
+        if found.status not in usable or not (np.all(np.isfinite(v)) and np.all(np.isfinite(dual))):
+            return NoPoint(f"the solver ended with {found.status}")
+        return v, dual
+
+
+def vector_duals(dual: Real) -> Complex:
+    """Multipliers p of |a| <= t as complex numbers: the dual of the cone is (|p|, -p)."""
+    _, real, imaginary = dual.reshape(-1, _PLANE).T
+    return -(real + 1j * imaginary)
+
+
+def add_limits(program: Assembly, data: ScaledData) -> None:
+    """Fraction <= 1, sectors and budget; the discs are left to the program."""
+    webs = data.shape.webs
+    program.nonnegative(np.ones(webs), diagonal(2 * webs, -np.ones(webs)))
+    if data.shape.sectors:
+        # |y| cosine <= x, with slack where the web is free
+        for sign in (1.0, -1.0):
+            program.nonnegative(data.slack, diagonal(0, np.ones(webs)), diagonal(webs, sign * data.cosine))
+    if data.shape.budget:
+        program.nonnegative(np.ones(1), dense(2 * webs, -data.budget[None, :]))
+
+
+def add_discs(program: Assembly, data: ScaledData) -> None:
+    """Discs |(x_k, sine_k y_k)| <= fraction_k."""
+    webs = data.shape.webs
+    place = diagonal(0, np.concatenate([np.ones(webs), data.sine]))
+    program.cones(np.zeros(webs), (diagonal(2 * webs, np.ones(webs)),), np.zeros(2 * webs), (place,))
+
+
+class Target(NamedTuple):
+    """A sum of groups that is not to exceed a level."""
+
+    groups: np.ndarray  # (groups,) bool
+    most: float  # scaled, above the highest floors of the groups
+
+
+class Assembled(NamedTuple):
+    """What was found, unjudged, with what the targets cost."""
+
+    solution: ScaledSolution
+    level: Real  # (groups,) above the highest floor of each
+    price: Real  # (targets,) multipliers
+
+
+def solved(
+    data: ScaledData,
+    tolerance: float,
+    time_limit_s: float,
+    weighed: np.ndarray | None = None,
+    targets: Sequence[Target] = (),
+) -> Assembled | NoPoint:
+    """Solve a scaled program of any groups, with its multipliers in the form of :class:`ConeProgram`.
+
+    A row of one term needs no variable for it: the cone is |a| <= level - floor, whose size has the row's multiplier.
+
+    Parameters
+    ----------
+    data : stage "objective" minimises levels, stage "mass" the mass.
+    weighed : (groups,) bool, those whose levels are minimised in stage "objective"; all by default.
+    targets : what other groups may come to.
+    """
+    shape = data.shape
+    webs, groups = shape.webs, shape.groups[-1] + 1
+    row, group = np.array(shape.rows, dtype=int), np.array(shape.groups, dtype=int)
+    alone = (np.bincount(row, minlength=group.size) == 1)[row]
+    together = np.flatnonzero(~alone)
+    norms, levels = 3 * webs, 3 * webs + together.size
+    program = Assembly(levels + groups)
+    # all rows of one term: |a_j| <= level_g - floor_r
+    single, both = np.flatnonzero(alone), np.concatenate([alone, alone])
+    above = np.zeros((single.size, groups))
+    above[np.arange(single.size), group[row[single]]] = 1.0
+    direct = program.cones(
+        -data.floor[row[single]],
+        (dense(levels, above),),
+        data.constant[:, alone].ravel(),
+        (dense(0, data.matrix[both]),),
+    )
+    # the others: |a_j| <= t_j, level_g >= floor_r + sum t_j
+    summed = np.setdiff1d(np.arange(group.size), row[single])
+    membership = (row[together][None, :] == summed[:, None]).astype(float)
+    above = np.zeros((summed.size, groups))
+    above[np.arange(summed.size), group[summed]] = 1.0
+    rows = program.nonnegative(-data.floor[summed], dense(norms, -membership), dense(levels, above))
+    cones = program.cones(
+        np.zeros(together.size),
+        (diagonal(norms, np.ones(together.size)),),
+        data.constant[:, ~alone].ravel(),
+        (dense(0, data.matrix[~both]),),
+    )
+    caps = program.cones(data.ceiling_cap, (), data.ceiling_constant.ravel(), (dense(0, data.ceiling_matrix),))
+    add_limits(program, data)
+    add_discs(program, data)
+    if targets:
+        most = np.array([target.most for target in targets])
+        sums = np.stack([target.groups for target in targets]).astype(float)
+        charged = program.nonnegative(most, dense(levels, -sums))
+    cost = np.zeros(program.columns)
+    if shape.stage == "mass":
+        cost[2 * webs : 3 * webs] = data.mass
+    else:
+        cost[levels:] = 1.0 if weighed is None else weighed.astype(float)
+    found = program.solve(cost, tolerance, time_limit_s)
+    if isinstance(found, NoPoint):
+        return found
+    v, dual = found
+    row_multiplier, term = np.zeros(group.size), np.zeros(row.size, complex)
+    row_multiplier[row[single]], row_multiplier[summed] = dual[direct][::_PLANE], dual[rows]
+    term[single], term[together] = vector_duals(dual[direct]), vector_duals(dual[cones])
+    solution = ScaledSolution(v[:webs], v[webs : 2 * webs], row_multiplier, term, vector_duals(dual[caps]), "assembled")
+    return Assembled(solution, v[levels:], dual[charged] if targets else np.zeros(0))
