@@ -28,9 +28,9 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 
 @cache
 def checker() -> ModuleType:
-    """The file for answers of every kind; neither belongs to a package nor imports anything of this one."""
-    # the second file imports the first by its name
-    modules = [_loaded(name) for name in ("verify", "verify_many")]
+    """The file for answers of every kind; none of them belongs to a package or imports anything of this one."""
+    # each imports those before it by their names
+    modules = [_loaded(name) for name in ("verify_numbers", "verify_program", "verify", "verify_many")]
     return modules[-1]
 
 

@@ -15,16 +15,8 @@ from typing import Any, Iterator, Sequence
 
 from verify import (
     CEILING,
-    NAMES,
-    ONE,
-    SPECK,
     Claim,
     Claims,
-    Machine,
-    NotCovered,
-    Place,
-    Statement,
-    Unreadable,
     before,
     ceilings,
     counterweights,
@@ -37,10 +29,10 @@ from verify import (
     optimum,
     priced_at,
     proven,
-    read,
-    real,
     smallest,
 )
+from verify_numbers import ONE, SPECK, NotCovered, Place, Unreadable, read, real
+from verify_program import NAMES, Machine, Statement
 
 __all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
 

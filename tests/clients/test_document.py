@@ -27,7 +27,7 @@ def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_
         pytest.skip(f"{command[0]} is not installed: the examples in {language} were NOT run")
     found = [one for one in _EXAMPLE.findall((ROOT / "docs/clients.md").read_text()) if one[0] == language]
     (tmp_path / name).write_text("".join(code.replace(_WRITTEN, url) for _, code, _ in found))
-    for file in (CLIENT, CLIENT.with_name("verify.py")):
+    for file in (CLIENT, *CLIENT.parent.glob("verify*.py")):
         shutil.copy(file, tmp_path)
     environment = {**os.environ, "PYTHONPATH": ""}
     ran = subprocess.run(

@@ -19,7 +19,9 @@ from service.cli import app
 from service.documents.examples import bodies
 from service.verification import checker
 
-FILE = Path(__file__).parents[2] / "examples" / "client" / "verify.py"
+CLIENT = Path(__file__).parents[2] / "examples" / "client"
+#: what has to lie beside one another for one answer
+FILES = [CLIENT / name for name in ("verify.py", "verify_program.py", "verify_numbers.py")]
 BODY = bodies("")["2d12"]
 
 
@@ -38,9 +40,10 @@ def files(answer: dict[str, Any], tmp_path: Path) -> tuple[Path, Path]:
 
 
 def alone(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    """The file by itself, far from the project, with nothing but the standard library."""
-    shutil.copy(FILE, folder)
-    command = [sys.executable, "-I", "-S", "-W", "error", "verify.py", *arguments]
+    """The files by themselves, far from the project, with nothing but the standard library."""
+    for file in FILES:
+        shutil.copy(file, folder)
+    command = [sys.executable, "-E", "-s", "-S", "-W", "error", "verify.py", *arguments]
     return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
 
 
@@ -59,11 +62,11 @@ def test_the_file_needs_python_3_8() -> None:
     """As far as the grammar tells; the linter looks at the names for that version."""
     import ast
 
-    for file in FILE.parent.glob("verify*.py"):
+    for file in CLIENT.glob("verify*.py"):
         tree = ast.parse(file.read_text(), feature_version=(3, 8))
         names = {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
         names |= {node.module for node in ast.walk(tree) if isinstance(node, ast.ImportFrom) and node.module}
-        assert {name.partition(".")[0] for name in names} <= {*sys.stdlib_module_names, "verify"}
+        assert {name.partition(".")[0] for name in names} <= {*sys.stdlib_module_names, *(file.stem for file in FILES)}
 
 
 def test_a_broken_claim_has_an_exit_code(files: tuple[Path, Path], answer: dict[str, Any]) -> None:

@@ -1,0 +1,243 @@
+"""Exact numbers, and how the files of verify.py are read into them. The standard library, Python 3.8 or newer."""
+
+from __future__ import annotations
+
+import json
+import re
+import sys
+from fractions import Fraction
+from functools import lru_cache
+from math import inf, isfinite, isqrt
+from pathlib import Path
+from typing import Any, Iterable, Iterator, Sequence
+
+DATA = 2.0**-48  # of itself: what every datum in a figure may be off by, because the service computes in doubles
+
+# ---- numbers
+
+BITS = 800
+
+
+class Number:
+    """A complex number in a rectangle (low, high) x y of whole multiples of 2^-BITS, as all doubles are.
+
+    Sums are exact, all else is rounded outwards. Only real numbers are compared, divided by, or made a float.
+    """
+
+    __slots__ = ("high", "low", "y")
+
+    def __init__(self, low: int, high: int, y: tuple[int, int] = (0, 0)) -> None:
+        self.low, self.high, self.y = low, high, y
+
+    def __add__(self, other: Number) -> Number:
+        return Number(self.low + other.low, self.high + other.high, (self.y[0] + other.y[0], self.y[1] + other.y[1]))
+
+    def __neg__(self) -> Number:
+        return Number(-self.high, -self.low, (-self.y[1], -self.y[0]))
+
+    def __sub__(self, other: Number) -> Number:
+        return self + -other
+
+    def __mul__(self, other: Number) -> Number:
+        x, y = (self.low, self.high), (other.low, other.high)
+        (a, b), (c, d), (e, f), (g, h) = (
+            _product(*of) for of in ((x, y), (self.y, other.y), (x, other.y), (self.y, y))
+        )
+        return Number((a - d) >> BITS, -((c - b) >> BITS), ((e + g) >> BITS, -(-(f + h) >> BITS)))
+
+    def __truediv__(self, other: Number) -> Number:
+        """By a number above 0."""
+        return self * Number((1 << 2 * BITS) // other.high, -(-(1 << 2 * BITS) // other.low))
+
+    def __abs__(self) -> Number:
+        (a, b), (c, d) = ((max(x, -y, 0), max(-x, y)) for x, y in ((self.low, self.high), self.y))
+        return Number(a, b) if d == 0 else Number(isqrt(a * a + c * c), isqrt(b * b + d * d) + 1)
+
+    def conjugate(self) -> Number:
+        return Number(self.low, self.high, (-self.y[1], -self.y[0]))
+
+    def parts(self) -> tuple[Number, Number]:
+        """Of the vector x + jy across the shaft."""
+        return Number(self.low, self.high), Number(*self.y)
+
+    def along(self, other: Number) -> Number:
+        return (self.conjugate() * other).parts()[0]
+
+    def __float__(self) -> float:
+        """The upper end."""
+        try:
+            return self.high / (1 << BITS)
+        except OverflowError:
+            return sys.float_info.max if self.high > 0 else -sys.float_info.max
+
+
+def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
+    if a == (0, 0) or b == (0, 0):
+        return 0, 0
+    ends = [p * q for p in a for q in b]
+    return min(ends), max(ends)
+
+
+def real(number: float | Fraction) -> Number:
+    top, bottom = number.as_integer_ratio()
+    return Number((top << BITS) // bottom, -((-top << BITS) // bottom))
+
+
+def total(numbers: Iterable[Number]) -> Number:
+    return sum(numbers, ZERO)
+
+
+def largest(*numbers: Number) -> Number:
+    return Number(max(one.low for one in numbers), max(one.high for one in numbers))
+
+
+ZERO, ONE, HALF, J = real(0), real(1), real(0.5), Number(0, 0, (1 << BITS, 1 << BITS))
+STEP = Number(1, 1)
+#: 0 and 1 to the rounding of the data; the former for both parts of a direction
+SPECK = Number(-real(DATA).high, real(DATA).high)
+ABOUT_ONE, BLUR = ONE + SPECK, SPECK + J * SPECK
+PI = int("314159265358979323846264338327950288419716939937510582097494459230781640628620899")  # 10^80 times, cut off
+
+
+@lru_cache(maxsize=4096)
+def direction(degrees: float) -> Number:
+    """Unit vector: quarter turns are split off exactly, the series is summed in whole multiples of 2^-224.
+
+    The angle is off by 2 of these at most, every term by less than 6, and 60 terms together by less than 2^10.
+    """
+    top, bottom = degrees.as_integer_ratio()
+    quarter, rest = divmod(top % (360 * bottom), 90 * bottom)
+    angle = rest * (PI << 224) // (180 * bottom * 10**80)
+    sums, term, n = [0, 0], 1 << 224, 0
+    while term:
+        sums[n % 2] += term if n % 4 < 2 else -term
+        n += 1
+        term = term * angle // (n << 224)
+    slack = 1 << 10 if rest else 0
+    x, y = (((one - slack) << BITS - 224, (one + slack) << BITS - 224) for one in sums)
+    found = Number(*x, y)
+    for _ in range(quarter):
+        found = found * J
+    return found
+
+
+# ---- reading: nothing in the files is trusted
+
+_PI, _LBF = Fraction("3.14159265358979323846264338327950288"), Fraction("4.4482216152605")
+UNITS: dict[str, dict[str, Any]] = {
+    "m": {"m": 1, "cm": "0.01", "mm": "0.001", "in": "0.0254", "ft": "0.3048"},
+    "kg": {"kg": 1, "g": "0.001", "t": 1000, "lb": "0.45359237"},
+    "deg": {"deg": 1, "rad": 180 / _PI},
+    "rpm": {"rpm": 1, "rad/s": 30 / _PI, "Hz": 60},
+    "N": {"N": 1, "kN": 1000, "lbf": _LBF},
+    "Nm": {"N m": 1, "N mm": "0.001", "lbf ft": _LBF * Fraction("0.3048")},
+}
+_QUANTITY = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*([A-Za-z][A-Za-z/ ]*?)\s*", re.ASCII)
+#: fields of a request that are read here, and those that change nothing of what is checked
+KNOWN = (
+    " machine objective accuracy kind speed_rpm rotation reference_plane_m webs max_total_mass_kg throws position_m"
+    " crank_radius_m crank_angle_deg rotating_mass_kg rows axis_deg offset_m reciprocating_mass_kg connecting_rod"
+    " mass_kg reciprocating_share orbit_radius_m orbiting_mass_kg orbiting_position_m anti_rotation type count"
+    " eccentric_mass_kg counterweight_radius_m max_mass_kg sector centre_deg half_angle_deg combine force_weight"
+    " moment_weight direction_weights x y force_ceiling_N moment_ceiling_Nm least_mass orders relative_gap "
+)
+IDLE = (
+    " name description length_m throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
+    " tangential_gas_force_N drive_bearing pin_circle_radius_m outputs angles fidelity multipliers symmetric points"
+    " total_mass_budgets_kg "
+)
+
+
+class Unreadable(ValueError):
+    """Request or answer is not what the service takes or gives; ``path`` names the field."""
+
+    def __init__(self, path: Sequence[str | int], message: str) -> None:
+        super().__init__(f"{pointer(path)}: {message}")
+        self.path, self.message = tuple(path), message
+
+
+class NotCovered(Exception):
+    """The place of something that changes what is to be checked, and that is not known here."""
+
+
+def pointer(path: Sequence[str | int]) -> str:
+    """JSON pointer (RFC 6901), printable whatever the names in it are, and not for ever."""
+    found = "".join("/" + str(part).replace("~", "~0").replace("/", "~1") for part in path)
+    return found[:200].encode("utf-8", "backslashreplace").decode()
+
+
+class Place:
+    """A value in one of the files, and where it stands; false where there is none."""
+
+    def __init__(self, value: Any, *path: str | int) -> None:
+        self.value, self.path = value, path
+
+    def read(self, kinds: tuple[type, ...], name: str, default: Any = None) -> Any:
+        found = default if self.value is None else self.value
+        if not isinstance(found, kinds) or (isinstance(found, bool) and bool not in kinds):
+            raise Unreadable(self.path, f"must be {name}")
+        return found
+
+    def __bool__(self) -> bool:
+        return self.value is not None
+
+    def __truediv__(self, name: str) -> Place:
+        return Place(self.read((dict,), "an object", {}).get(name), *self.path, name)
+
+    def __iter__(self) -> Iterator[Place]:
+        return (Place(one, *self.path, k) for k, one in enumerate(self.read((list,), "a list", [])))
+
+    def text(self, *allowed: str, default: str | None = None) -> str:
+        found: str = self.read((str,), "a text", default)
+        if allowed and found not in allowed:
+            raise Unreadable(self.path, f"must be one of {', '.join(allowed)}")
+        return found
+
+    def double(self, default: float | None = None, least: float = -inf) -> float:
+        """The number as a double; a text with a unit is read in the request, to the nearest double."""
+        found = self.read((int, float, str), "a number", default)
+        try:
+            found = float(self._quantity(found) if isinstance(found, str) else found)
+        except OverflowError:
+            found = inf
+        if not isfinite(found) or found < least:
+            raise Unreadable(self.path, f"must be a finite number of at least {least:g}")
+        return found
+
+    def number(self, default: float | None = None, least: float = -inf) -> Number:
+        return real(self.double(default, least))
+
+    def _quantity(self, text: str) -> Fraction:
+        # of a list, the name of the list
+        name = next(str(part) for part in reversed(self.path) if isinstance(part, str))
+        units = UNITS.get(name.rpartition("_")[2], {}) if self.path[0] == "request" else {}
+        match = _QUANTITY.fullmatch(text) if len(text) <= 48 else None
+        symbol = " ".join(match.group(2).split()) if match else ""
+        if match is None or symbol not in units:
+            raise Unreadable(self.path, " ".join(["must be a number", *(f"or one in {unit}" for unit in units)]))
+        return Fraction(match.group(1)) * Fraction(units[symbol])
+
+    def known(self) -> None:
+        """Raises NotCovered where there is a field that is not known."""
+        for name in self.value if isinstance(self.value, dict) else ():
+            if f" {name} " not in IDLE and (self / name).value not in (None, [], {}):
+                if f" {name} " not in KNOWN:
+                    raise NotCovered(self / name)
+                (self / name).known()
+        for one in self if isinstance(self.value, list) else ():
+            one.known()
+
+
+def read(path: str) -> Any:
+    """JSON in a file or, as -, from standard input; or a JSON value a line. Raises OSError, ValueError."""
+    data = sys.stdin.buffer.read() if path == "-" else Path(path).read_bytes()
+    text = data.decode("utf-8-sig")
+    try:
+        try:
+            return json.loads(text)
+        except json.JSONDecodeError:
+            return [json.loads(line) for line in text.splitlines() if line.strip()]
+    except RecursionError:
+        raise ValueError(f"{path}: nested too deeply") from None
+    except json.JSONDecodeError as error:
+        raise ValueError(f"{path} is not JSON: {error}") from None

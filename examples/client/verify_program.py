@@ -1,0 +1,289 @@
+"""The machine of a request, its program, and what multipliers prove of it (docs/mathematics.md section 5)."""
+
+from __future__ import annotations
+
+from typing import Dict, Iterable, NamedTuple, Optional, Sequence, Tuple
+
+from verify_numbers import (
+    ABOUT_ONE,
+    BITS,
+    BLUR,
+    HALF,
+    ONE,
+    PI,
+    ZERO,
+    J,
+    NotCovered,
+    Number,
+    Place,
+    Unreadable,
+    direction,
+    largest,
+    real,
+    total,
+)
+
+NOTHING = 1e-230  # in the unit of a figure: what doubles do not tell from 0
+
+# ---- the machine
+
+
+class Mass(NamedTuple):
+    """A mass on a crank: kg m, its directions with and against the shaft, and where along the shaft [m]."""
+
+    product: Number
+    co: Number
+    counter: Number
+    position: Number
+
+
+class Web(NamedTuple):
+    """A place for a counterweight."""
+
+    name: str
+    position: Number
+    radius: Number
+    limit: Optional[Number]
+    sector: Optional[Tuple[float, float]]  # centre and half-angle, degrees
+
+
+NAMES = {"force": "N", "moment": "Nm"}
+#: phasors that turn with and against the shaft, of force [N] and moment [N m]
+Responses = Dict[str, Tuple[Number, Number]]
+
+
+class Machine:
+    """A machine in the units of the answer; its masses are exact, or known to their rounding."""
+
+    def __init__(self, place: Place, plane: Place, budget: Place, exact: bool = False) -> None:
+        (place / "rotation").text("ccw", "cw", default="ccw")
+        kind = (place / "kind").text("reciprocating", "scroll")
+        masses, planes, ends = (_throws if kind == "reciprocating" else _scroll)(place)
+        self.wide, self.blur = (ONE, ZERO) if exact else (ABOUT_ONE, BLUR)
+        omega = (place / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
+        self.square, self.masses, self.webs = omega * omega, masses, [_web(web) for web in place / "webs"]
+        if len({web.name for web in self.webs}) < len(self.webs):
+            raise Unreadable((*place.path, "webs"), "names must be unique")
+        self.budget = budget.number(least=0) if budget else None
+        # where the machine says that moments are, or midway; where the answer says so is what counts from here
+        self.asked_plane = (place / "reference_plane_m").number(0.5 * (min(planes) + max(planes)))
+        self.plane = plane.number() if plane else self.asked_plane
+        ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
+        span = real(max(ends)) - real(min(ends))
+        self.span = span if span.low > real(NOTHING).high else ONE
+        self.before = self.responses([])
+
+    def responses(self, weights: Sequence[Mass]) -> Responses:
+        """With counterweights."""
+        found = {}
+        for name in NAMES:
+            co = counter = ZERO
+            for mass in (*self.masses, *weights):
+                arm = ONE if name == "force" else mass.position * self.wide - self.plane * self.wide
+                size = mass.product * self.wide * self.square * arm
+                co = co + (mass.co + self.blur) * size
+                counter = counter + (mass.counter + self.blur) * size if mass.counter is not ZERO else counter
+            found[name] = co, counter
+        return found
+
+
+def _web(place: Place) -> Web:
+    most, sector = place / "max_mass_kg", place / "sector"
+    edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
+    radius, limit = (place / "counterweight_radius_m").number(least=0), most.number(least=0) if most else None
+    return Web((place / "name").text(), (place / "position_m").number(), radius, limit, edges)
+
+
+def _moving(product: Number, crank: Number, degrees: float, position: Number) -> Mass:
+    """Along an axis g: half of it turns along e^{jd}, half along e^{j(2g - d)} against the shaft."""
+    return Mass(product * HALF, crank, direction(degrees) * direction(degrees) * crank.conjugate(), position)
+
+
+def _throws(place: Place) -> tuple[list[Mass], list[float], list[float]]:
+    """Masses, planes whose middle is the default reference, and planes that the span counts."""
+    masses, planes = [], []
+    for throw in place / "throws":
+        radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
+        planes.append((throw / "position_m").double())
+        masses.append(Mass((throw / "rotating_mass_kg").number(0.0) * radius, crank, ZERO, real(planes[-1])))
+        for row in throw / "rows":
+            rod, where = row / "connecting_rod", real(planes[-1]) + (row / "offset_m").number(0.0)
+            share, weight = (rod / "reciprocating_share").number(1 / 3), (rod / "mass_kg").number(0.0)
+            moving = ((row / "reciprocating_mass_kg").number() + share * weight) * radius
+            masses.append(_moving(moving, crank, (row / "axis_deg").double(), where))
+            masses.append(Mass((ONE - share) * weight * radius, crank, ZERO, where))
+    if not planes:
+        raise Unreadable((*place.path, "throws"), "must hold at least one item")
+    return masses, planes, planes
+
+
+def _scroll(place: Place) -> tuple[list[Mass], list[float], list[float]]:
+    orbit, crank, guide = (place / "orbit_radius_m").number(), direction(0.0), place / "anti_rotation"
+    own, other = (place / "orbiting_position_m").double(), (guide / "position_m").double()
+    masses = [Mass((place / "orbiting_mass_kg").number() * orbit, crank, ZERO, real(own))]
+    if (guide / "type").text("oldham", "crank_pins") == "oldham":
+        # it slides with the projection of the orbit: a crank with an infinite rod
+        masses.append(_moving((guide / "mass_kg").number() * orbit, crank, (guide / "axis_deg").double(), real(other)))
+    else:
+        pins = (guide / "count").number() * (guide / "eccentric_mass_kg").number(0.0)
+        masses.append(Mass(pins * orbit, crank, ZERO, real(other)))
+    return masses, [own], [own, other]
+
+
+# ---- what is to be small, under which ceilings, and what multipliers prove of it (docs/mathematics.md section 5)
+
+
+#: response, and co, counter or ceiling
+Key = Tuple[str, str]
+
+
+class Term(NamedTuple):
+    """A length |start + factor f| in a row, or one that a ceiling limits; f is what counterweights add."""
+
+    row: str
+    response: str
+    start: Number
+    factor: Number
+
+
+class Bound(NamedTuple):
+    """The rows times their multipliers are at least this; None: nothing is proven."""
+
+    least: Optional[Number]
+    rows: Dict[str, Number]
+
+
+class Statement:
+    """Rows, which are sums of weighted peaks, and ceilings; they go by their names in the answer."""
+
+    def __init__(self, machine: Machine, goal: Place, rows: dict[str, dict[str, Number]], capped: bool = True) -> None:
+        self.machine, self.rows = machine, rows
+        self.x, self.y = ((goal / "direction_weights" / name).number(1.0, least=0) for name in ("x", "y"))
+        self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
+        self.terms: dict[Key, Term] = {}
+        for row, name, weight in ((r, name, weight) for r, each in rows.items() for name, weight in each.items()):
+            floor, lengths = self.peak(machine.before[name], weight)
+            self.floor[row] = self.floor[row] + floor
+            self.terms.update({(name, part): Term(row, name, *length) for part, length in lengths.items()})
+        limits = {name: goal / f"{name}_ceiling_{unit}" for name, unit in NAMES.items() if capped}
+        #: ceiling less the phasor against the shaft, and the size of the ceiling
+        self.caps = {n: most.number(least=0) - abs(machine.before[n][1]) for n, most in limits.items() if most}
+        self.sizes = {name: largest(abs(machine.before[name][0]), abs(cap)) for name, cap in self.caps.items()}
+
+    def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, Number]]]:
+        """A floor, and vectors whose lengths it adds; each with the factor of the phasor with the shaft in it."""
+        p, q, f, b = weight * (self.x + self.y) * HALF, weight * (self.x - self.y) * HALF, *response
+        if self.x.low == self.y.low:
+            return p * abs(b), {"co": (f * p, p)}
+        return ZERO, {"co": (f * p + b.conjugate() * q, p), "counter": (f * q + b.conjugate() * p, q)}
+
+    def values(self, responses: Responses) -> dict[str, Number]:
+        """Of every row."""
+        peaks = {row: [self.peak(responses[n], w) for n, w in names.items()] for row, names in self.rows.items()}
+        return {row: total(f + total(abs(v) for v, _ in v_.values()) for f, v_ in p) for row, p in peaks.items()}
+
+    def bound(self, proof: Place, implied: Place, slack: dict[str, Number], cost: Number, believed: bool) -> Bound:
+        """Of rows and cost * mass, for all within the limits that exceed no ceiling by more than slack.
+
+        What the answer says that missing limits imply is believed, or shown to be of no account. Without rows
+        of an objective the multipliers have those of the ceilings, and prove that they conflict.
+        """
+        limits = {(name, "ceiling"): Term(name, name, self.machine.before[name][0], ONE) for name in self.caps}
+        terms = {**self.terms, **limits}
+        rows, y = self._multipliers(proof, terms)
+        if cost is ZERO and total(rows.values()).low <= 0:
+            return Bound(None, rows)
+        machine = self.machine
+        price = cost + ((proof / "budget").number(0.0, least=0) if machine.budget else ZERO)
+        free = {w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name)}
+        if price.high == 0:
+            free = self._balance(y, terms, [web for web in free.values() if web.sector is None])
+        # |y| <= lambda holds by shortening all alike; what a ceiling costs is its own length, if it has no row
+        most = {key: rows.get(one.row, ZERO) for key, one in terms.items()}
+        most.update({key: Number(abs(y[key]).high, abs(y[key]).high) for key in limits if self.floor})
+        share = _share((most[key], abs(y[key])) for key in y)
+        least, slope = total(rows[name] * self.floor[name] for name in rows if self.floor), dict.fromkeys(NAMES, ZERO)
+        for key, term in terms.items():
+            least = least + y[key].along(term.start) * share
+            slope[term.response] = slope[term.response] + y[key] * term.factor * share
+        for name, _ in limits:
+            least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
+        gains = {}
+        for web in machine.webs:
+            pull = -(slope["force"] + slope["moment"] * (web.position - machine.plane)) * machine.square
+            gains[web.name] = web.radius * support(pull, web.sector)
+        # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
+        share = _share((price, gains[name]) for name in free if price.low > 0 and not machine.budget)
+        least = least * share
+        for web in machine.webs:
+            gain = gains[web.name] * share - price
+            if gain.high > 0 and (web.name not in free or (machine.budget and price.high > 0)):
+                limit = self.reach(web, implied if believed else Place(None))
+                if limit is None:
+                    return Bound(None, rows)
+                least = least - Number(max(gain.low, 0), gain.high) * limit
+        if machine.budget:
+            least = least - (price - cost) * machine.budget
+        return Bound(least, {name: row * share for name, row in rows.items()})
+
+    def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
+        """Of the rows and of the terms, those that are not 0 and those that are to be given."""
+        rows = {(one / "name").text(): (one / "value").number(least=0) for one in proof / "rows"}
+        rows = {name: row for name, row in rows.items() if row.high > 0}
+        if not rows.keys() <= (self.floor or self.caps).keys():
+            raise NotCovered(proof / "rows")
+        y = dict.fromkeys(terms, ZERO)
+        for field in ("terms", "ceilings"):
+            for one in proof / field:
+                part = (one / "part").text("co", "counter", default="co")
+                key = (one / "response").text(), part if field == "terms" else "ceiling"
+                vector = (one / "x").number() + J * (one / "y").number()
+                if abs(vector).high > 0 and (key not in y or one / "angle_deg" or one / "scenario"):
+                    raise NotCovered(one)
+                if abs(vector).high > 0:
+                    y[key] = y[key] + vector
+        return rows, y
+
+    def _balance(self, y: dict[Key, Number], terms: dict[Key, Term], webs: Sequence[Web]) -> dict[str, Web]:
+        """Choose a multiplier so that webs without limit gain exactly nothing; those for which that can be done."""
+        slope = dict.fromkeys(NAMES, ZERO)
+        chosen: dict[str, Key] = {}
+        for key, one in terms.items():
+            slope[one.response] = slope[one.response] + y[key] * one.factor
+            if one.factor.low > 0:
+                chosen.setdefault(one.response, key)
+        arms = {web.position.low: web.position - self.machine.plane for web in webs}
+        if len(arms) == 1 and "force" in chosen:
+            # on one plane it is enough that force and moment together do nothing
+            slope = {"force": slope["force"] + slope["moment"] * next(iter(arms.values()))}
+        if not webs or any(abs(slope[name]).high > 0 for name in slope.keys() - chosen.keys()):
+            return {}
+        for name in chosen.keys() & slope.keys():
+            y[chosen[name]] = y[chosen[name]] - slope[name] / terms[chosen[name]].factor
+        return {web.name: web for web in webs}
+
+    def reach(self, web: Web, implied: Place) -> Number | None:
+        """Largest mass of a web: its limit, the budget or what the answer says that they imply; None without."""
+        said = (implied / web.name).number(least=0) if implied / web.name else None
+        limits = [limit for limit in (web.limit, self.machine.budget, said) if limit is not None]
+        return min(limits, key=lambda one: one.high) if limits else None
+
+
+def _share(pairs: Iterable[tuple[Number, Number]]) -> Number:
+    """What all sizes are to be multiplied by to be no more than allowed (allowed, size), at most 1."""
+    share = ONE.low
+    for allowed, size in pairs:
+        if size.high > allowed.low:
+            share = min(share, (allowed.low << BITS) // size.high)
+    return Number(share, share)
+
+
+def support(pull: Number, sector: tuple[float, float] | None) -> Number:
+    """Largest Re(conj(pull) v) over unit-disc vectors v in the sector, or somewhat more."""
+    if sector is None:
+        return abs(pull)
+    (along, across), (cos, sin) = (pull * direction(sector[0]).conjugate()).parts(), direction(sector[1]).parts()
+    across = abs(across)
+    if (along * sin).high > (across * cos).low:
+        return abs(pull)
+    return largest(along * cos + across * sin, ZERO)
