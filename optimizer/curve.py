@@ -1,0 +1,124 @@
+"""The waist over the whole turn: responses of all orders, seen from the shaft, where counterweights only shift them.
+
+Beside :mod:`optimizer.response`, which knows one order at a time. A vector across the shaft, F(theta) on the frame, is
+d(theta) = e^{-j s theta} F(theta) as the shaft sees it. Counterweights turn with the shaft, so they add a constant:
+d(theta) + influence @ u. The peak over the turn is then the distance of a point from the farthest point of a fixed
+curve, convex in u, and its floor is the radius of the smallest circle around the curve.
+
+Everything is divided by omega^2, as in :class:`optimizer.response.Response`: forces are kg m, moments kg m^2, and the
+influence of a counterweight is free of speed. Angles are shaft angles theta in rad, from 0 to the period.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.circle import Circle, smallest_circle
+from optimizer.pieces import Bracket, Index, Pieces
+
+#: nodes at which a curve is first looked at for its smallest circle, and points added to them at most
+_NODES, _MOST_POINTS = 72, 50
+
+
+class Curves(Protocol):
+    """J curves over one period that are evaluated together."""
+
+    @property
+    def period_deg(self) -> float:
+        """360, or 720 where the gas takes two turns."""
+
+    @property
+    def pieces(self) -> Pieces:
+        """The curves piece by piece, (J,)."""
+
+    def at(self, angle: Real) -> Complex:
+        """The curves at angles (n,) rad: (J, n); in the middle between the limits at a jump or one of them."""
+
+
+@dataclass(frozen=True)
+class TurnResponse:
+    """A response over the whole turn that is affine in the unbalance u of the counterweights.
+
+    name : what it is, unique among the responses of a program.
+    unit : of the response times omega^2: "N", "N m".
+    influence : (K,) change of the curve for one kg m on each web; real, or complex where a counterweight answers out
+        of line with itself. Constant over the turn.
+    curves, number : the curve without counterweights, over omega^2: one of several that are evaluated together.
+    """
+
+    name: str
+    unit: str
+    influence: Real | Complex
+    curves: Curves
+    number: int
+
+    @property
+    def period_deg(self) -> float:
+        return self.curves.period_deg
+
+    def offset(self, unbalance: Complex) -> complex:
+        """What counterweights (K,) kg m add to the curve."""
+        return complex(np.sum(self.influence * unbalance))
+
+    def at(self, angle: Real) -> Complex:
+        """The curve without counterweights at angles (n,) rad."""
+        return self.curves.at(angle)[self.number]
+
+    def peak(self, offset: complex, tolerance: float) -> Bracket:
+        """Peak of |curve + offset| over the period; shapes ().
+
+        Parameters
+        ----------
+        tolerance : of upper - lower, relative to lower.
+        """
+        found = self.curves.pieces.peaks(np.array([offset]), tolerance, np.array([self.number]))
+        return Bracket(*(each[0] for each in found))
+
+    @property
+    def mean(self) -> complex:
+        """Mean of the curve, the centre of its mean square."""
+        return complex(self.curves.pieces.mean[self.number])
+
+    @property
+    def variance(self) -> float:
+        """Mean of |curve - mean|^2: the mean square of curve + offset is this + |mean + offset|^2."""
+        return float(self.curves.pieces.variance[self.number])
+
+
+def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: float) -> Bracket:
+    """Peaks (responses,) with counterweights (K,) kg m; those of the same curves are searched together."""
+    offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
+    number: Index = np.array([response.number for response in responses], dtype=np.intp)
+    together: dict[int, list[int]] = {}
+    for k, response in enumerate(responses):
+        together.setdefault(id(response.curves), []).append(k)
+    groups = list(together.values())
+    found = [responses[group[0]].curves.pieces.peaks(offset[group], tolerance, number[group]) for group in groups]
+    order = np.argsort(np.concatenate([np.array(group, dtype=np.intp) for group in groups]))
+    return Bracket(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
+
+
+class Floor(NamedTuple):
+    """What the peak of a curve comes to at least, whatever the counterweights."""
+
+    circle: Circle  # around some points of the curve; no constant brings the peak below its radius
+    angle: Real  # (support,) rad, of the points that hold it
+    value: Complex  # (support,) the curve there
+    upper: Real  # proven peak about the circle's centre, () : the floor is between the radius and this
+
+
+def floor(response: TurnResponse, tolerance: float) -> Floor:
+    """The smallest circle around a curve, its radius known to a tolerance relative to it."""
+    period = np.deg2rad(response.period_deg)
+    angle = np.arange(_NODES) * (period / _NODES)
+    point = response.at(angle)
+    for _ in range(_MOST_POINTS):
+        circle = smallest_circle(point)
+        peak = response.peak(-circle.centre, 0.5 * tolerance)
+        if peak.upper <= circle.radius * (1.0 + tolerance):
+            break
+        angle, point = np.append(angle, peak.angle), np.append(point, peak.value)
+    return Floor(circle, angle[circle.support], point[circle.support], peak.upper)
