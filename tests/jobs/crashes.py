@@ -1,109 +1,149 @@
-"""Crash at every call into the operating system and into SQLite on the path of a job from its order to its end.
+"""Crash at every system call on the path of jobs from their order to their end.
 
-A process is forked for each point and ends there without a word (``os._exit``), before or after the call: the profiler
-of Python tells of each call into ``posix``, ``_io`` and ``sqlite3``. Then another one goes on with what is there. This
-is the end of a process, not of the machine: what was written but not synchronised stays.
+A process is forked for each point, does all that services do to jobs, and is killed at the point: before a system
+call, or half way through one that writes. Then another one finds out what is there, and goes on with it. This is the
+end of a process, not of the machine: what was written but not synchronised stays.
 
-``python -m tests.jobs.crashes --points 2000`` crashes at so many points (of some thousand); the tests at a few.
+``python -m tests.jobs.crashes`` crashes at every point, with ``--points`` at so many, evenly spread; the tests crash at
+a few.
 """
 
 import argparse
 import json
+import mmap
 import os
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator
+from concurrent.futures import Future
+from functools import partial
 from pathlib import Path
-from types import FrameType
-from typing import Any
 
+from service.jobs.coordinator import Pace
+from service.jobs.engines import Engine
 from service.jobs.housekeeping import Housekeeping
-from service.jobs.kinds import table_bytes
+from service.jobs.job import Chunk
 from service.jobs.leases import Leases
+from service.jobs.piece import Piece
+from service.jobs.rows import UnknownJob
 from tests.jobs import synthetic
 from tests.jobs.house import House
+from tests.jobs.system_calls import Missing, killed
 
 TOTAL, CHUNK = 60, 10
+#: nothing is done once more because time passes: every life comes to the same calls
+_PACE = Pace(lease_s=600.0, tidy_s=600.0)
 #: a disk in memory if there is one: it is not the machine that crashes, so nothing depends on the disk
 _MEMORY = "/dev/shm" if os.access("/dev/shm", os.W_OK) else None
-_WATCHED = ("posix", "_io", "sqlite3", "_sqlite3", "fcntl")
 
 
-def work(house: House, clock: Callable[[], float]) -> None:
-    """What coordinators do, one step after the other, until nothing is left to do."""
-    leases = Leases(house.database, clock=clock)
-    while (chunk := leases.claim("crashes", 10.0)) is not None:
-        record = house.files.keep(
-            chunk.job, chunk.start, chunk.stop, table_bytes(synthetic.rows(chunk.start, chunk.stop))
-        )
-        leases.finish(chunk, 0, str(record.digest), record.bytes)
+class Told:
+    """What was said to be so, in memory that outlives the process that said so."""
+
+    def __init__(self) -> None:
+        self._memory = mmap.mmap(-1, 1 << 16)
+
+    def say(self, fact: str, job: str, rows: int = 0) -> None:
+        self._memory.write(f"{fact} {job} {rows}\n".encode())
+
+    def __iter__(self) -> Iterator[tuple[str, str, int]]:
+        for line in self._memory[:].split(b"\0", 1)[0].decode().splitlines():
+            fact, job, rows = line.split()
+            yield fact, job, int(rows)
 
 
-def live(root: Path) -> None:
-    """A job from its order to its end, and one that is cancelled half way and removed."""
+class Here:
+    """Computes chunks at once, in this process."""
+
+    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+        done: Future[Piece] = Future()
+        done.set_result(task(*arguments))
+        return done
+
+    def window(self) -> int:
+        return 1
+
+    def end(self) -> None:
+        pass
+
+
+class Telling(Leases):
+    """Says when a chunk is finished."""
+
+    def __init__(self, house: House, told: Told, clock: Callable[[], float]) -> None:
+        super().__init__(house.database, clock=clock)
+        self._told = told
+
+    def finish(self, chunk: Chunk, failed: int, digest: str, size: int) -> bool:
+        counts = super().finish(chunk, failed, digest, size)
+        if counts:
+            self._told.say("finished", chunk.job, chunk.rows)
+        return counts
+
+
+def work(house: House, told: Told, least: int = TOTAL, clock: Callable[[], float] = time.time) -> None:
+    """What a coordinator does, one step after the other, until no job is left that has fewer rows."""
+    house.leases = Telling(house, told, clock)
+    coordinator = house.coordinator_on(Engine(Here), _PACE)
+    while any(house.store.get(job).done < least for job in house.leases.active()):
+        coordinator._step()
+
+
+def live(root: Path, told: Told) -> None:
+    """Jobs from their order to their end: one is repaired, one cancelled and resumed, one removed."""
     house = House(root)
-    house.submit(TOTAL, CHUNK)
-    work(house, time.time)
-    gone = house.submit(TOTAL, CHUNK, gone=True)
-    chunk = house.leases.claim("crashes", 10.0)
-    assert chunk is not None
-    record = house.files.keep(chunk.job, chunk.start, chunk.stop, b"rows")
-    house.leases.finish(chunk, 0, str(record.digest), record.bytes)
-    house.store.cancel(gone)
-    house.files.stop(gone)
-    house.retention.mark_removed(gone)
-    house.files.remove(gone)
-    house.retention.forget(gone)
+    job = _submit(house, told)
+    work(house, told)
+    damaged = house.store.pieces(job)[2]
+    told.say("finished", job, -damaged.rows)
+    house.leases.reopen(job, damaged)
+    work(house, told)
+
+    job = _submit(house, told, again=True)
+    work(house, told, least=20)
+    house.store.cancel(job)
+    house.files.stop(job)
+    house.files.go(job)
+    house.store.resume(job)
+    work(house, told)
+
+    job = _submit(house, told, gone=True)
+    work(house, told, least=10)
+    house.store.cancel(job)
+    house.files.stop(job)
+    told.say("leaving", job)
+    house.retention.mark_removed(job)
+    told.say("removed", job)
+    house.files.remove(job)
+    house.retention.forget(job)
+    Housekeeping(house.store, house.retention, house.files).tidy()
 
 
-def crash(root: Path, at: int | None) -> int:
-    """Live in a process of its own, to the end or to a point; how many points it passed (of one that crashed, 0)."""
-    told, tell = os.pipe()
-    child = os.fork()
-    if child == 0:
-        passed = 0
-
-        def point(_: FrameType, event: str, called: Any) -> None:
-            nonlocal passed
-            if event in ("c_call", "c_return") and _module(called) in _WATCHED:
-                passed += 1
-                if passed == at:
-                    os._exit(9)
-
-        sys.setprofile(point)
-        live(root)
-        sys.setprofile(None)
-        os.write(tell, str(passed).encode())
-        os._exit(0)
-    os.close(tell)
-    with os.fdopen(told) as pipe:
-        said = pipe.read()
-    os.waitpid(child, 0)
-    return int(said or 0)
+def _submit(house: House, told: Told, **asked: bool) -> str:
+    job = house.submit(TOTAL, CHUNK, **asked)
+    told.say("accepted", job)
+    return job
 
 
-def _module(called: Any) -> str:
-    owner = getattr(called, "__self__", None)
-    return getattr(called, "__module__", None) or type(owner).__module__
-
-
-def check(root: Path) -> tuple[int, int]:
+def check(root: Path, told: Told) -> tuple[int, int]:
     """Go on after a crash; rows that are lost or wrong, and files that belong to nobody."""
     house = House(root)
+    lost = _forgotten(house, told)
     later = time.time() + 3600
-    work(house, lambda: later)
+    work(house, Told(), clock=lambda: later)
     Housekeeping(house.store, house.retention, house.files).tidy()
-    lost = orphans = 0
+    orphans = 0
     known = house.retention.known()
     for job in known:
         found = house.store.get(job)
         right = synthetic.rows(0, TOTAL)
         if found.state == "done":
-            lost += (not house.rows(job).equals(right)) or found.done != TOTAL
+            lost += 0 if house.rows(job).equals(right) and found.done == TOTAL else TOTAL
         else:
-            # the one that was to be removed
-            lost += found.state != "cancelled" or house.rows_told(job) != found.done
+            # one that was about to be resumed or removed
+            kept = house.rows_told(job)
+            lost += TOTAL if found.state != "cancelled" or kept != found.done else 0
         expected = {house.files.piece(job, piece).name for piece in house.store.pieces(job)} | {"stop"}
         orphans += len(set(house.files.names(job)) - expected)
     orphans += len(set(house.files.folders()) - known)
@@ -111,32 +151,54 @@ def check(root: Path) -> tuple[int, int]:
     return lost, orphans
 
 
-def crashes(points: int) -> tuple[int, int, int]:
-    """Crash at so many points, evenly spread: points, rows lost, orphans."""
+def _forgotten(house: House, told: Told) -> int:
+    """Rows that were said to be on disk and are not; a job that is lost, or comes back, counts with all of its."""
+    lost, said = 0, list(told)
+    for job in {job for _, job, _ in said}:
+        facts = {fact for fact, this, _ in said if this == job}
+        try:
+            found = house.store.get(job)
+        except UnknownJob:
+            lost += 0 if "leaving" in facts else TOTAL
+        else:
+            finished = sum(rows for _, this, rows in said if this == job)
+            lost += TOTAL if "removed" in facts else max(0, finished - found.done)
+    return lost
+
+
+def crashes(points: int) -> tuple[int, int, int, int]:
+    """Crash at so many points, evenly spread: points, how many there are, rows lost, orphans."""
     with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
-        passed = crash(Path(folder), None)
-        assert passed > 0
-        assert check(Path(folder)) == (0, 0)
+        # here first, so that what is imported at the first time is no call of theirs
+        live(Path(folder, "here"), told := Told())
+        assert check(Path(folder, "here"), told) == (0, 0)
+        calls = killed(partial(live, Path(folder, "there"), told := Told()))
+        assert check(Path(folder, "there"), told) == (0, 0)
+    every = [(at, half) for at, halves in enumerate(calls) for half in ((False, True) if halves else (False,))]
     lost = orphans = tried = 0
-    for at in _spread(passed, points):
+    chosen = [every[number * len(every) // points] for number in range(points)] if points < len(every) else every
+    for at, half in chosen:
         with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
-            crash(Path(folder), at)
-            more = check(Path(folder))
-            lost, orphans, tried = lost + more[0], orphans + more[1], tried + 1
-    return tried, lost, orphans
-
-
-def _spread(passed: int, points: int) -> Iterator[int]:
-    step = max(1.0, passed / points)
-    yield from (1 + int(k * step) for k in range(min(points, passed)))
+            told = Told()
+            passed = killed(partial(live, Path(folder), told), at, half)
+            # a life is not always one of as many calls: one of them may have ended before
+            tried += len(passed) == at + 1
+            more = check(Path(folder), told)
+            lost, orphans = lost + more[0], orphans + more[1]
+    return tried, len(every), lost, orphans
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--points", type=int, default=2000)
+    parser.add_argument("--points", type=int, default=1_000_000)
     began, asked = time.monotonic(), parser.parse_args()
-    tried, lost, orphans = crashes(asked.points)
-    print(json.dumps({"points": tried, "rows_lost": lost, "orphans": orphans, "s": time.monotonic() - began}))
+    try:
+        tried, of, lost, orphans = crashes(asked.points)
+    except Missing as missing:
+        print(missing, file=sys.stderr)
+        sys.exit(2)
+    found = {"points": tried, "of": of, "rows_lost": lost, "orphans": orphans, "s": time.monotonic() - began}
+    print(json.dumps(found))
     sys.exit(1 if lost or orphans else 0)
 
 

