@@ -14,7 +14,9 @@ from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import RESPONSES, ceilings, formulate, smallest_peak, weights
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
-from optimizer.program.optimum import Unreachable, optimum, within_reach
+from optimizer.program.edge import Unreachable
+from optimizer.program.optima import optima
+from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import Solution
@@ -56,7 +58,7 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
     solving = time.perf_counter()
     statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
     statement = within_reach(statement, solver)
-    outcome = optimum(statement, request.accuracy.relative_gap, request.objective.least_mass, solver)
+    outcome = optima(statement.alone(), request.accuracy.relative_gap, request.objective.least_mass, solver).one()
 
     reporting = time.perf_counter()
     if isinstance(outcome, Unreachable):
@@ -133,17 +135,17 @@ def _certified(
             mass_objective_limit=_finite(solution.mass_target * square) if goal.least_mass else None,
             implied_max_mass_kg=implied_max_mass(request.machine, statement.limits.max_mass),
             method=solution.method,
-            multipliers=_multipliers(statement, solution, square),
+            multipliers=_multipliers(statement, solution, square, goal.least_mass),
         ),
         **answered(scene, u, _ALWAYS),
     }
 
 
-def _multipliers(statement: Statement, solution: Solution, omega_squared: float) -> NamedMultipliers:
+def _multipliers(statement: Statement, solution: Solution, omega_squared: float, least_mass: bool) -> NamedMultipliers:
     """The proofs of both stages."""
     # a bound that is printed has multipliers: rest, at least, proves one
     assert solution.multipliers is not None
-    of_mass = solution.mass_multipliers
+    of_mass = solution.mass_multipliers if least_mass else None
     return NamedMultipliers(
         objective=named(statement, physical(statement, solution.multipliers, "objective", omega_squared)),
         mass=None if of_mass is None else named(statement, physical(statement, of_mass, "mass", omega_squared)),
@@ -181,7 +183,7 @@ def _infeasible(
     )
     for response in scene.responses:
         peak = replace(peaks[response.name], limits=replace(statement.limits, max_mass=most))
-        alone = optimum(peak, 1e-9, False, solver)
+        alone = optima(peak.alone(), 1e-9, False, solver).one()
         # without ceilings nothing is unreachable, and rest proves something
         assert isinstance(alone, Solution)
         assert alone.multipliers is not None

@@ -14,7 +14,8 @@ from optimizer.accuracy.methods import POSITIONS, Task, methods
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import ceilings, formulate, weights
 from optimizer.outputs import prepare
-from optimizer.program.optimum import Unreachable, optimum
+from optimizer.program.edge import Unreachable
+from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.scene import Prepared
@@ -42,7 +43,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    best = optimum(statement, _SHARPEST, False, Solver())
+    best = optima(statement.alone(), _SHARPEST, False, Solver()).one()
     if isinstance(best, Unreachable):
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):

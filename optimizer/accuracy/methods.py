@@ -11,10 +11,11 @@ from optimizer.accuracy.rivals.polygonal import polygonal
 from optimizer.accuracy.rivals.sampled import OverTheTurn, sampled
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.fast import Fast, fast
+from optimizer.program.compiled import BothStages, both_stages
+from optimizer.program.edge import Unreachable
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
-from optimizer.program.optimum import Unreachable, optimum
-from optimizer.program.polish import objective_multipliers
+from optimizer.program.multipliers import objective_multipliers
+from optimizer.program.optima import optima
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.modelling import CompiledPrograms
 from optimizer.program.reference.solver import Solver
@@ -110,7 +111,7 @@ def _service(relative_gap: float) -> Run:
     solver = Solver()
 
     def run(task: Task, position: float, time_limit_s: float) -> Found | str:
-        outcome = optimum(task.statement, relative_gap, False, solver)
+        outcome = optima(task.statement.alone(), relative_gap, False, solver).one()
         if isinstance(outcome, Unreachable):
             return "no counterweights keep the ceilings"
         bound = outcome.lower_bound
@@ -126,7 +127,7 @@ def _interior_point(relative_gap: float, precision: Precision | None) -> Run:
             return f"too large: {webs} webs, at most {precision.most_webs} are tried"
         alone = task.statement.alone()
         asked = relative_gap * _rest(alone)
-        return _first(fast(alone, asked, asked, False, precision))
+        return _first(both_stages(alone, asked, asked, False, precision))
 
     return run
 
@@ -139,7 +140,7 @@ def _batch(relative_gap: float) -> Run:
         # put together in the first run; the rounds time what solves it
         batch = batch or _lighter(task.statement, np.linspace(1.0, 0.9, BATCH))
         asked = relative_gap * _rest(batch)
-        return _first(fast(batch, asked, asked, False))
+        return _first(both_stages(batch, asked, asked, False))
 
     return run
 
@@ -161,7 +162,7 @@ def _lighter(statement: Statement, share: Real) -> Statement:
     )
 
 
-def _first(found: Fast) -> Found:
+def _first(found: BothStages) -> Found:
     bound = float(found.lower_bound[0])
     return Found(found.unbalance[0], float(found.objective[0]), lambda: bound)
 

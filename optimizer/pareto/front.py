@@ -13,7 +13,9 @@ import numpy as np
 from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.pareto.trade import Trade
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
-from optimizer.program.optimum import Unreachable, optimum, within_reach
+from optimizer.program.edge import Unreachable
+from optimizer.program.optima import optima
+from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
@@ -79,7 +81,7 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     alone: list[Solution] = []
     for program in trade.alone:
         each = within_reach(program, solver)
-        found = optimum(each, _SHARPNESS, True, solver)
+        found = optima(each.alone(), _SHARPNESS, True, solver).one()
         if isinstance(found, Unreachable):
             return found
         alone.append(found)
@@ -173,7 +175,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     best: Solution | None = None
     program = within_reach(trade.along(anchor, unit), solver)
     for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
-        found = optimum(program, part * share, least_mass, solver)
+        found = optima(program.alone(), part * share, least_mass, solver).one()
         if isinstance(found, Unreachable):
             raise _Undecided
         if best is None or _mass_gap(found) < _mass_gap(best):
@@ -184,7 +186,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     # rest, at least, proves a bound
     assert best.multipliers is not None
     usable, _ = normalised(program, best.multipliers)
-    of_mass = best.mass_multipliers
+    of_mass = best.mass_multipliers if least_mass else None
     return Point(
         best,
         anchor + trade.parameter(_bound(program, best), anchor, unit) * unit,

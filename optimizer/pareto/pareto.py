@@ -15,7 +15,7 @@ from optimizer.optimize import implied_max_mass, optimize, proven_or_null
 from optimizer.outputs import prepare
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
-from optimizer.program.optimum import Unreachable
+from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import Claim, verdict
 from optimizer.scene import Prepared

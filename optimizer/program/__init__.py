@@ -1,4 +1,6 @@
-"""The convex program: statement, cone program, certificate, solution. Knows nothing of machines.
+"""The convex program: statement, optima, certificate, verdict. Knows nothing of machines.
+
+The way in is :func:`optimizer.program.optima.optima`; which method is tried when stands in ``cascade.py``.
 
 Notation, used in every file of this package (docs/mathematics.md):
 

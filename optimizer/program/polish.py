@@ -1,93 +1,82 @@
-"""Better multipliers from the same solution: exact where the solver is exact only to its tolerance.
+"""What is often all that is missing: points below the ceilings, sharper multipliers, finer units of mass."""
 
-A limit that is not touched must not enter the bound. In the numbers it does, by the solver's
-tolerance times the limit, which is much where the limit is far away.
-"""
-
-from collections.abc import Iterator
+import time
 from dataclasses import replace
 
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.program.certificate import Multipliers
+from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
+from optimizer.program.compiled import ENOUGH, ENOUGH_FOR_MASS, pulled
+from optimizer.program.kernel.finer_numbers import Precision
+from optimizer.program.multipliers import mass_multipliers, objective_multipliers, supporting_multipliers
+from optimizer.program.single import Asked, Found, interior_point, light
+from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
 
-#: a limit is touched when it is nearer than this share of itself
-TOUCHED = 1e-6
+#: how often the least mass is sought again in units of the least so far, and what a web may carry of it then
+_LIGHTENINGS, _ROOM_FOR_MASS = 8, 4.0
+#: and the share of a limit below which that is another program
+_WORTH_LESS = 0.1
 
 
-def resting_multipliers(statement: Statement) -> Iterator[Multipliers]:
-    """Multipliers that need no solver: they prove the floor, and rest where rest is optimal."""
-    norms = statement.norms
-    size = np.abs(norms.constant)
-    none = np.zeros_like(statement.ceilings.norms.constant)
-    yield Multipliers(np.zeros_like(norms.constant), statement.where_largest(statement.floor), none)
-    largest = statement.where_largest(statement.rows(size))
-    direction = norms.constant / np.where(size > 0, size, 1.0)
-    yield Multipliers(direction * largest[..., statement.row], largest, none)
+def polished(statement: Statement, asked: Asked, found: Found, inside: Complex | None) -> Found:
+    """The same with points below the ceilings and sharper multipliers, which is often all that is missing."""
+    if statement.limits.radius.size == 0 or found.certified:
+        return found
+    began = time.perf_counter()
+    smallest, lightest = (_pulled(statement, each, inside) for each in (found.smallest, found.lightest))
+    assert smallest.multipliers is not None  # those of rest, at least
+    for multipliers in objective_multipliers(statement, smallest.unbalance, smallest.multipliers):
+        bound = float(objective_lower_bound(statement, multipliers))
+        smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
+    if asked.least_mass and smallest.below_ceilings:
+        counted = np.asarray(smallest.objective + asked.share)
+        candidates = [supporting_multipliers(statement, lightest.unbalance)] if np.any(lightest.unbalance) else []
+        if lightest.mass_multipliers is not None:
+            candidates += mass_multipliers(statement, lightest.unbalance, lightest.mass_multipliers)
+        for multipliers in candidates:
+            bound = float(mass_lower_bound(statement, multipliers, counted))
+            lightest = lightest.weighed(bound, multipliers, float(counted))
+    enough = (ENOUGH_FOR_MASS if asked.least_mass else ENOUGH) * asked.share
+    certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= asked.share
+    certified &= not asked.least_mass or light(lightest)
+    spent = time.perf_counter() - began
+    smallest, lightest = (replace(each, certify_s=each.certify_s + spent) for each in (smallest, lightest))
+    return Found(smallest, lightest, certified)
 
 
-def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:
-    """The solver's multipliers, and the nearest ones that leave untouched webs out of the bound."""
-    yield solver
-    usable = solver.admissible(statement)
-    interior = _interior(statement, u)
-    if statement.mass(u) >= statement.limits.max_total_mass * (1.0 - TOUCHED) or not np.any(interior):
-        return
-    # sum_j conj(H_jk) y_j + sum_i conj(H_ik) p_i = 0 for every interior web k, at the least change
-    influence = np.concatenate(
-        [statement.norms.influence[:, interior], statement.ceilings.norms.influence[:, interior]]
-    )
-    stacked = np.concatenate([usable.term, usable.ceiling])
-    scale = np.max(np.abs(influence), axis=1, keepdims=True)
-    scale = np.where(scale > 0, scale, 1.0)
-    basis, size, _ = np.linalg.svd(influence / scale, full_matrices=False)
-    basis = basis[:, size > 1e-12 * size[0]]
-    weighted = stacked * scale[:, 0]
-    stacked = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
-    terms = usable.term.size
-    allowed = usable.row[statement.row]
-    over = float(np.max(np.abs(stacked[:terms]) / np.where(allowed > 0, allowed, np.inf), initial=1.0))
-    # one factor for all keeps the webs out; the rows keep their multipliers
-    stacked = stacked / over
-    yield replace(usable, term=stacked[:terms], ceiling=stacked[terms:])
+def lightened(statement: Statement, asked: Asked, found: Found, precision: Precision | None = None) -> Found:
+    """The least mass again, in units of the least so far: where next to nothing has to be fitted, all else is far away.
 
-
-def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:
-    """The solver's multipliers, and the largest multiple at which no untouched web is worth more mass."""
-    yield solver
-    usable = solver.admissible(statement)
-    norms, limited = statement.norms, statement.ceilings.norms
-    slope = usable.term @ np.conj(norms.influence) + usable.ceiling @ np.conj(limited.influence)
-    worth = statement.limits.radius * statement.limits.support(-slope)
-    untouched = np.abs(u) < statement.limits.reach * (1.0 - TOUCHED)
-    most = float(np.max(worth[untouched], initial=0.0))
-    if most > 1.0:
-        yield usable.times(np.asarray((1.0 - 8 * np.finfo(float).eps) / most))
-
-
-def supporting_multipliers(statement: Statement, u: Complex) -> Multipliers:
-    """Multipliers of the least mass for which every counterweight inside its limits is worth its mass exactly.
-
-    R_k w_k = -u_k / |u_k| for those webs, by least squares; w_k as in docs/mathematics.md section 5.
+    No web carries more than all of them together in anything lighter.
     """
-    inside = _interior(statement, u) & (np.abs(u) > TOUCHED * np.max(np.abs(u), initial=0.0))
-    terms = statement.norms.constant.size
-    influence = np.concatenate([statement.norms.influence[:, inside], statement.ceilings.norms.influence[:, inside]])
-    size = np.max(np.abs(influence), axis=1, initial=0.0)
-    size = np.where(size > 0, size, 1.0)
-    worth = -u[inside] / np.abs(u[inside]) / statement.limits.radius[inside]
-    found = np.linalg.lstsq(np.conj(influence / size[:, None]).T, worth, rcond=None)[0] / size
-    row = np.zeros(statement.floor.size)
-    np.maximum.at(row, statement.row, np.abs(found[:terms]))
-    return Multipliers(found[:terms], row, found[terms:])
+    if found.certified or not asked.least_mass or statement.limits.radius.size == 0:
+        return found
+    for _ in range(_LIGHTENINGS):
+        before = found.lightest
+        if not (before.below_ceilings and before.gap <= asked.share) or light(before):
+            break
+        limits = statement.limits
+        if not np.any(_ROOM_FOR_MASS * before.mass < _WORTH_LESS * np.minimum(limits.max_mass, limits.max_total_mass)):
+            break
+        near = replace(limits, max_mass=np.minimum(limits.max_mass, _ROOM_FOR_MASS * before.mass))
+        again = interior_point(replace(statement, limits=near), asked, precision).lightest
+        if again.below_ceilings and again.objective <= before.lower_bound + asked.share and again.mass < before.mass:
+            lightest = before.moved_to(statement, again.unbalance)
+        else:
+            lightest = before
+        lightest = replace(lightest, mass_multipliers=again.mass_multipliers, mass_lower_bound=0.0)
+        sharper = polished(statement, asked, Found(found.smallest, lightest, False), None)
+        weighed = sharper.lightest.weighed(before.mass_lower_bound, before.mass_multipliers, before.mass_target)
+        found = Found(sharper.smallest, weighed, sharper.certified)
+        if found.certified or weighed.mass > 0.5 * before.mass:
+            break
+    return found
 
 
-def _interior(statement: Statement, u: Complex) -> np.ndarray:
-    """Webs that touch neither their mass limit nor an edge of their sector (K,)."""
-    limits = statement.limits
-    v = u * np.conj(limits.centre)
-    margin = v.real * limits.half_angle_sin - np.abs(v.imag) * limits.half_angle_cos
-    inside = limits.free | (margin > TOUCHED * np.abs(u))
-    return (np.abs(u) < limits.reach * (1.0 - TOUCHED)) & inside
+def _pulled(statement: Statement, found: Solution, inside: Complex | None) -> Solution:
+    """A point above a ceiling, moved towards one below it just so far; excesses are convex."""
+    if inside is None or found.below_ceilings:
+        return found
+    return found.moved_to(statement, pulled(statement, found.unbalance, inside))

@@ -11,8 +11,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.optimize import linprog
 
-from optimizer.arrays import Real
+from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
+from optimizer.program.reference.solver import Solver
 from optimizer.program.scaling import natural_reach, single_reach
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
@@ -41,6 +42,39 @@ def far_limits(statement: Statement) -> np.ndarray:
 
 def _beyond(limits: Limits, natural: Real) -> np.ndarray:
     return limits.most > _FAR * natural[..., None] / limits.radius
+
+
+def within_reach(statement: Statement, solver: Solver) -> Statement:
+    """Programs (...) with a finite, proven limit wherever there is none, or one far beyond any need."""
+    far = np.any(far_limits(statement), axis=-1)
+    if not np.any(far):
+        return statement
+    most = statement.limits.max_mass.copy()
+    for place in np.ndindex(far.shape):
+        if far[place]:
+            most[place] = _within_reach(statement.chosen(place), solver).limits.max_mass
+    return replace(statement, limits=replace(statement.limits, max_mass=most))
+
+
+def _within_reach(statement: Statement, solver: Solver) -> Statement:
+    """One program, its limits proven by what is known to be reached within the ceilings."""
+    point = np.zeros(statement.limits.radius.shape, complex)
+    if np.any(statement.ceilings.excess(point) > 0):
+        excess = statement.excess()
+        excess = bounded(excess, _above(excess, point))
+        nearest = solver.smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
+        if nearest.lower_bound > 0:
+            return replace(statement, limits=excess.limits)
+        point = nearest.unbalance
+        if nearest.objective > CEILING_TOLERANCE:
+            return bounded(statement, np.inf)
+    return bounded(statement, _above(statement, point))
+
+
+def _above(statement: Statement, point: Complex) -> float:
+    """A level that leaves room for all that counts as an optimum, if this point may be reached."""
+    value = float(statement.objective(point))
+    return value + (value - float(np.sum(-statement.largest(-statement.floor))))
 
 
 def bounded(statement: Statement, level: float) -> Statement:

@@ -1,10 +1,11 @@
 """Counterweights with their proof."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
+from typing import TypeVar
 
 import numpy as np
 
-from optimizer.arrays import Complex
+from optimizer.arrays import Complex, Real, mapped
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
@@ -14,6 +15,8 @@ CEILING_ROUNDING = 1e-13
 OPTIMUM_SHARE = 1e-6
 #: counterweights below this share of the largest are left out where the answer stays optimal
 NEGLIGIBLE = 1e-7
+
+Some = TypeVar("Some", bound="Solutions")
 
 CONE_PROGRAM = "cone program, clarabel"
 INTERIOR_POINT = "interior point, compiled"
@@ -69,6 +72,35 @@ class Solution:
             mass=float(statement.mass(u)),
             excess=float(np.max(statement.ceilings.excess(u), initial=-np.inf)),
         )
+
+
+@dataclass(frozen=True)
+class Solutions:
+    """Counterweights of N programs with their proofs; every figure is evaluated from ``unbalance``."""
+
+    unbalance: Complex  # (N, K) kg m
+    objective: Real  # (N,)
+    lower_bound: Real  # (N,)
+    mass: Real  # (N,) kg
+    mass_lower_bound: Real  # (N,) kg, of all that count as optima; 0 where the least mass was not sought
+    excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
+    multipliers: Multipliers  # (N, ...), those of the lower bound
+    mass_multipliers: Multipliers  # (N, ...), those of the lower bound of the mass
+    mass_target: Real  # (N,) largest objective that this bound counts as an optimum
+    certify_s: Real  # (N,) time spent on bounds
+
+    def chosen(self: Some, programs: np.ndarray) -> Some:
+        """Those of some of the programs."""
+        return mapped(self, lambda array: array[programs])
+
+    def put(self: Some, programs: np.ndarray, others: Some) -> None:
+        """Others for some of the programs, in place."""
+        for field in fields(self):
+            each, other = getattr(self, field.name), getattr(others, field.name)
+            if isinstance(each, Multipliers):
+                each.put(programs, other)
+            else:
+                each[programs] = other
 
 
 def evaluated(statement: Statement, u: Complex) -> Solution:

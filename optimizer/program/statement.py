@@ -4,7 +4,7 @@ minimise    P(u) = sum_g max_{r in g} ( floor_r + sum_{j in r} |c_j + H_j u| )
 subject to  |c_i + H_i u| <= cap_i  for every ceiling i,  u within the limits.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any, Literal, NamedTuple
@@ -168,13 +168,8 @@ class Statement:
         """One program as the only one of a leading axis (1,)."""
         return self._mapped(lambda array: array[None])
 
-    def each(self) -> Iterator["Statement"]:
-        """The programs one by one, of one leading axis (N,)."""
-        for n in range(self.norms.constant.shape[0]):
-            yield self.chosen(n)
-
-    def chosen(self, programs: "int | np.ndarray") -> "Statement":
-        """Some of the programs of one leading axis."""
+    def chosen(self, programs: "int | tuple[int, ...] | np.ndarray") -> "Statement":
+        """Some of the programs by their leading axes."""
         return self._mapped(lambda array: array[programs])
 
     def only(self, webs: np.ndarray) -> "Statement":

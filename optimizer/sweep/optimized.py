@@ -1,6 +1,5 @@
 """Optimum counterweights of many designs of one shape, as columns."""
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -10,9 +9,9 @@ from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.formulate import formulate, responses, shape_facts
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout as layout_of
-from optimizer.program.batch import Optima, all_within_reach, joined, optima
+from optimizer.program.optima import Optima, optima
+from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
-from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE, claim, verdict
 from optimizer.sweep.proofs import multipliers_as_text
@@ -42,8 +41,8 @@ def optimized(
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
     stated = formulate(request.machine, request.objective, responses(layout, baseline), square)
-    program = all_within_reach(stated, solver)
-    found = _found(program, request, solver)
+    program = within_reach(stated, solver)
+    found = optima(program, request.accuracy.relative_gap, request.objective.least_mass, solver)
     mass, angle = masses_and_angles(request.machine, found.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
     columns = _certified(request, program, found, u, mass, square)
@@ -59,31 +58,6 @@ def optimized(
         for name, column in columns.items()
     }
     return columns, u
-
-
-def _found(program: Statement, request: OptimizeRequest, solver: Solver) -> Optima:
-    """Optima of the programs, without the webs that cannot carry anything, as of one machine."""
-    carries = program.limits.reach > 0
-    if np.all(carries):
-        return _solved(program, request, solver)
-    patterns, which = np.unique(carries, axis=0, return_inverse=True)
-    parts = []
-    for k, webs in enumerate(patterns):
-        designs = np.flatnonzero(which.reshape(-1) == k)
-        part = _solved(program.chosen(designs).only(webs), request, solver)
-        everywhere = np.zeros((designs.size, webs.size), complex)
-        everywhere[:, webs] = part.unbalance
-        parts.append((designs, replace(part, unbalance=everywhere)))
-    order = np.argsort(np.concatenate([designs for designs, _ in parts]))
-    return joined([part for _, part in parts], order)
-
-
-def _solved(program: Statement, request: OptimizeRequest, solver: Solver) -> Optima:
-    found = optima(program, request.accuracy.relative_gap, request.objective.least_mass, solver)
-    if program.limits.radius.shape[-1] == 0:
-        return replace(found, method=np.full_like(found.method, CLOSED_FORM))
-    # that ceilings cannot be kept is a finding of the reference solver alone
-    return replace(found, method=np.where(found.unreachable, CONE_PROGRAM, found.method))
 
 
 def _certified(

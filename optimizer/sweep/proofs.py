@@ -5,7 +5,7 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.figures.proof import conflict, named, named_conflict, physical
 from optimizer.formulate import limits
-from optimizer.program.batch import Optima
+from optimizer.program.optima import Optima
 from optimizer.program.statement import Statement
 from schemas.machine import Machine
 from schemas.proof import DesignMultipliers

@@ -23,21 +23,21 @@ from optimizer.accuracy.rivals import matrices
 from optimizer.accuracy.rivals.polygonal import polygonal
 from optimizer.accuracy.rivals.sampled import OverTheTurn, half_turn, sampled
 from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.edge import Unreachable
 from optimizer.program.kernel.finer_numbers import PRECISIONS
-from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.accuracy.problems import free_limits, random_task, single
-from tests.program.cases import COMBINATIONS
+from tests.program.cases import COMBINATIONS, optimum
 
 SOLVER = Solver()
 
 
 def reference(task: Task) -> Solution:
-    found = optimum(task.statement, 1e-9, False, SOLVER)
+    found = optimum(task.statement, 1e-9, False)
     assert isinstance(found, Solution)
     return found
 
@@ -176,7 +176,7 @@ def test_a_program_that_cannot_keep_its_ceilings_says_so() -> None:
         task.turn, ceilings=tuple((one, 0.1 * abs(one.response.baseline.counter)) for one, _ in task.turn.ceilings)
     )
     hopeless = replace(task.statement, ceilings=ceilings)
-    assert isinstance(optimum(hopeless, 1e-9, False, SOLVER), Unreachable)
+    assert isinstance(optimum(hopeless, 1e-9, False), Unreachable)
     for outcome in (
         polygonal(hopeless, 32, 0.0, 5.0),
         matrices.exact(hopeless, 1e-8, 5.0),

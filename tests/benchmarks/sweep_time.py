@@ -28,9 +28,9 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.sweep.optimized:formulate",
     ),
     _STAGES: ("optimizer.program.kernel.interior_point:solve",),
-    "scaling, choice of the point": ("optimizer.program.batch:fast", "optimizer.program.batch:yardstick"),
-    "certificate": ("optimizer.program.fast:objective_lower_bound", "optimizer.program.fast:mass_lower_bound"),
-    "reference solver": ("optimizer.program.batch:optimum",),
+    "scaling, choice of the point": ("optimizer.program.optima:both_stages", "optimizer.program.optima:yardstick"),
+    "certificate": ("optimizer.program.compiled:objective_lower_bound", "optimizer.program.compiled:mass_lower_bound"),
+    "reference solver": ("optimizer.program.optima:cascade",),
     "masses, angles, residuals": (
         "optimizer.sweep.optimized:masses_and_angles",
         "optimizer.sweep.optimized:unbalance",

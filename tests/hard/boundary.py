@@ -20,13 +20,14 @@ from rich.table import Table
 from optimizer.formulate import formulate, limits
 from optimizer.optimize import optimize
 from optimizer.outputs import prepare
-from optimizer.program.optimum import optimum, yardstick
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_TOLERANCE, Solution
 from optimizer.program.statement import combined, statement, weighted_peak
+from optimizer.program.verdict import yardstick
 from optimizer.response import Response
 from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
+from tests.program.cases import optimum
 
 #: how far the ceilings are from the place
 DISTANCES = (-1e-3, -1e-6, -1e-8, -1e-9, -1e-10, -1e-12, 0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6, 1e-3)
@@ -125,13 +126,13 @@ def _peaks(place: str, request: OptimizeRequest, limited: Sequence[Response], wi
     if place == "floor":
         return {response.name: float(np.abs(response.baseline.counter)) for response in limited}
     if place == "unlimited":
-        best = optimum(without, 1e-6, request.objective.least_mass, _SOLVER)
+        best = optimum(without, 1e-6, request.objective.least_mass)
         return {response.name: float(response.to(best.unbalance).peak) for response in limited}
     if not all(rest.values()):
         return dict.fromkeys(rest, 0.0)
     # all of them by the same share of what they are without counterweights
     lowered = [weighted_peak(response, 1.0 / rest[response.name]) for response in limited]
-    least = optimum(statement(combined(lowered, "max"), [], limits(request.machine)), 1e-13, False, _SOLVER)
+    least = optimum(statement(combined(lowered, "max"), [], limits(request.machine)), 1e-13, False)
     assert isinstance(least, Solution)
     return {name: peak * least.objective for name, peak in rest.items()}
 

@@ -15,7 +15,6 @@ from optimizer.formulate import RESPONSES, Weighable, ceilings, formulate, small
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.outputs import prepare
-from optimizer.program.optimum import optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
@@ -24,6 +23,7 @@ from optimizer.response import Response
 from optimizer.scene import Prepared
 from optimizer.sweep.optimized import optimized
 from schemas.requests import OptimizeRequest
+from tests.program.cases import optimum
 
 SOLVER = Solver()
 #: plane of a bearing about which a couple shall be small as well, m; its weight [1/(N m)]
@@ -85,7 +85,7 @@ def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> 
 def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, Solution]:
     scene = prepare(request, ("residual",))
     program = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
-    found = optimum(program, 1e-6, True, SOLVER)
+    found = optimum(program, 1e-6, True)
     assert isinstance(found, Solution)
     return scene, program, found
 
@@ -120,7 +120,7 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
     scene, _, free = _solved(REQUEST)
     limit = None
     if limited:
-        least = optimum(smallest_peak(scene.responses[2], REQUEST.machine), 1e-6, False, SOLVER)
+        least = optimum(smallest_peak(scene.responses[2], REQUEST.machine), 1e-6, False)
         assert isinstance(least, Solution)
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared

@@ -12,7 +12,7 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from optimizer.program import fast
+from optimizer.program import compiled
 from optimizer.program.kernel import interior_point
 from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.reference import solver as solve
@@ -345,9 +345,9 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
         return run
 
     # in finer numbers it is made from the compiled one, and once: before that is changed
-    finer = {precision: changed(fast.solve_in(precision)) for precision in PRECISIONS}
+    finer = {precision: changed(compiled.solve_in(precision)) for precision in PRECISIONS}
     monkeypatch.setattr(interior_point, "solve", changed(interior_point.solve))
-    monkeypatch.setattr(fast, "solve_in", finer.__getitem__)
+    monkeypatch.setattr(compiled, "solve_in", finer.__getitem__)
 
 
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -397,11 +397,11 @@ def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.Monk
     assert proof.yardstick > proof.objective  # both what one web does to the force
     assert proof.relative_gap == pytest.approx(proof.gap / proof.yardstick)
 
-    honest = whole.optimum
+    honest = whole.optima
 
     def modest(*arguments: Any) -> Any:
         best = honest(*arguments)
         return replace(best, lower_bound=0.5 * best.lower_bound)
 
-    monkeypatch.setattr(whole, "optimum", modest)
+    monkeypatch.setattr(whole, "optima", modest)
     assert answer(body, **asked).status == "inaccurate"

@@ -9,14 +9,24 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
+from optimizer.program.edge import Unreachable
 from optimizer.program.limits import Limits
+from optimizer.program.optima import optima
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 
+SOLVER = Solver()
 DIRECTION_WEIGHTS = ((1.0, 1.0), (1.0, 0.3), (0.0, 1.0))
 COMBINATIONS = tuple(
     product(("sum", "max"), DIRECTION_WEIGHTS, (False, True), (False, True), (False, True))
 )  # combine, direction weights, sectors, budget, ceilings
+
+
+def optimum(problem: Statement, relative_gap: float, least_mass: bool) -> Solution | Unreachable:
+    """Of one program, the only one of a batch."""
+    return optima(problem.alone(), relative_gap, least_mass, SOLVER).one()
 
 
 def random_limits(rng: np.random.Generator, webs: int, sectors: bool, budget: bool) -> Limits:

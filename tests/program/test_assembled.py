@@ -5,16 +5,12 @@ import pytest
 
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.limits import Limits
-from optimizer.program.optimum import optimum
 from optimizer.program.reference.assembled import Assembled, NoPoint, Target, solved
-from optimizer.program.reference.solver import Solver
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Row, Statement, statement, weighted_peak
 from optimizer.response import Phasors, Response
-from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement
-
-SOLVER = Solver()
+from tests.program.cases import COMBINATIONS, optimum, random_limits, random_point, random_statement
 
 
 def _peaks(rng: np.random.Generator, webs: int) -> list[Row]:
@@ -46,7 +42,7 @@ def _solved(problem: Statement, stage: str, target: float = 0.0, mass_unit: floa
 @pytest.mark.parametrize("seed", range(4))
 def test_groups_reach_the_optimum_of_the_modelling_layer_and_prove_it(seed: int) -> None:
     problem = _groups(seed)
-    expected = optimum(problem, 1e-8, False, SOLVER)
+    expected = optimum(problem, 1e-8, False)
     assert isinstance(expected, Solution)
     found, scaling = _solved(problem, "objective")
     rest = float(problem.at_rest)
@@ -60,7 +56,7 @@ def test_groups_reach_the_optimum_of_the_modelling_layer_and_prove_it(seed: int)
 @pytest.mark.parametrize("seed", range(4))
 def test_the_least_mass_of_groups_is_proven_by_its_multipliers(seed: int) -> None:
     problem = _groups(seed)
-    best = optimum(problem, 1e-8, False, SOLVER)
+    best = optimum(problem, 1e-8, False)
     assert isinstance(best, Solution)
     target = 0.5 * (best.objective + float(problem.at_rest))
     found, scaling = _solved(problem, "mass", target, best.mass)
@@ -76,7 +72,7 @@ def test_the_least_mass_of_groups_is_proven_by_its_multipliers(seed: int) -> Non
 @pytest.mark.parametrize("case", range(0, len(COMBINATIONS), 5))
 def test_ceilings_and_limits_of_every_kind(case: int) -> None:
     problem = random_statement(case, *COMBINATIONS[case])
-    expected = optimum(problem, 1e-8, False, SOLVER)
+    expected = optimum(problem, 1e-8, False)
     assert isinstance(expected, Solution)
     found, scaling = _solved(problem, "objective")
     multipliers = scaling.multipliers(problem, found.solution)  # type: ignore[attr-defined]

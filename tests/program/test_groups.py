@@ -6,14 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.program.batch import optima
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
-from optimizer.program.optimum import optimum, suits_kernel
+from optimizer.program.compiled import suits_kernel
+from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CONE_PROGRAM, Solution
 from optimizer.program.statement import Row, Statement, statement, weighted_peak
 from optimizer.response import Phasors, Response
-from tests.program.cases import random_limits, random_point, stacked
+from tests.program.cases import optimum, random_limits, random_point, stacked
 
 SOLVER = Solver()
 
@@ -61,7 +61,7 @@ def test_two_groups_reach_their_analytic_optimum() -> None:
     one = random_limits(np.random.default_rng(0), 1, sectors=False, budget=False)
     limits = type(one)(**{**vars(one), "radius": np.array([0.5]), "max_mass": np.array([4.0])})
     program = statement([[Row("a", (peaks[0],))], [Row(p.name, (p,)) for p in peaks[1:]]], [], limits)
-    found = optimum(program, 1e-6, True, SOLVER)
+    found = optimum(program, 1e-6, True)
     assert isinstance(found, Solution)
     assert 5.0 <= found.objective <= 5.0 + 7e-6
     assert found.lower_bound == pytest.approx(5.0, rel=1e-6)
@@ -77,7 +77,7 @@ def test_a_response_out_of_line_is_cancelled_at_a_right_angle() -> None:
     limits = random_limits(np.random.default_rng(0), 1, sectors=False, budget=False)
     limits = type(limits)(**{**vars(limits), "radius": np.array([0.5]), "max_mass": np.array([2.0])})
     program = statement([[Row("a", (weighted_peak(_one_web("a", 2, influence=1j), 1.0),))]], [], limits)
-    found = optimum(program, 1e-6, True, SOLVER)
+    found = optimum(program, 1e-6, True)
     assert isinstance(found, Solution)
     assert found.method == CONE_PROGRAM
     assert found.unbalance[0] == pytest.approx(1j, abs=1e-5)
@@ -89,7 +89,7 @@ def test_a_response_out_of_line_is_cancelled_at_a_right_angle() -> None:
 @pytest.mark.parametrize("seed", range(4))
 def test_groups_and_complex_influences_are_certified(seed: int, ceiling: bool) -> None:
     problem = _groups(seed, ceiling)
-    found = optimum(problem, 1e-6, True, SOLVER)
+    found = optimum(problem, 1e-6, True)
     assert isinstance(found, Solution)
     rest = float(problem.objective(np.zeros(4, complex)))
     assert 0 <= found.gap <= 1e-6 * rest
@@ -117,7 +117,7 @@ def test_many_programs_of_several_groups_are_each_solved_as_if_alone() -> None:
     found = optima(stacked(problems), 1e-6, True, SOLVER)
     assert set(found.method) == {CONE_PROGRAM}
     for n, problem in enumerate(problems):
-        alone = optimum(problem, 1e-6, True, SOLVER)
+        alone = optimum(problem, 1e-6, True)
         assert isinstance(alone, Solution)
         np.testing.assert_array_equal(found.unbalance[n], alone.unbalance)
         assert found.lower_bound[n] == alone.lower_bound

@@ -9,7 +9,7 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound, tolerance_allowance
-from optimizer.program.polish import (
+from optimizer.program.multipliers import (
     mass_multipliers,
     objective_multipliers,
     resting_multipliers,

@@ -7,19 +7,20 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
+from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.edge import Unreachable
 from optimizer.program.limits import Limits
-from optimizer.program.optimum import Unreachable, optimum
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement, combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
-from tests.program.cases import COMBINATIONS, random_statement
+from tests.program.cases import COMBINATIONS, optimum, random_statement
 
 SOLVER = Solver()
 
 
 def solve(problem: Statement, gap: float = 1e-6, least_mass: bool = True) -> Solution:
-    solution = optimum(problem, gap, least_mass, SOLVER)
+    solution = optimum(problem, gap, least_mass)
     assert isinstance(solution, Solution)
     return solution
 
@@ -144,10 +145,10 @@ def test_ceiling_inactive_active_at_the_floor_and_below_it() -> None:
     assert active.objective == pytest.approx(4.0, rel=1e-6)
     assert active.excess <= CEILING_TOLERANCE
     assert solve(problem(1.0)).objective == pytest.approx(6.0, rel=1e-6)  # u = 4 exactly
-    below = optimum(problem(1.0 - 1e-9), 1e-6, True, SOLVER)
+    below = optimum(problem(1.0 - 1e-9), 1e-6, True)
     assert isinstance(below, Unreachable)
-    assert below.excess_lower_bound > 0
-    short = optimum(problem(2.0, max_mass=2.9), 1e-6, True, SOLVER)  # needs u = 3
+    assert objective_lower_bound(problem(1.0 - 1e-9).excess(), below.multipliers) > 0
+    short = optimum(problem(2.0, max_mass=2.9), 1e-6, True)  # needs u = 3
     assert isinstance(short, Unreachable)
     assert short.closest[0] == pytest.approx(2.9, rel=1e-6)
 

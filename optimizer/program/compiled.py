@@ -1,7 +1,7 @@
 """The compiled interior point behind the certificate: many programs at once, each with its own proof."""
 
 import time
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -9,9 +9,9 @@ import numpy as np
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
-from optimizer.program.polish import resting_multipliers
+from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.scaling import natural_reach
-from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
+from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE, Solutions
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 if TYPE_CHECKING:
@@ -42,37 +42,22 @@ _TARGET = 1.0 - 1e-7
 
 
 @dataclass(frozen=True)
-class Fast:
-    """Counterweights of N programs with their proofs; figures are evaluated from ``unbalance``."""
+class BothStages(Solutions):
+    """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
 
-    unbalance: Complex  # (N, K) kg m
-    objective: Real  # (N,)
-    lower_bound: Real  # (N,)
-    mass: Real  # (N,) kg
-    mass_lower_bound: Real  # (N,) kg, of all with objectives up to the share above the smallest one found
-    excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
     smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
     certified: np.ndarray  # (N,) bool: nothing better is worth looking for
-    multipliers: Multipliers  # (N, ...), those of the lower bound
-    mass_multipliers: Multipliers  # (N, ...), those of the lower bound of the mass
-    mass_target: Real  # (N,) largest objective that this bound counts as an optimum
-    certify_s: float  # time spent on bounds
-
-    def chosen(self, programs: np.ndarray) -> "Fast":
-        """Some of the programs."""
-        return mapped(self, lambda array: array[programs])
-
-    def put(self, programs: np.ndarray, others: "Fast") -> None:
-        """Other answers to some of the programs, in place."""
-        for field in fields(self):
-            each, other = getattr(self, field.name), getattr(others, field.name)
-            if isinstance(each, Multipliers):
-                each.put(programs, other)
-            elif isinstance(each, np.ndarray):
-                each[programs] = other
 
 
-def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, precision: Precision | None = None) -> Fast:
+def suits_kernel(statement: Statement) -> bool:
+    """Whether the compiled interior point takes such programs: one group, real influences. Others are cone programs."""
+    influences = (statement.norms.influence, statement.ceilings.norms.influence)
+    return bool(statement.group[-1] == 0 and not any(np.iscomplexobj(each) for each in influences))
+
+
+def both_stages(
+    statement: Statement, share: Real, demand: Real, least_mass: bool, precision: Precision | None = None
+) -> BothStages:
     """Both stages of N statements of one shape, one leading axis (N,).
 
     What is found for one program does not depend on the others.
@@ -106,7 +91,7 @@ def fast(statement: Statement, share: Real, demand: Real, least_mass: bool, prec
     return found
 
 
-def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> Fast:
+def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> BothStages:
     """Of the points of both stages the ones to take, with their proofs."""
     smallest, lightest = solved.smallest, solved.lightest
     began = time.perf_counter()
@@ -143,19 +128,19 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     if least_mass:
         # what counts as an optimum is told from a point that keeps the ceilings
         certified &= (best.excess <= CEILING_ROUNDING) & (chosen.mass - mass_bound <= MASS_ENOUGH * chosen.mass)
-    return Fast(
-        chosen.unbalance,
-        chosen.objective,
-        lower_bound,
-        chosen.mass,
-        mass_bound,
-        chosen.excess,
-        best.unbalance,
-        certified,
-        proof,
-        mass_proof,
-        counted,
-        certify_s,
+    return BothStages(
+        unbalance=chosen.unbalance,
+        objective=chosen.objective,
+        lower_bound=lower_bound,
+        mass=chosen.mass,
+        mass_lower_bound=mass_bound,
+        excess=chosen.excess,
+        multipliers=proof,
+        mass_multipliers=mass_proof,
+        mass_target=counted,
+        certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
+        smallest=best.unbalance,
+        certified=certified,
     )
 
 
@@ -179,6 +164,10 @@ class _Solved:
 def _solve(
     statement: Statement, share: Real, least_mass: bool, tolerances: _Tolerances, precision: Precision | None = None
 ) -> _Solved:
+    if statement.limits.radius.shape[-1] == 0:
+        # nothing to choose
+        nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
+        return _Solved(nothing, nothing, proof, proof)
     # the compiler is loaded when it is first needed
     from optimizer.program.kernel.interior_point import solve
 

@@ -9,19 +9,20 @@ from hypothesis import strategies as st
 
 from optimizer.formulate import formulate
 from optimizer.outputs import prepare
-from optimizer.program.batch import optima
-from optimizer.program.fast import Fast, fast
+from optimizer.program.compiled import BothStages, both_stages
+from optimizer.program.edge import Unreachable
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS
 from optimizer.program.kernel.interior_point import solve
-from optimizer.program.optimum import Unreachable, optimum, yardstick
+from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.verdict import yardstick
 from schemas.requests import OptimizeRequest
 from tests.hard import stored
 from tests.hard.cases import all_cases
 from tests.hard.cases.case import Case
-from tests.program.cases import COMBINATIONS, random_statement, stacked
+from tests.program.cases import COMBINATIONS, optimum, random_statement, stacked
 
 SOLVER = Solver()
 WEBS = 4
@@ -39,10 +40,10 @@ def share(problem: Statement) -> np.ndarray:
     return 1e-6 * np.atleast_1d(yardstick(problem))
 
 
-def run(problem: Statement, least_mass: bool = True) -> Fast:
+def run(problem: Statement, least_mass: bool = True) -> BothStages:
     """A batch, or one program as a batch of one."""
     many = problem if problem.floor.ndim == 2 else problem.alone()
-    return fast(many, share(many), share(many), least_mass)
+    return both_stages(many, share(many), share(many), least_mass)
 
 
 def formulated(case: Case) -> tuple[Statement, float]:
@@ -52,9 +53,9 @@ def formulated(case: Case) -> tuple[Statement, float]:
     return formulate(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
 
 
-def same(one: Fast, n: int, other: Fast, m: int) -> bool:
+def same(one: BothStages, n: int, other: BothStages, m: int) -> bool:
     """Whether all figures but the times agree to the last bit."""
-    names = {field.name for field in fields(Fast)} - {"certify_s", "multipliers", "mass_multipliers"}
+    names = {field.name for field in fields(BothStages)} - {"certify_s", "multipliers", "mass_multipliers"}
     return all(np.array_equal(getattr(one, name)[n], getattr(other, name)[m]) for name in names)
 
 
@@ -130,8 +131,8 @@ def test_fifty_digits_prove_what_double_precision_cannot(limit: str) -> None:
     expected = _KNOWN[stored.digest(_HARD[name].body)]
     alone = problem.alone()
     double, fifty = (
-        fast(alone, share(alone), share(alone), True),
-        fast(alone, share(alone), share(alone), True, FIFTY_DIGITS),
+        both_stages(alone, share(alone), share(alone), True),
+        both_stages(alone, share(alone), share(alone), True, FIFTY_DIGITS),
     )
     unit = float(yardstick(problem))
     assert expected.objective is not None
@@ -145,9 +146,9 @@ def test_finer_numbers_solve_the_same_program(case: tuple) -> None:
     """Property: interpreted in other numbers the functions are the same, and the bound is at least as sharp."""
     problem = random_statement(7, *case, webs=2)
     alone, unit = problem.alone(), float(yardstick(problem))
-    double = fast(alone, share(alone), share(alone), False)
+    double = both_stages(alone, share(alone), share(alone), False)
     for precision in (EXTENDED, FIFTY_DIGITS):
-        finer = fast(alone, share(alone), share(alone), False, precision)
+        finer = both_stages(alone, share(alone), share(alone), False, precision)
         assert finer.certified[0]
         first, gap = double.objective[0] - double.lower_bound[0], finer.objective[0] - finer.lower_bound[0]
         assert abs(finer.objective[0] - double.objective[0]) <= first + gap
@@ -167,7 +168,7 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
     assert INTERIOR_POINT in list(found.method[[0, 1, 3]])
     assert found.excess[2] > 0
     for n in (0, 1, 3):
-        alone = optimum(problems[n], 1e-6, True, SOLVER)
+        alone = optimum(problems[n], 1e-6, True)
         assert isinstance(alone, Solution)
         assert found.method[n] == alone.method
         assert np.array_equal(found.unbalance[n], alone.unbalance)
@@ -178,18 +179,18 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
 
 def test_uncertified_rows_are_solved_by_the_cone_program(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever keeps a row from being certified, another method answers it, and no other row."""
-    from optimizer.program import batch
-    from optimizer.program import optimum as alone
+    from optimizer.program import optima as entry
+    from optimizer.program import single
 
-    def doubtful(*arguments: object) -> Fast:
-        found = fast(*arguments)  # type: ignore[arg-type]
+    def doubtful(*arguments: object) -> BothStages:
+        found = both_stages(*arguments)  # type: ignore[arg-type]
         doubt = np.arange(found.certified.size) == min(1, found.certified.size - 1)
         # nothing but rest, or polishing would do
         smallest, unbalance = (np.where(doubt[:, None], 0.0, u) for u in (found.smallest, found.unbalance))
         return replace(found, certified=found.certified & ~doubt, smallest=smallest, unbalance=unbalance)
 
-    monkeypatch.setattr(batch, "fast", doubtful)
-    monkeypatch.setattr(alone, "fast", doubtful)
+    monkeypatch.setattr(entry, "both_stages", doubtful)
+    monkeypatch.setattr(single, "both_stages", doubtful)
     problems = stacked([random_statement(seed, "sum", (1.0, 0.3), False, False, False, webs=WEBS) for seed in range(3)])
     found = optima(problems, 1e-6, True, SOLVER)
     assert list(found.method) == [INTERIOR_POINT, CONE_PROGRAM, INTERIOR_POINT]
@@ -210,13 +211,13 @@ def test_every_method_answers_some_program() -> None:
     ):
         problem, _ = formulated(_HARD[name])
         asked = _HARD[name].body.get("accuracy", {}).get("relative_gap", 1e-6)
-        found = optimum(problem, asked, True, SOLVER)
+        found = optimum(problem, asked, True)
         assert isinstance(found, Solution)
         assert found.gap <= asked * float(yardstick(problem))
         methods[found.method] = name
     # without the least mass the demand is sharper: some of these are sharpened by the modelling layer's solver
     for case in COMBINATIONS:
-        found = optimum(random_statement(0, *case), 1e-6, False, SOLVER)
+        found = optimum(random_statement(0, *case), 1e-6, False)
         methods[found.method] = str(case)
     assert methods.keys() == {CLOSED_FORM, INTERIOR_POINT, CONE_PROGRAM, EXTENDED.name, FIFTY_DIGITS.name}, methods
 
@@ -307,7 +308,8 @@ def test_what_is_not_a_number_is_not_certified_and_spoils_no_other(part: str) ->
     good = run(problem)
     values = getattr(problem.norms, part).copy()
     values[0] = np.nan
-    bad = fast(replace(problem, norms=replace(problem.norms, **{part: values})), share(problem), share(problem), True)
+    spoilt = replace(problem, norms=replace(problem.norms, **{part: values}))
+    bad = both_stages(spoilt, share(problem), share(problem), True)
     assert list(bad.certified) == [False, True]
     assert same(bad, 1, good, 1)
 
@@ -316,4 +318,4 @@ def test_an_unreachable_ceiling_is_never_certified() -> None:
     problem = random_statement(5, "sum", (1.0, 1.0), False, False, True, webs=WEBS)
     hopeless = replace(problem, ceilings=replace(problem.ceilings, cap=-0.1 * problem.ceilings.size))
     assert not run(hopeless).certified[0]
-    assert isinstance(optimum(hopeless, 1e-6, True, SOLVER), Unreachable)
+    assert isinstance(optimum(hopeless, 1e-6, True), Unreachable)

@@ -1,0 +1,93 @@
+"""Better multipliers from the same solution: exact where the solver is exact only to its tolerance.
+
+A limit that is not touched must not enter the bound. In the numbers it does, by the solver's
+tolerance times the limit, which is much where the limit is far away.
+"""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.arrays import Complex
+from optimizer.program.certificate import Multipliers
+from optimizer.program.statement import Statement
+
+#: a limit is touched when it is nearer than this share of itself
+TOUCHED = 1e-6
+
+
+def resting_multipliers(statement: Statement) -> Iterator[Multipliers]:
+    """Multipliers that need no solver: they prove the floor, and rest where rest is optimal."""
+    norms = statement.norms
+    size = np.abs(norms.constant)
+    none = np.zeros_like(statement.ceilings.norms.constant)
+    yield Multipliers(np.zeros_like(norms.constant), statement.where_largest(statement.floor), none)
+    largest = statement.where_largest(statement.rows(size))
+    direction = norms.constant / np.where(size > 0, size, 1.0)
+    yield Multipliers(direction * largest[..., statement.row], largest, none)
+
+
+def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:
+    """The solver's multipliers, and the nearest ones that leave untouched webs out of the bound."""
+    yield solver
+    usable = solver.admissible(statement)
+    interior = _interior(statement, u)
+    if statement.mass(u) >= statement.limits.max_total_mass * (1.0 - TOUCHED) or not np.any(interior):
+        return
+    # sum_j conj(H_jk) y_j + sum_i conj(H_ik) p_i = 0 for every interior web k, at the least change
+    influence = np.concatenate(
+        [statement.norms.influence[:, interior], statement.ceilings.norms.influence[:, interior]]
+    )
+    stacked = np.concatenate([usable.term, usable.ceiling])
+    scale = np.max(np.abs(influence), axis=1, keepdims=True)
+    scale = np.where(scale > 0, scale, 1.0)
+    basis, size, _ = np.linalg.svd(influence / scale, full_matrices=False)
+    basis = basis[:, size > 1e-12 * size[0]]
+    weighted = stacked * scale[:, 0]
+    stacked = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
+    terms = usable.term.size
+    allowed = usable.row[statement.row]
+    over = float(np.max(np.abs(stacked[:terms]) / np.where(allowed > 0, allowed, np.inf), initial=1.0))
+    # one factor for all keeps the webs out; the rows keep their multipliers
+    stacked = stacked / over
+    yield replace(usable, term=stacked[:terms], ceiling=stacked[terms:])
+
+
+def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:
+    """The solver's multipliers, and the largest multiple at which no untouched web is worth more mass."""
+    yield solver
+    usable = solver.admissible(statement)
+    norms, limited = statement.norms, statement.ceilings.norms
+    slope = usable.term @ np.conj(norms.influence) + usable.ceiling @ np.conj(limited.influence)
+    worth = statement.limits.radius * statement.limits.support(-slope)
+    untouched = np.abs(u) < statement.limits.reach * (1.0 - TOUCHED)
+    most = float(np.max(worth[untouched], initial=0.0))
+    if most > 1.0:
+        yield usable.times(np.asarray((1.0 - 8 * np.finfo(float).eps) / most))
+
+
+def supporting_multipliers(statement: Statement, u: Complex) -> Multipliers:
+    """Multipliers of the least mass for which every counterweight inside its limits is worth its mass exactly.
+
+    R_k w_k = -u_k / |u_k| for those webs, by least squares; w_k as in docs/mathematics.md section 5.
+    """
+    inside = _interior(statement, u) & (np.abs(u) > TOUCHED * np.max(np.abs(u), initial=0.0))
+    terms = statement.norms.constant.size
+    influence = np.concatenate([statement.norms.influence[:, inside], statement.ceilings.norms.influence[:, inside]])
+    size = np.max(np.abs(influence), axis=1, initial=0.0)
+    size = np.where(size > 0, size, 1.0)
+    worth = -u[inside] / np.abs(u[inside]) / statement.limits.radius[inside]
+    found = np.linalg.lstsq(np.conj(influence / size[:, None]).T, worth, rcond=None)[0] / size
+    row = np.zeros(statement.floor.size)
+    np.maximum.at(row, statement.row, np.abs(found[:terms]))
+    return Multipliers(found[:terms], row, found[terms:])
+
+
+def _interior(statement: Statement, u: Complex) -> np.ndarray:
+    """Webs that touch neither their mass limit nor an edge of their sector (K,)."""
+    limits = statement.limits
+    v = u * np.conj(limits.centre)
+    margin = v.real * limits.half_angle_sin - np.abs(v.imag) * limits.half_angle_cos
+    inside = limits.free | (margin > TOUCHED * np.abs(u))
+    return (np.abs(u) < limits.reach * (1.0 - TOUCHED)) & inside
