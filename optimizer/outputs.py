@@ -1,10 +1,10 @@
 """All outputs: what they need, and what they come to in an answer and in a sweep."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from optimizer.arrays import Complex, Real
-from optimizer.effects.registry import effects_of, problems_of
+from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
 from optimizer.errors import MissingInput
 from optimizer.figures.bearings import MAIN_BEARINGS
 from optimizer.figures.dynamics import OVER_THE_TURN
@@ -17,6 +17,7 @@ from optimizer.scene import Prepared, simulated
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Scene
+from schemas.rules import Path, Rule
 
 #: every output, in the order of the answer
 OUTPUTS: dict[str, Output] = {
@@ -106,18 +107,40 @@ def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -
     MissingInput
         naming every missing field and an output that needs it.
     """
-    problems: dict[tuple[str | int, ...], FieldProblem] = {}
-    for output in outputs:
-        needs = OUTPUTS[output].needs
-        for path, message in problems_of(machine, needs):
-            full = ("machine", *path)
-            problems.setdefault(full, FieldProblem(full, f"{message}; asked for by output '{output}'"))
-        if "kinematics" in effects_of(needs) and _series(machine) * samples > MAX_SAMPLES:
-            path = ("angles", "step_deg")
-            message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
-            problems[path] = FieldProblem(path, message)
+    problems: dict[Path, FieldProblem] = {}
+    for broken, path, message in input_rules(machine, outputs):
+        if broken:
+            problems.setdefault(path, FieldProblem(path, message))
+    needs = [need for output in outputs for need in OUTPUTS[output].needs]
+    if "kinematics" in effects_of(needs) and _series(machine) * samples > MAX_SAMPLES:
+        path = ("angles", "step_deg")
+        message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
+        problems[path] = FieldProblem(path, message)
     if problems:
         raise MissingInput(problems.values())
+
+
+def input_rules(machine: Machine, outputs: Sequence[str]) -> Iterator[Rule]:
+    """What the outputs ask of a machine, whose fields may hold columns (n,); paths from the root of the request."""
+    for output, effect in _reached(machine, outputs):
+        for broken, path, message in rules_of(machine, effect):
+            yield Rule(broken, ("machine", *path), f"{message}; asked for by output '{output}'")
+
+
+def missing_inputs(machine: Machine, outputs: Sequence[str]) -> Iterator[FieldProblem]:
+    """Fields that the outputs need and the machine does not give, whatever the numbers in the others."""
+    for output, effect in _reached(machine, outputs):
+        for path, message in EFFECTS[effect].problems(machine):
+            yield FieldProblem(("machine", *path), f"{message}; asked for by output '{output}'")
+
+
+def _reached(machine: Machine, outputs: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Every effect that the outputs need, once, with the first that needs it."""
+    first: dict[str, str] = {}
+    for output in outputs:
+        for effect in closure(machine, OUTPUTS[output].needs):
+            if first.setdefault(effect, output) is output:
+                yield output, effect
 
 
 def _series(machine: Machine) -> int:

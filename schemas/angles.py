@@ -1,26 +1,25 @@
 """Where sampled outputs are sampled."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from schemas.base import FieldProblem, Model, raise_problems
+from schemas.rules import Rule, Ruled
 from schemas.units import Unit
 
 
-class Angles(Model):
+class Angles(Ruled):
     """Where sampled outputs are sampled."""
 
     step_deg: Annotated[float, Field(ge=0.01, le=120), Unit("deg")] = Field(
         1.0, description="step of the shaft angle; a turn must hold a whole number of them", examples=[1.0]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "Angles":
+    def rules(self) -> Iterator[Rule]:
         steps = 360 / self.step_deg
-        if abs(steps - round(steps)) > 1e-9 * steps:
-            raise_problems([FieldProblem(("step_deg",), "360 degrees must be a whole number of steps")])
-        return self
+        broken = abs(steps - round(steps)) > 1e-9 * steps
+        yield Rule(broken, ("step_deg",), "360 degrees must be a whole number of steps")
 
     @property
     def count(self) -> int:

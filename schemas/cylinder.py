@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
-from schemas.base import FieldProblem, Model, raise_problems
+from schemas.base import Model
 from schemas.quantities import Area, Length, Pressure
+from schemas.rules import Rule, Ruled
 from schemas.units import Unit, between, non_negative
 
 Exponent = Annotated[float, Strict(), Field(gt=1, le=10)]
@@ -35,7 +36,7 @@ class GasState(Model):
     )
 
 
-class Cylinder(GasState):
+class Cylinder(GasState, Ruled):
     """One cylinder; ``head`` and ``crank`` replace the common data for one side."""
 
     bore_m: Annotated[Length | None, Unit("m")] = Field(None, description="cylinder bore", examples=[0.73])
@@ -61,35 +62,30 @@ class Cylinder(GasState):
         None, description="data of the crank side where they differ", examples=[{"relative_clearance": 0.12}]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "Cylinder":
-        raise_problems(self._problems())
-        return self
-
-    def _problems(self) -> Iterator[FieldProblem]:
-        common_low, common_high = self.suction_pressure_Pa, self.discharge_pressure_Pa
-        if common_low is not None and common_high is not None and common_high < common_low:
-            yield FieldProblem(("discharge_pressure_Pa",), "must not be below the suction pressure")
+    def rules(self) -> Iterator[Rule]:
+        low, high = self.suction_pressure_Pa, self.discharge_pressure_Pa
+        if low is not None and high is not None:
+            yield Rule(high < low, ("discharge_pressure_Pa",), "must not be below the suction pressure")
         for side, state in (("head", self.head), ("crank", self.crank)):
             if state is not None:
-                yield from self._side_problems(side, state)
+                yield from self._side_rules(side, state)
         rod, bore = self.piston_rod_diameter_m, self.bore_m
-        if rod is not None and bore is not None and not rod < bore:
-            yield FieldProblem(("piston_rod_diameter_m",), "must be smaller than the bore")
         if bore is not None:
+            if rod is not None:
+                yield Rule(rod >= bore, ("piston_rod_diameter_m",), "must be smaller than the bore")
             for area in ("head_area_m2", "crank_area_m2"):
-                if getattr(self, area) is not None:
-                    yield FieldProblem((area,), "give either the bore or the piston areas")
+                yield Rule(getattr(self, area) is not None, (area,), "give either the bore or the piston areas")
 
-    def _side_problems(self, side: str, state: GasState) -> Iterator[FieldProblem]:
+    def _side_rules(self, side: str, state: GasState) -> Iterator[Rule]:
         """Pressures of one side, each its own or else the common one, where it has one of its own."""
         own_low, own_high = state.suction_pressure_Pa, state.discharge_pressure_Pa
         if own_low is None and own_high is None:
             return
         low = self.suction_pressure_Pa if own_low is None else own_low
         high = self.discharge_pressure_Pa if own_high is None else own_high
-        if low is not None and high is not None and high < low:
-            if own_high is None:
-                yield FieldProblem((side, "suction_pressure_Pa"), "must not be above the discharge pressure")
-            else:
-                yield FieldProblem((side, "discharge_pressure_Pa"), "must not be below the suction pressure")
+        if low is None or high is None:
+            return
+        if own_high is None:
+            yield Rule(high < low, (side, "suction_pressure_Pa"), "must not be above the discharge pressure")
+        else:
+            yield Rule(high < low, (side, "discharge_pressure_Pa"), "must not be below the suction pressure")

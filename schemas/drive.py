@@ -3,17 +3,18 @@
 from collections.abc import Iterator
 from typing import Annotated
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
-from schemas.base import FieldProblem, Model, raise_problems
+from schemas.base import Model
 from schemas.quantities import Force, Fraction, Moment, Name, Position
+from schemas.rules import Rule, Ruled
 from schemas.units import Unit, between, non_negative
 
 Power = Annotated[float, non_negative(1e18), Unit("W")]
 MAX_BEARINGS = 500
 
 
-class Friction(Model):
+class Friction(Ruled):
     """Mechanical losses: from the efficiency, or given as forces."""
 
     mechanical_efficiency: Annotated[float, Strict(), between(0.01, 1.0)] | None = Field(
@@ -32,30 +33,25 @@ class Friction(Model):
         None, description="friction torque of the shaft, in place of the efficiency", examples=[435.9]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "Friction":
-        raise_problems(self._problems())
-        return self
-
-    def _problems(self) -> Iterator[FieldProblem]:
+    def rules(self) -> Iterator[Rule]:
+        path = ("mechanical_efficiency",)
         given = self.reciprocating_force_N is not None or self.rotating_torque_Nm is not None
         if self.mechanical_efficiency is None:
-            if not given:
-                yield FieldProblem(("mechanical_efficiency",), "give the efficiency, or friction forces and torque")
-            if self.indicated_power_W is not None:
-                yield FieldProblem(("indicated_power_W",), "serves only with a mechanical efficiency")
-        elif given:
-            yield FieldProblem(("mechanical_efficiency",), "give either the efficiency or friction forces and torque")
+            yield Rule(not given, path, "give the efficiency, or friction forces and torque")
+            useless = self.indicated_power_W is not None
+            yield Rule(useless, ("indicated_power_W",), "serves only with a mechanical efficiency")
+        else:
+            yield Rule(given, path, "give either the efficiency or friction forces and torque")
 
-    def row_problems(self, rows: int) -> Iterator[FieldProblem]:
-        """Lists that do not have one entry for each row."""
+    def row_rules(self, rows: int) -> Iterator[Rule]:
+        """Lists have one entry for each row; paths from the machine."""
         for field in ("indicated_power_W", "reciprocating_force_N"):
             values = getattr(self, field)
-            if values is not None and len(values) != rows:
-                yield FieldProblem(("friction", field), f"must hold one value for each of the {rows} row(s)")
+            broken = values is not None and len(values) != rows
+            yield Rule(broken, ("friction", field), f"must hold one value for each of the {rows} row(s)")
 
 
-class FlywheelData(Model):
+class FlywheelData(Ruled):
     """What is known of the turning inertia: the irregularity to be held, or the inertia."""
 
     irregularity: Annotated[float, Strict(), between(1e-6, 2.0)] | None = Field(
@@ -65,11 +61,9 @@ class FlywheelData(Model):
         None, description="polar moment of inertia of all that turns", examples=[1048.0]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "FlywheelData":
-        if (self.irregularity is None) == (self.inertia_kg_m2 is None):
-            raise_problems([FieldProblem(("irregularity",), "give either the irregularity or the inertia")])
-        return self
+    def rules(self) -> Iterator[Rule]:
+        broken = (self.irregularity is None) == (self.inertia_kg_m2 is None)
+        yield Rule(broken, ("irregularity",), "give either the irregularity or the inertia")
 
 
 class Bearing(Model):

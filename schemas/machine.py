@@ -1,15 +1,18 @@
 """The machine: throws, rows, webs. Frame and signs: docs/mathematics.md section 1."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from operator import or_
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import Model, NotEmpty
 from schemas.cylinder import Cylinder
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Fraction, Length, Mass, MaxMass, Name, Position, Speed
+from schemas.rules import Path, Rule, Ruled, larger
 from schemas.units import Unit, positive
 
 MAX_THROWS = 500
@@ -103,7 +106,7 @@ class Web(Model):
     )
 
 
-class Rotor(Model):
+class Rotor(Ruled):
     """What every machine has: a shaft, its speed, and the places for counterweights."""
 
     name: Name | None = Field(None, description="name of the machine", examples=["2D12-90/2-20"])
@@ -127,8 +130,8 @@ class Rotor(Model):
         None, description="largest total mass of all counterweights; null is no limit", examples=[None]
     )
 
-    def _web_problems(self) -> Iterator[FieldProblem]:
-        yield from duplicate_names(("webs",), [web.name for web in self.webs])
+    def rules(self) -> Iterator[Rule]:
+        yield from _unique_names(("webs",), [web.name for web in self.webs])
 
 
 class ReciprocatingMachine(Rotor):
@@ -154,36 +157,17 @@ class ReciprocatingMachine(Rotor):
         examples=[[{"name": "A", "position_m": -0.4}, {"name": "B", "position_m": 0.4}]],
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "ReciprocatingMachine":
-        raise_problems([*self._web_problems(), *self._throw_problems(), *self._drive_problems()])
-        return self
-
-    def _throw_problems(self) -> Iterator[FieldProblem]:
-        if sum(len(throw.rows) for throw in self.throws) > MAX_ROWS_TOGETHER:
-            yield FieldProblem(("throws",), f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows")
-        yield from duplicate_names(("throws",), [throw.name for throw in self.throws])
+    def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        rows = sum(len(throw.rows) for throw in self.throws)
+        message = f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows"
+        yield Rule(rows > MAX_ROWS_TOGETHER, ("throws",), message)
+        yield from _unique_names(("throws",), [throw.name for throw in self.throws])
         for t, throw in enumerate(self.throws):
-            yield from duplicate_names(("throws", t, "rows"), [row.name for row in throw.rows])
-            for i, row in enumerate(throw.rows):
-                length = row.connecting_rod.length_m if row.connecting_rod else None
-                if length is not None and not length > throw.crank_radius_m:
-                    path = ("throws", t, "rows", i, "connecting_rod", "length_m")
-                    yield FieldProblem(path, "the connecting rod must be longer than the crank radius")
-
-    def _drive_problems(self) -> Iterator[FieldProblem]:
+            yield from _throw_rules(("throws", t), throw)
         if self.friction is not None:
-            yield from self.friction.row_problems(sum(len(throw.rows) for throw in self.throws))
-        yield from duplicate_names(("bearings",), [bearing.name for bearing in self.bearings])
-        places = sorted(bearing.position_m for bearing in self.bearings)
-        # nearer than this no arithmetic tells them apart
-        near = max(1e-8 * (places[-1] - places[0]), 1e-14 * max(map(abs, places))) if places else 0.0
-        for index, bearing in enumerate(self.bearings):
-            others = (other.position_m for other in self.bearings[:index])
-            if any(abs(bearing.position_m - other) <= near for other in others):
-                yield FieldProblem(("bearings", index, "position_m"), "another bearing is in this plane")
-        if len(places) == 1:
-            yield FieldProblem(("bearings",), "a shaft needs at least two bearings")
+            yield from self.friction.row_rules(rows)
+        yield from _bearing_rules(self.bearings)
 
 
 class OldhamRing(Model):
@@ -230,23 +214,44 @@ class ScrollMachine(Rotor):
         examples=[5000.0],
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "ScrollMachine":
-        raise_problems(self._web_problems())
-        if self.rotation_torque_Nm is not None and self.tangential_gas_force_N is not None:
-            raise_problems([FieldProblem(("rotation_torque_Nm",), "give either the torque or the gas force")])
-        return self
+    def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        both = self.rotation_torque_Nm is not None and self.tangential_gas_force_N is not None
+        yield Rule(both, ("rotation_torque_Nm",), "give either the torque or the gas force")
 
 
 Machine = Annotated[ReciprocatingMachine | ScrollMachine, Field(discriminator="kind")]
 
 
-def duplicate_names(path: tuple[str | int, ...], names: list[str | None]) -> Iterator[FieldProblem]:
-    """One problem for every name that already stands earlier in the list; None is no name."""
+def _throw_rules(path: Path, throw: Throw) -> Iterator[Rule]:
+    yield from _unique_names((*path, "rows"), [row.name for row in throw.rows])
+    for i, row in enumerate(throw.rows):
+        if row.connecting_rod is not None and row.connecting_rod.length_m is not None:
+            short = row.connecting_rod.length_m <= throw.crank_radius_m
+            message = "the connecting rod must be longer than the crank radius"
+            yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
+
+
+def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:
+    yield from _unique_names(("bearings",), [bearing.name for bearing in bearings])
+    if not bearings:
+        return
+    places = [bearing.position_m for bearing in bearings]
+    extent = reduce(larger, places) + reduce(larger, [-place for place in places])
+    # nearer than this no arithmetic tells them apart
+    near = larger(1e-8 * extent, 1e-14 * reduce(larger, map(abs, places)))
+    for k, place in enumerate(places):
+        coincides = reduce(or_, (abs(place - other) <= near for other in places[:k]), False)
+        yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
+    yield Rule(len(places) == 1, ("bearings",), "a shaft needs at least two bearings")
+
+
+def _unique_names(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
+    """One rule broken for every name that already stands earlier in the list; None is no name."""
     seen: set[str] = set()
     for index, name in enumerate(names):
         if name is None:
             continue
         if name in seen:
-            yield FieldProblem((*path, index, "name"), "this name is taken already; names must be unique")
+            yield Rule(True, (*path, index, "name"), "this name is taken already; names must be unique")
         seen.add(name)

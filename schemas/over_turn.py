@@ -4,15 +4,17 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, Any
 
-from pydantic import Discriminator, Field, Tag, model_validator
+from pydantic import Discriminator, Field, Tag
 
-from schemas.base import FieldProblem, Model, raise_problems
+from schemas.base import Model
+from schemas.rules import Rule, Ruled, first_of
 from schemas.units import Unit, between, symmetric
 
 MAX_TABLE = 3601
 
 # the ranges keep every product and quotient of them far inside the floating-point numbers
-PinRadius = Annotated[float, between(1e-6, 1e6), Unit("m")]
+LEAST_PIN_RADIUS_M, LARGEST_PIN_RADIUS_M = 1e-6, 1e6
+PinRadius = Annotated[float, between(LEAST_PIN_RADIUS_M, LARGEST_PIN_RADIUS_M), Unit("m")]
 Torque = Annotated[float, symmetric(1e18), Unit("N m")]
 GasForce = Annotated[float, symmetric(1e18), Unit("N")]
 TableAngles = Annotated[
@@ -26,44 +28,45 @@ TableAngles = Annotated[
 ]
 
 
-class TorqueTable(Model):
+class TorqueTable(Ruled):
     """A torque over one turn; linear between the entries, and from the last one on to the first."""
 
     angle_deg: TableAngles
     torque_Nm: tuple[Torque, ...] = Field(description="torque at these angles", examples=[[12.0, 15.0, 13.0]])
 
-    @model_validator(mode="after")
-    def _check(self) -> "TorqueTable":
-        raise_problems(_table_problems(self.angle_deg, self.torque_Nm, "torque_Nm"))
-        return self
+    def rules(self) -> Iterator[Rule]:
+        return _table_rules(self.angle_deg, self.torque_Nm, "torque_Nm")
 
 
-class ForceTable(Model):
+class ForceTable(Ruled):
     """A force over one turn; linear between the entries, and from the last one on to the first."""
 
     angle_deg: TableAngles
     force_N: tuple[GasForce, ...] = Field(description="force at these angles", examples=[[4000.0, 5000.0, 4300.0]])
 
-    @model_validator(mode="after")
-    def _check(self) -> "ForceTable":
-        raise_problems(_table_problems(self.angle_deg, self.force_N, "force_N"))
-        return self
+    def rules(self) -> Iterator[Rule]:
+        return _table_rules(self.angle_deg, self.force_N, "force_N")
 
 
-def _table_problems(angles: tuple[float, ...], values: tuple[float, ...], name: str) -> Iterator[FieldProblem]:
+def _table_rules(angles: tuple[float, ...], values: tuple[float, ...], name: str) -> Iterator[Rule]:
+    rising = [
+        Rule(left >= right, ("angle_deg", k), "the angles must rise")
+        for k, (left, right) in enumerate(pairwise(angles), start=1)
+    ]
     if len(values) != len(angles):
-        yield FieldProblem((name,), f"must hold one value for each of the {len(angles)} angles")
-    falling = [index for index, (left, right) in enumerate(pairwise(angles), start=1) if not left < right]
-    for index in falling[:1]:
-        yield FieldProblem(("angle_deg", index), "the angles must rise")
-    if falling or len(values) != len(angles) or angles[-1] != 360.0:
+        yield Rule(True, (name,), f"must hold one value for each of the {len(angles)} angles")
+        yield from first_of(rising)
         return
-    if angles[0] != 0.0:
-        yield FieldProblem(("angle_deg", len(angles) - 1), "360 ends the turn only if the table begins at 0")
-    elif values[-1] != values[0]:
-        yield FieldProblem((name, len(values) - 1), "the value at 360 must be that at 0: the table is one turn")
-    elif len(angles) < 3:
-        yield FieldProblem(("angle_deg",), "must hold at least two different angles of the turn")
+    whole, last = angles[-1] == 360.0, len(angles) - 1
+    late, jumps, short = whole & (angles[0] != 0.0), whole & (values[-1] != values[0]), whole & (len(angles) < 3)
+    yield from first_of(
+        [
+            *rising,
+            Rule(late, ("angle_deg", last), "360 ends the turn only if the table begins at 0"),
+            Rule(jumps, (name, last), "the value at 360 must be that at 0: the table is one turn"),
+            Rule(short, ("angle_deg",), "must hold at least two different angles of the turn"),
+        ]
+    )
 
 
 def _form(value: Any) -> str:

@@ -1,8 +1,9 @@
 """The trade-off between peak force and peak moment: what is asked, and what is answered."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from schemas.answers import (
     Counterweight,
@@ -13,10 +14,11 @@ from schemas.answers import (
     MachineLimit,
     Timing,
 )
-from schemas.base import Answer, FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import Answer, Model, NotEmpty
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
+from schemas.rules import Rule, Ruled, first_of
 from schemas.units import Unit, between
 
 MAX_POINTS = 201
@@ -31,7 +33,7 @@ Reason = Literal["reached_together", "resolution", "undecided"]
 Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MAX_BUDGETS), NotEmpty()]
 
 
-class ParetoRequest(OptimizeRequest):
+class ParetoRequest(OptimizeRequest, Ruled):
     """The force-moment front of a machine, and its change with the total mass.
 
     Of the objective, direction weights, ceilings and ``least_mass`` count; how force and moment are weighed and
@@ -52,22 +54,17 @@ class ParetoRequest(OptimizeRequest):
         False, description="the multipliers of every point's certificate, and of the ends'", examples=[False]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "ParetoRequest":
+    def rules(self) -> Iterator[Rule]:
         budgets = self.total_mass_budgets_kg or ()
-        problems = [
-            FieldProblem(("total_mass_budgets_kg", index), "this budget is in the list already")
-            for index, budget in enumerate(budgets)
-            if budget in budgets[:index]
-        ]
-        if self.points * len(budgets) > MAX_POINTS_TOGETHER:
-            message = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
-            problems.append(FieldProblem(("points",), message))
-        elif self.points * max(1, len(budgets)) * len(self.machine.webs) > MAX_PLACES:
-            message = f"points times budgets times webs must be at most {MAX_PLACES}"
-            problems.append(FieldProblem(("points",), message))
-        raise_problems(problems)
-        return self
+        for index, budget in enumerate(budgets):
+            path = ("total_mass_budgets_kg", index)
+            yield Rule(budget in budgets[:index], path, "this budget is in the list already")
+        together, places = self.points * len(budgets), self.points * max(1, len(budgets)) * len(self.machine.webs)
+        points = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
+        work = f"points times budgets times webs must be at most {MAX_PLACES}"
+        yield from first_of(
+            [Rule(together > MAX_POINTS_TOGETHER, ("points",), points), Rule(places > MAX_PLACES, ("points",), work)]
+        )
 
 
 class Scale(Model):

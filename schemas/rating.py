@@ -4,10 +4,11 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import Model, NotEmpty
 from schemas.quantities import Count, Fraction, Name
+from schemas.rules import Rule, Ruled
 from schemas.units import Unit
 
 MAX_STAGES = 12
@@ -41,7 +42,7 @@ class RelativeLeaks(Model):
     )
 
 
-class CompressionStage(Model):
+class CompressionStage(Ruled):
     """One stage: its cylinders, which are all alike, and what is known of its losses."""
 
     name: Name | None = Field(None, description="name of the stage, unique in the machine", examples=["I"])
@@ -100,19 +101,14 @@ class CompressionStage(Model):
         None, description="the same at discharge; null likewise", examples=[0.061]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "CompressionStage":
-        raise_problems(self._problems())
-        return self
-
-    def _problems(self) -> Iterator[FieldProblem]:
-        if (self.leakage_coefficient is None) == (self.relative_leaks is None):
-            yield FieldProblem(("leakage_coefficient",), "give either the leakage coefficient or the relative leaks")
-        if self.bore_m is not None and not self.piston_rod_diameter_m < self.bore_m:
-            yield FieldProblem(("piston_rod_diameter_m",), "must be smaller than the bore")
+    def rules(self) -> Iterator[Rule]:
+        unclear = (self.leakage_coefficient is None) == (self.relative_leaks is None)
+        yield Rule(unclear, ("leakage_coefficient",), "give either the leakage coefficient or the relative leaks")
+        thick = self.bore_m is not None and self.piston_rod_diameter_m >= self.bore_m
+        yield Rule(thick, ("piston_rod_diameter_m",), "must be smaller than the bore")
 
 
-class RatingRequest(Model):
+class RatingRequest(Ruled):
     """Size the cylinders of a compressor, and say what they deliver and need."""
 
     name: Name | None = Field(None, description="name of the machine", examples=["2D12-90/2-20"])
@@ -199,36 +195,29 @@ class RatingRequest(Model):
         None, description="power of the motor that is there; if it is too small the answer warns", examples=[450000.0]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "RatingRequest":
-        raise_problems(self._problems())
-        return self
-
-    def _problems(self) -> Iterator[FieldProblem]:
-        if not self.discharge_pressure_Pa > self.suction_pressure_Pa:
-            yield FieldProblem(("discharge_pressure_Pa",), "must be above the suction pressure")
-        elif self.interstage_pressures_Pa is not None:
-            yield from self._interstage_problems(self.interstage_pressures_Pa)
-        if self.stages[0].side_flow_coefficient != 1.0:
-            yield FieldProblem(("stages", 0, "side_flow_coefficient"), "must be 1: it counts from the first stage")
+    def rules(self) -> Iterator[Rule]:
+        falls = self.discharge_pressure_Pa <= self.suction_pressure_Pa
+        yield Rule(falls, ("discharge_pressure_Pa",), "must be above the suction pressure")
+        if self.interstage_pressures_Pa is not None and not falls:
+            yield from self._interstage_rules(self.interstage_pressures_Pa)
+        added = self.stages[0].side_flow_coefficient != 1.0
+        yield Rule(added, ("stages", 0, "side_flow_coefficient"), "must be 1: it counts from the first stage")
         seen: set[str] = set()
         for index, stage in enumerate(self.stages):
-            if stage.name in seen:
-                yield FieldProblem(("stages", index, "name"), "another stage has this name")
+            yield Rule(stage.name in seen, ("stages", index, "name"), "another stage has this name")
             if stage.name is not None:
                 seen.add(stage.name)
             temperature = stage.suction_temperature_K
-            if self.relative_humidity > 0 and not COLDEST_STEAM_K <= temperature <= HOTTEST_STEAM_K:
-                message = f"must be from {COLDEST_STEAM_K} to {HOTTEST_STEAM_K} K where the gas is humid"
-                yield FieldProblem(("stages", index, "suction_temperature_K"), message)
+            outside = self.relative_humidity > 0 and not COLDEST_STEAM_K <= temperature <= HOTTEST_STEAM_K
+            message = f"must be from {COLDEST_STEAM_K} to {HOTTEST_STEAM_K} K where the gas is humid"
+            yield Rule(outside, ("stages", index, "suction_temperature_K"), message)
 
-    def _interstage_problems(self, between: tuple[float, ...]) -> Iterator[FieldProblem]:
+    def _interstage_rules(self, between: tuple[float, ...]) -> Iterator[Rule]:
         if len(between) != len(self.stages) - 1:
-            yield FieldProblem(("interstage_pressures_Pa",), "must hold one pressure less than there are stages")
+            yield Rule(True, ("interstage_pressures_Pa",), "must hold one pressure less than there are stages")
             return
         pressures = (self.suction_pressure_Pa, *between, self.discharge_pressure_Pa)
         for index, (low, high) in enumerate(pairwise(pressures)):
-            if not high > low:
-                # the last pair ends at the discharge: what is wrong there is the pressure before it
-                place = ("interstage_pressures_Pa", min(index, len(between) - 1))
-                yield FieldProblem(place, "must rise from the suction to the discharge pressure")
+            # the last pair ends at the discharge: what is wrong there is the pressure before it
+            place = ("interstage_pressures_Pa", min(index, len(between) - 1))
+            yield Rule(high <= low, place, "must rise from the suction to the discharge pressure")

@@ -3,30 +3,28 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field, Strict, model_validator
+from pydantic import Field, Strict
 
 from schemas.angles import Angles
-from schemas.base import FieldProblem, Model, raise_problems
+from schemas.base import Model
 from schemas.machine import MAX_WEBS, Machine
 from schemas.outputs import OutputNames
 from schemas.quantities import Angle, Flag, Force, Mass, Moment, Name, Weight
+from schemas.rules import Rule, Ruled
 from schemas.units import Unit
 
 
-class DirectionWeights(Model):
+class DirectionWeights(Ruled):
     """Weights of the force and moment components across the shaft."""
 
     x: Weight = Field(1.0, description="weight of the x components", examples=[1.0])
     y: Weight = Field(1.0, description="weight of the y components", examples=[1.0])
 
-    @model_validator(mode="after")
-    def _check(self) -> "DirectionWeights":
-        if self.x == 0 and self.y == 0:
-            raise_problems([FieldProblem(("y",), "only one of the two direction weights may be 0")])
-        return self
+    def rules(self) -> Iterator[Rule]:
+        yield Rule((self.x == 0) & (self.y == 0), ("y",), "only one of the two direction weights may be 0")
 
 
-class Objective(Model):
+class Objective(Ruled):
     """What is to be small: w_F peak force and w_M peak moment."""
 
     combine: Literal["sum", "max"] = Field(
@@ -53,11 +51,9 @@ class Objective(Model):
         True, description="among all optima take the one with the least total mass", examples=[True]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "Objective":
-        if self.force_weight == 0 and self.moment_weight == 0:
-            raise_problems([FieldProblem(("moment_weight",), "only one of the two weights may be 0")])
-        return self
+    def rules(self) -> Iterator[Rule]:
+        neither = (self.force_weight == 0) & (self.moment_weight == 0)
+        yield Rule(neither, ("moment_weight",), "only one of the two weights may be 0")
 
 
 class Accuracy(Model):
@@ -127,7 +123,7 @@ class FittedCounterweight(Model):
     angle_deg: Angle = Field(description="angle of the counterweight as drawn at shaft angle 0", examples=[180.0])
 
 
-class AnalyzeRequest(Scene):
+class AnalyzeRequest(Scene, Ruled):
     """The machine as it stands, or with given counterweights."""
 
     counterweights: tuple[FittedCounterweight, ...] = Field(
@@ -137,18 +133,12 @@ class AnalyzeRequest(Scene):
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "AnalyzeRequest":
-        raise_problems(self._problems())
-        return self
-
-    def _problems(self) -> Iterator[FieldProblem]:
+    def rules(self) -> Iterator[Rule]:
         names = {web.name for web in self.machine.webs}
         seen: set[str] = set()
         for index, counterweight in enumerate(self.counterweights):
             path = ("counterweights", index, "web")
-            if counterweight.web not in names:
-                yield FieldProblem(path, "the machine has no web of this name")
-            elif counterweight.web in seen:
-                yield FieldProblem(path, "this web carries a counterweight already")
+            yield Rule(counterweight.web not in names, path, "the machine has no web of this name")
+            twice = counterweight.web in seen & names
+            yield Rule(twice, path, "this web carries a counterweight already")
             seen.add(counterweight.web)

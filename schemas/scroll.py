@@ -8,12 +8,13 @@ from collections.abc import Iterator
 from math import cos, dist, radians, sin
 from typing import Annotated, Literal
 
-from pydantic import Field, model_validator
+from pydantic import Field
 
 from schemas.angles import Angles
-from schemas.base import Answer, FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import Answer, Model, NotEmpty
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Degrees, Joules, NewtonMetres, Newtons
+from schemas.rules import Rule, Ruled
 from schemas.units import Unit, between, non_negative, symmetric
 
 MAX_PINS = 1000
@@ -46,7 +47,7 @@ class Pin(Model):
     )
 
 
-class PinLoadsRequest(Model):
+class PinLoadsRequest(Ruled):
     """What do the anti-rotation pins carry over a turn?"""
 
     pin_count: Annotated[Count, between(1, MAX_PINS)] | None = Field(
@@ -77,11 +78,6 @@ class PinLoadsRequest(Model):
     )
     angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
 
-    @model_validator(mode="after")
-    def _check(self) -> "PinLoadsRequest":
-        raise_problems([*self._pattern_problems(), *self._pin_problems(), *self._cause_problems()])
-        return self
-
     @property
     def count(self) -> int:
         """Number of pins, however they are given."""
@@ -92,36 +88,43 @@ class PinLoadsRequest(Model):
         """Some pin has play or an error, so that not every pin bears at every angle."""
         return any(pin.clearance_m > 0 or pin.eccentricity_error_m != 0 for pin in self.pins or ())
 
-    def _pattern_problems(self) -> Iterator[FieldProblem]:
-        if (self.pin_count is None) == (self.pins is None):
-            yield FieldProblem(("pin_count",), "give either the number of evenly spaced pins or the pins")
-        elif self.pin_count is not None and self.pin_circle_radius_m is None:
-            yield FieldProblem(("pin_circle_radius_m",), "evenly spaced pins need the radius of their circle")
-        if self.pins is not None and self.pin_circle_radius_m is not None:
-            yield FieldProblem(("pin_circle_radius_m",), "every pin has its own radius")
-        most = MAX_LOADS_WITH_CLEARANCE if self.has_clearance else MAX_LOADS
-        if self.count * self.angles.count > most:
-            yield FieldProblem(("angles", "step_deg"), f"pins times samples must be at most {most}")
+    def rules(self) -> Iterator[Rule]:
+        yield from self._pattern_rules()
+        yield from self._pin_rules()
+        yield from self._cause_rules()
 
-    def _pin_problems(self) -> Iterator[FieldProblem]:
+    def _pattern_rules(self) -> Iterator[Rule]:
+        radius = ("pin_circle_radius_m",)
+        if (self.pin_count is None) == (self.pins is None):
+            yield Rule(True, ("pin_count",), "give either the number of evenly spaced pins or the pins")
+        else:
+            alone = self.pin_count is not None and self.pin_circle_radius_m is None
+            yield Rule(alone, radius, "evenly spaced pins need the radius of their circle")
+        both = self.pins is not None and self.pin_circle_radius_m is not None
+        yield Rule(both, radius, "every pin has its own radius")
+        most = MAX_LOADS_WITH_CLEARANCE if self.has_clearance else MAX_LOADS
+        many = self.count * self.angles.count > most
+        yield Rule(many, ("angles", "step_deg"), f"pins times samples must be at most {most}")
+
+    def _pin_rules(self) -> Iterator[Rule]:
         pins = self.pins or ()
         given = any(pin.stiffness_N_per_m is not None for pin in pins)
+        needed = given or self.has_clearance
+        why = "every pin needs one" if given else "clearances and errors need the stiffness of every pin"
         places = [_place(pin.radius_m, radians(pin.angle_deg % 360.0)) for pin in pins]
         for index, pin in enumerate(pins):
-            if pin.stiffness_N_per_m is None and (given or self.has_clearance):
-                why = "every pin needs one" if given else "clearances and errors need the stiffness of every pin"
-                yield FieldProblem(("pins", index, "stiffness_N_per_m"), why)
+            yield Rule(needed and pin.stiffness_N_per_m is None, ("pins", index, "stiffness_N_per_m"), why)
             # nearer than this no arithmetic tells them apart
-            if any(dist(places[index], other) <= 1e-9 * pin.radius_m for other in places[:index]):
-                yield FieldProblem(("pins", index, "angle_deg"), "another pin is in this place")
+            taken = any(dist(places[index], other) <= 1e-9 * pin.radius_m for other in places[:index])
+            yield Rule(taken, ("pins", index, "angle_deg"), "another pin is in this place")
 
-    def _cause_problems(self) -> Iterator[FieldProblem]:
-        if (self.rotation_torque_Nm is None) == (self.tangential_gas_force_N is None):
-            yield FieldProblem(("rotation_torque_Nm",), "give either the rotation torque or the tangential gas force")
-        if self.tangential_gas_force_N is not None and self.orbit_radius_m is None:
-            yield FieldProblem(("orbit_radius_m",), "the tangential gas force needs the radius of the orbit")
-        if self.tangential_gas_force_N is None and self.orbit_radius_m is not None:
-            yield FieldProblem(("orbit_radius_m",), "serves only with a tangential gas force")
+    def _cause_rules(self) -> Iterator[Rule]:
+        torque, force, lever = self.rotation_torque_Nm, self.tangential_gas_force_N, self.orbit_radius_m
+        message = "give either the rotation torque or the tangential gas force"
+        yield Rule((torque is None) == (force is None), ("rotation_torque_Nm",), message)
+        message = "the tangential gas force needs the radius of the orbit"
+        yield Rule(force is not None and lever is None, ("orbit_radius_m",), message)
+        yield Rule(force is None and lever is not None, ("orbit_radius_m",), "serves only with a tangential gas force")
 
 
 def _place(radius: float, angle: float) -> tuple[float, float]:

@@ -12,7 +12,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import RODS, rod_problems
-from optimizer.mechanics.cylinders import chambers, delivery_problems, gas_problems
+from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import Chambers, GasForces, gas_forces, indicated_work, switching_angles
 from optimizer.mechanics.kinematics import Motion, motion, own_angle, steep_angles
@@ -22,6 +22,7 @@ from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.turn import fluctuation, mean, panels
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
+from schemas.rules import Rule
 
 _WIDEST_PANEL = np.deg2rad(10.0)
 #: rows times angles that are worked on at once, which bounds the memory
@@ -120,10 +121,11 @@ def _motion_problems(machine: Machine) -> Iterator[FieldProblem]:
 
 def _gas_problems(machine: Machine) -> Iterator[FieldProblem]:
     if isinstance(machine, ReciprocatingMachine):
-        missing = list(gas_problems(machine))
-        yield from missing
-        if not missing and not list(rod_problems(machine)):
-            yield from delivery_problems(machine, layout_of(machine))
+        yield from gas_problems(machine)
+
+
+def _gas_rules(machine: Machine) -> Iterator[Rule]:
+    return delivery_rules(_reciprocating(machine), layout_of(machine))
 
 
 def _flywheel_problems(machine: Machine) -> Iterator[FieldProblem]:
@@ -271,6 +273,7 @@ DYNAMICS = (
         needs=("kinematics",),
         inputs=("machine.throws.rows.cylinder",),
         problems=_gas_problems,
+        rules=_gas_rules,
     ),
     Effect(
         "friction",

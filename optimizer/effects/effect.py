@@ -9,6 +9,7 @@ from optimizer.mechanics.layout import Layout
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.requests import Fidelity
+from schemas.rules import Rule
 
 
 @dataclass(frozen=True)
@@ -23,7 +24,7 @@ class Context:
     elsewhere: Callable[[str, Real], Any]  # the result of one of those effects at other shaft angles
 
 
-def _no_problems(_machine: Machine) -> Iterator[FieldProblem]:
+def _none(_machine: Machine) -> Iterator[Any]:
     return iter(())
 
 
@@ -40,6 +41,7 @@ class Effect:
     needs : effects whose results it uses.
     inputs : fields of the request that it reads beyond masses and geometry, for people.
     problems : fields that it needs and a machine does not give, by paths from the machine.
+    rules : what it asks of these fields once they are there; of columns where the machine has columns.
     applies : whether a machine has the effect at all.
     """
 
@@ -48,5 +50,6 @@ class Effect:
     simulate: Callable[[Context], Any]
     needs: tuple[str, ...] = ()
     inputs: tuple[str, ...] = ()
-    problems: Callable[[Machine], Iterator[FieldProblem]] = _no_problems
+    problems: Callable[[Machine], Iterator[FieldProblem]] = _none
+    rules: Callable[[Machine], Iterator[Rule]] = _none
     applies: Callable[[Machine], bool] = _always

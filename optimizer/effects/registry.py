@@ -18,6 +18,7 @@ from schemas.answers import EffectUse
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.requests import Fidelity
+from schemas.rules import Rule
 
 #: every effect; each stands after those that it needs
 EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}
@@ -41,6 +42,19 @@ def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem
     """Fields that these effects need, and all that they need, and the machine does not give."""
     for name in closure(machine, needs):
         yield from EFFECTS[name].problems(machine)
+
+
+def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
+    """What one effect asks of a machine: its fields are there, and it can be simulated.
+
+    Parameters
+    ----------
+    machine : its fields may hold columns (n,); a verdict is then one for all, or one for each.
+    """
+    for path, message in EFFECTS[name].problems(machine):
+        yield Rule(True, path, message)
+    if not any(problems_of(machine, (name,))):
+        yield from EFFECTS[name].rules(machine)
 
 
 def inputs_of(needs: Sequence[str]) -> tuple[str, ...]:

@@ -2,14 +2,14 @@
 
 from collections.abc import Iterator
 
-from pydantic import ValidationError
-
 from optimizer.effects.effect import Context, Effect
 from optimizer.errors import MissingInput
 from optimizer.pins.answer import pin_loads
 from schemas.angles import Angles
 from schemas.base import FieldProblem
 from schemas.machine import CrankPins, Machine, ScrollMachine
+from schemas.over_turn import LARGEST_PIN_RADIUS_M, LEAST_PIN_RADIUS_M
+from schemas.rules import Rule
 from schemas.scroll import MAX_LOADS, PinLoadsAnswer, PinLoadsRequest
 
 
@@ -32,12 +32,16 @@ def _problems(machine: Machine) -> Iterator[FieldProblem]:
         yield FieldProblem(("anti_rotation", "type"), "only crank pins have pin loads")
     elif machine.rotation_torque_Nm is None and machine.tangential_gas_force_N is None:
         yield FieldProblem(("rotation_torque_Nm",), "pin loads need the torque or the tangential gas force")
-    else:
-        try:
-            _question(machine, machine.anti_rotation, Angles(step_deg=120.0))
-        except ValidationError as error:
-            # the one range of a scroll machine that is wider than that of the pins
-            yield FieldProblem(("orbit_radius_m",), error.errors()[0]["msg"])
+
+
+def _rules(machine: Machine) -> Iterator[Rule]:
+    assert isinstance(machine, ScrollMachine)  # checked by the problems
+    if machine.tangential_gas_force_N is not None:
+        # the one range of a scroll machine that is wider than that of the pins
+        lever = machine.orbit_radius_m
+        outside = (lever < LEAST_PIN_RADIUS_M) | (lever > LARGEST_PIN_RADIUS_M)
+        message = f"must be between {LEAST_PIN_RADIUS_M:g} and {LARGEST_PIN_RADIUS_M:g} for pin loads"
+        yield Rule(outside, ("orbit_radius_m",), message)
 
 
 def _pin_loads(context: Context) -> PinLoadsAnswer:
@@ -58,5 +62,6 @@ SCROLL = (
         _pin_loads,
         inputs=("machine.anti_rotation", "machine.rotation_torque_Nm", "machine.tangential_gas_force_N"),
         problems=_problems,
+        rules=_rules,
     ),
 )

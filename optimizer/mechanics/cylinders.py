@@ -9,8 +9,7 @@ from optimizer.mechanics.layout import Layout, stacked
 from schemas.base import FieldProblem
 from schemas.cylinder import Cylinder
 from schemas.machine import ReciprocatingMachine
-
-Path = tuple[str | int, ...]
+from schemas.rules import Path, Rule
 
 _SIDES = ("head", "crank")
 _STATE = (
@@ -51,13 +50,13 @@ def gas_problems(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
             yield FieldProblem((*path, field), "gas forces need this field")
 
 
-def delivery_problems(machine: ReciprocatingMachine, layout: Layout) -> Iterator[FieldProblem]:
-    """Chambers whose gas only springs back and forth: no cycle of four processes."""
+def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
+    """No chamber whose gas only springs back and forth: that is no cycle of four processes."""
     data = chambers(machine)
     suction, _ = switching_travels(data, layout)
-    for (path, _), never in zip(_cylinders(machine), np.any(data.closed & np.isnan(suction), axis=-1), strict=True):
-        if never:
-            yield FieldProblem((*path, "relative_clearance"), _NEVER_DELIVERS)
+    never = np.any(data.closed & np.isnan(suction), axis=-1)
+    for number, (path, _) in enumerate(_cylinders(machine)):
+        yield Rule(never[..., number], (*path, "relative_clearance"), _NEVER_DELIVERS)
 
 
 def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[Path, Cylinder | None]]:

@@ -5,12 +5,13 @@ from dataclasses import dataclass
 import pyarrow as pa
 
 from optimizer.errors import MissingInput
+from optimizer.outputs import missing_inputs
 from optimizer.sweep.table import result_schema
-from optimizer.sweep.validity import missing_inputs
 from optimizer.sweep.variation import with_fields
 from optimizer.sweep.work import work_per_design
 from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest
+from schemas.rules import Path
 from schemas.sweep import Column, SweepColumn, SweepEstimate, SweepRequest
 
 #: seconds of work in a chunk: long against the cost of handing it out, short against the patience of a client
@@ -108,10 +109,9 @@ def plan(request: SweepRequest) -> Plan:
 def _require_inputs(request: SweepRequest) -> None:
     """Refuse what no design can give: a field that is null in the base and that no axis fills."""
     filled = with_fields(request.base, {target.path: 1.0 for target in request.targets})
-    problems = {
-        path: FieldProblem(("base", *path), f"{message}; asked for by output '{output}'")
-        for path, output, message in missing_inputs(filled)
-    }
+    problems: dict[Path, FieldProblem] = {}
+    for path, message in missing_inputs(filled.machine, filled.outputs):
+        problems.setdefault(path, FieldProblem(("base", *path), message))
     if problems:
         raise MissingInput(problems.values())
 

@@ -7,17 +7,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
-from optimizer.outputs import columns
+from optimizer.outputs import columns, input_rules
 from optimizer.program.reference.solver import Solver
 from optimizer.sweep.analyzed import analyzed
 from optimizer.sweep.designs import axis_values
 from optimizer.sweep.optimized import optimized, shape_keys
-from optimizer.sweep.validity import Finding, input_findings, range_findings, rule_findings
 from optimizer.sweep.variation import with_fields
 from optimizer.sweep.work import work_per_design
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.rules import Path, Rule, all_rules
 from schemas.sweep import SweepRequest, pointer
-from schemas.sweep.target import Path
 
 Designs = NDArray[np.int64]
 #: rows times angles that are worked on at once, which bounds the memory
@@ -41,10 +40,10 @@ class Rows:
             if name in self.columns:
                 self.columns[name][designs] = column
 
-    def refuse(self, designs: Designs, finding: Finding) -> None:
+    def refuse(self, designs: Designs, rule: Rule) -> None:
         """Designs that are no valid requests."""
         self.columns["status"][designs] = "invalid"
-        self.columns["message"][designs] = f"{pointer(finding.path)}: {finding.message}"
+        self.columns["message"][designs] = f"{pointer(rule.path)}: {rule.message}"
 
 
 def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[str, Any]:
@@ -55,7 +54,8 @@ def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[s
     values = axis_values(request, start, stop)
     table = Rows(request, start, stop)
     table.put(np.arange(stop - start), {pointer(t.path): v for t, v in zip(request.targets, values, strict=True)})
-    inside = _refuse(table, np.arange(stop - start), range_findings(request.targets, values))
+    ranges = (rule for target, column in zip(request.targets, values, strict=True) for rule in target.rules(column))
+    inside = _refuse(table, np.arange(stop - start), ranges)
     for designs in _same_nulls(values, inside):
         _fill(table, Group(request, values), designs, solver, request.multipliers)
     return table.columns
@@ -75,19 +75,12 @@ class Group:
             contents[target.path] = None if np.isnan(chosen[0]) else chosen
         return with_fields(self._base, contents)
 
-    def one(self, design: int) -> OptimizeRequest | AnalyzeRequest:
-        """One design as a request of numbers."""
-        contents: dict[Path, Any] = {}
-        for target, column in zip(self._targets, self._values, strict=True):
-            number = float(column[design])
-            contents[target.path] = None if np.isnan(number) else int(number) if target.integer else number
-        return with_fields(self._base, contents)
-
 
 def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multipliers: bool) -> None:
-    designs = _refuse(table, designs, rule_findings(group.of(designs)))
+    designs = _refuse(table, designs, all_rules(group.of(designs)))
     if designs.size:
-        designs = _refuse(table, designs, input_findings(group.of(designs), group.one(designs[0])))
+        request = group.of(designs)
+        designs = _refuse(table, designs, input_rules(request.machine, request.outputs))
     if not designs.size:
         return
     request = group.of(designs)
@@ -119,14 +112,16 @@ def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Comple
         table.put(block, columns(part, fitted[first : first + size], always))
 
 
-def _refuse(table: Rows, designs: Designs, findings: Iterable[Finding]) -> Designs:
+def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule]) -> Designs:
     """The designs that break no rule; the others say which they break first."""
     valid = np.ones(designs.size, dtype=bool)
-    for finding in findings:
-        broken = valid & finding.broken
-        if np.any(broken):
-            table.refuse(designs[broken], finding)
-            valid &= ~broken
+    for rule in rules:
+        # most hold for all designs, whatever varies
+        if rule.broken is not False:
+            broken = valid & rule.broken
+            if np.any(broken):
+                table.refuse(designs[broken], rule)
+                valid &= ~broken
     return designs[valid]
 
 

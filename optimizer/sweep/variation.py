@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from typing import Any, TypeVar
 
 from schemas.base import Model
-from schemas.sweep.target import Path
+from schemas.rules import Path
 
 Varied = TypeVar("Varied", bound=Model)
 
@@ -13,7 +13,7 @@ def with_fields(request: Varied, values: Mapping[Path, Any]) -> Varied:
     """The request with other contents in some fields, nothing checked.
 
     The contents may be columns (n,), one value for each design, which the types of the fields do not say: the
-    assembly of machines into arrays and the rules of :mod:`optimizer.sweep.validity` take both.
+    assembly of machines into arrays and the rules of :mod:`schemas.rules` take both.
 
     Parameters
     ----------
@@ -21,19 +21,6 @@ def with_fields(request: Varied, values: Mapping[Path, Any]) -> Varied:
     """
     replaced: Varied = _replaced(request, values)
     return replaced
-
-
-def field_at(request: Model, path: Path) -> Any:
-    """What a field holds; None where the way there ends early."""
-    node: Any = request
-    for part in path:
-        if isinstance(node, Model):
-            node = getattr(node, str(part), None)
-        elif isinstance(node, tuple) and isinstance(part, int) and part < len(node):
-            node = node[part]
-        else:
-            return None
-    return node
 
 
 def _replaced(node: Any, values: Mapping[Path, Any]) -> Any:

@@ -4,11 +4,12 @@ import sys
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
-from pydantic import BeforeValidator, Field, Strict, model_validator
+from pydantic import BeforeValidator, Field, Strict
 from pydantic_core import PydanticCustomError
 
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import NotEmpty
 from schemas.quantities import Count
+from schemas.rules import Rule, Ruled
 
 MAX_DESIGNS = 10_000_000
 
@@ -25,7 +26,7 @@ Text = Annotated[str, Field(max_length=48)]
 Value = Annotated[Annotated[float, Strict()] | Text | None, BeforeValidator(_number_or_text)]
 
 
-class Axis(Model):
+class Axis(Ruled):
     """One field of the base request and the values that take its place: a list, or a range."""
 
     path: Annotated[str, Field(max_length=512)] = Field(
@@ -52,20 +53,13 @@ class Axis(Model):
         "linear", description="even steps of the value, or of its logarithm", examples=["linear"]
     )
 
-    @model_validator(mode="after")
-    def _check(self) -> "Axis":
-        raise_problems(self._problems())
-        return self
-
-    def _problems(self) -> Iterator[FieldProblem]:
+    def rules(self) -> Iterator[Rule]:
         if self.values is not None:
             for name in ("start", "stop", "count"):
-                if getattr(self, name) is not None:
-                    yield FieldProblem((name,), "give either the values or a range")
+                yield Rule(getattr(self, name) is not None, (name,), "give either the values or a range")
             return
         for name in ("start", "stop"):
-            if getattr(self, name) is None:
-                yield FieldProblem((name,), "an axis needs values, or a range from start to stop")
+            yield Rule(getattr(self, name) is None, (name,), "an axis needs values, or a range from start to stop")
 
     @property
     def levels(self) -> int | None:

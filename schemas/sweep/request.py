@@ -10,9 +10,10 @@ from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Count, Flag
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.rules import Path
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
-from schemas.sweep.target import BadPointer, Path, Target, find_target
+from schemas.sweep.target import BadPointer, Target, find_target
 
 MAX_AXES = 64
 #: parts of a request that an axis may vary

@@ -2,6 +2,7 @@
 
 import math
 import re
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, get_args, get_origin
@@ -9,9 +10,8 @@ from typing import Annotated, Any, get_args, get_origin
 from pydantic import TypeAdapter
 
 from schemas.base import Model
+from schemas.rules import Path, Rule
 from schemas.units import UNITS, parse_quantity
-
-Path = tuple[str | int, ...]
 
 _INDEX = re.compile(r"0|[1-9][0-9]{0,8}")
 _BAD_ESCAPE = re.compile(r"~(?![01])")
@@ -61,16 +61,18 @@ class Target:
             return value
         return float(given)
 
-    def refusals(self) -> tuple[tuple[str, float, str], ...]:
-        """Comparisons that an allowed value must hold: operator, bound and what is said where it does not."""
-        rules = []
+    def rules(self, value: Any) -> Iterator[Rule]:
+        """What a value, or each of a column, must keep; nan stands for null and breaks none of them."""
         if not math.isinf(self.lowest):
-            operator, words = (">", "greater than") if self.above else (">=", "at least")
-            rules.append((operator, self.lowest, f"must be {words} {self.lowest:g}"))
+            broken = value <= self.lowest if self.above else value < self.lowest
+            words = "greater than" if self.above else "at least"
+            yield Rule(broken, self.path, f"must be {words} {self.lowest:g}")
         if not math.isinf(self.highest):
-            operator, words = ("<", "less than") if self.below else ("<=", "at most")
-            rules.append((operator, self.highest, f"must be {words} {self.highest:g}"))
-        return tuple(rules)
+            broken = value >= self.highest if self.below else value > self.highest
+            words = "less than" if self.below else "at most"
+            yield Rule(broken, self.path, f"must be {words} {self.highest:g}")
+        if self.integer:
+            yield Rule(value % 1 > 0, self.path, "must be a whole number")
 
 
 def pointer(path: Path) -> str:

@@ -7,8 +7,9 @@ from schemas.angles import Angles
 from schemas.base import FieldProblem, Model
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import Scene
+from schemas.rules import Path
 from schemas.sweep import SweepRequest
-from service.http.validation import InvalidRequest, Path
+from service.http.validation import InvalidRequest
 from service.settings import Settings
 
 

@@ -10,10 +10,9 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from schemas.base import FieldProblem, Model
+from schemas.rules import Path
 
 Request = TypeVar("Request", bound=Model)
-Path = tuple[str | int, ...]
-
 MAX_ERRORS = 50
 #: pydantic reports every bad item of every list, so the number of items bounds its work
 MAX_LIST_ITEMS = 50_000

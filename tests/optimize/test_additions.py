@@ -55,7 +55,6 @@ NAMED_IN = {
     "figures/stages.py": "figures of both",
     "figures/rules_of_thumb.py": "figures of both",
     "pareto/pareto.py": "a front is of these two: fields of its answer",
-    "sweep/validity.py": "rules between the fields of a request",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
     "figures/dynamics.py": "of the piston",

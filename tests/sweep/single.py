@@ -43,7 +43,7 @@ def put(body: Any, path: tuple[str | int, ...], value: Any) -> None:
 
 
 def single(request: SweepRequest, row: dict[str, Any]) -> OptimizeAnswer | AnalyzeAnswer | list[str]:
-    """The answer to one design by itself, or the pointers to what is wrong with it."""
+    """The answer to one design by itself, or what is wrong with it, each with its pointer."""
     body = request.base.model_dump(mode="json")
     for target in request.targets:
         value = row[pointer(target.path)]
@@ -54,7 +54,7 @@ def single(request: SweepRequest, row: dict[str, Any]) -> OptimizeAnswer | Analy
             return analyze(check(AnalyzeRequest, body))
         return optimize(check(OptimizeRequest, body))
     except (InvalidRequest, MissingInput) as error:
-        return [pointer(problem.path) for problem in error.problems]
+        return [f"{pointer(problem.path)}: {problem.message}" for problem in error.problems]
 
 
 def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], close: float = CLOSE) -> str:
@@ -62,7 +62,7 @@ def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], 
     answer = single(request, row)
     if isinstance(answer, list):
         assert row["status"] == "invalid", (row, answer)
-        assert row["message"].split(": ")[0] in answer, (row["message"], answer)
+        assert row["message"] in answer, (row["message"], answer)
         figures = [name for name in row if name not in _labels(request)]
         assert all(row[name] is None for name in figures)
         return "invalid"

@@ -176,7 +176,10 @@ def test_targets_carry_the_range_of_the_field() -> None:
     request = sweep(example("2d12"), SPEED)
     target = find_target(request.base, "/machine/throws/0/rows/0/cylinder/compression_exponent")
     assert (target.lowest, target.above, target.highest, target.below) == (1.0, True, 10.0, False)
-    assert [rule[2] for rule in target.refusals()] == ["must be greater than 1", "must be at most 10"]
+    said = [rule.message for rule in target.rules(1.0)]
+    assert said == ["must be greater than 1", "must be at most 10"]
+    broken = [[bool(rule.broken) for rule in target.rules(value)] for value in (1.0, 1.1, 10.0, 10.1, float("nan"))]
+    assert broken == [[True, False], [False, False], [False, False], [False, True], [False, False]]
 
 
 def test_counts() -> None:
