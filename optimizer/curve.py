@@ -34,6 +34,14 @@ class Curves(Protocol):
     def pieces(self) -> Pieces:
         """The curves piece by piece, (J,)."""
 
+    @property
+    def mean(self) -> Complex:
+        """Means over the period (J,)."""
+
+    @property
+    def variance(self) -> Real:
+        """Means of |curve - mean|^2 over the period (J,)."""
+
     def at(self, angle: Real) -> Complex:
         """The curves at angles (n,) rad: (J, n); in the middle between the limits at a jump or one of them."""
 
@@ -80,12 +88,12 @@ class TurnResponse:
     @property
     def mean(self) -> complex:
         """Mean of the curve, the centre of its mean square."""
-        return complex(self.curves.pieces.mean[self.number])
+        return complex(self.curves.mean[self.number])
 
     @property
     def variance(self) -> float:
         """Mean of |curve - mean|^2: the mean square of curve + offset is this + |mean + offset|^2."""
-        return float(self.curves.pieces.variance[self.number])
+        return float(self.curves.variance[self.number])
 
 
 def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: float) -> Bracket:

@@ -7,7 +7,7 @@ from math import factorial
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.pieces import Expansion, Index, Pieces
+from optimizer.pieces import Index, Pieces
 
 #: rad, width of the pieces
 _WIDEST = np.deg2rad(2.0)
@@ -17,7 +17,7 @@ _WIDEST = np.deg2rad(2.0)
 class FourierCurves:
     """Curves d(theta) = sum over h of coefficient_h e^{j order_h theta}.
 
-    order : (H,) whole numbers, negative against the turn; halves with a period of 720 degrees.
+    order : (H,) whole numbers, each once, negative against the turn; halves with a period of 720 degrees.
     coefficient : (J, H).
     period_deg : 360 or 720.
     """
@@ -34,15 +34,29 @@ class FourierCurves:
         half = np.full(shape, 0.5 * np.deg2rad(self.period_deg) / count)
         centre = half * (2.0 * np.arange(count) + 1.0)
         curve, piece = np.indices(shape)
-        return Pieces(centre, half, self.expansion(curve, piece, centre, half), self)
+        fourth = np.sum(np.abs(self.coefficient) * np.abs(self.order) ** 4, axis=-1)
+        return Pieces(centre, half, self.cubics(curve, piece, centre, half), fourth[:, None] * half**4 / 24.0, self)
 
     def at(self, angle: Real) -> Complex:
         """The curves at angles (n,) rad: (J, n)."""
         return self.coefficient @ np.exp(1j * self.order[:, None] * angle)
 
-    def expansion(self, curve: Index, _piece: Index, centre: Real, half: Real) -> Expansion:
-        """Taylor polynomials of the exponentials; the fourth derivative is at most the sum of their magnitudes."""
-        coefficient, size = self.coefficient[curve], half[..., None] * self.order
-        terms = coefficient * np.exp(1j * centre[..., None] * self.order)
-        cubic = np.stack([np.sum(terms * (1j * size) ** k, axis=-1) / factorial(k) for k in range(4)], axis=-1)
-        return Expansion(cubic, np.sum(np.abs(coefficient) * size**4, axis=-1) / 24.0)
+    @property
+    def mean(self) -> Complex:
+        """The coefficients of order 0."""
+        return np.sum(np.where(self.order == 0, self.coefficient, 0.0), axis=-1)
+
+    @property
+    def variance(self) -> Real:
+        """Parseval's sum of the others; every order is there once."""
+        return np.sum(np.where(self.order == 0, 0.0, np.abs(self.coefficient) ** 2), axis=-1)
+
+    def cubics(self, curve: Index, _piece: Index, centre: Real, half: Real) -> Complex:
+        """Taylor polynomials of the exponentials about any centres."""
+        size = half[..., None] * self.order
+        terms = self.coefficient[curve] * np.exp(1j * centre[..., None] * self.order)
+        return np.stack([np.sum(terms * (1j * size) ** k, axis=-1) / factorial(k) for k in range(4)], axis=-1)
+
+    def values(self, curve: Index, _piece: Index, angle: Real) -> Complex:
+        """Of the series."""
+        return np.sum(self.coefficient[curve] * np.exp(1j * angle[:, None] * self.order), axis=-1)

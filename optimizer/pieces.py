@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from math import comb
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,8 +24,8 @@ from optimizer.arrays import Complex, Real
 
 Index = NDArray[np.intp]
 
-#: what is too coarse is cut into so many parts
-_PARTS = 4
+#: what may hold a peak is cut into so many parts: by its polynomial, or expanded anew, which leaves out 16^-4 as much
+_PARTS, _FINER = 4, 16
 #: after so many cuts in a row the bracket is told as it is
 _MOST_CUTS = 40
 #: no bracket is narrower than this share of what is added up in it
@@ -41,18 +41,14 @@ class Bracket(NamedTuple):
     upper: Real  # nothing over the whole period is above it
 
 
-class Expansion(NamedTuple):
-    """Taylor polynomials of pieces, and bounds on what they leave out."""
-
-    cubic: Complex  # (..., 4) coefficients of ((angle - centre) / half)^k; real for scalars
-    rest: Real  # (...)
-
-
 class Source(Protocol):
     """What the pieces of curves are made from."""
 
-    def expansion(self, curve: Index, piece: Index, centre: Real, half: Real) -> Expansion:
-        """Expansions within given pieces about centres (m,), rad; where ``half`` is 0 the values there."""
+    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
+        """Taylor polynomials (m, 4) about other centres (m,) rad within given pieces."""
+
+    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
+        """Values (m,) at angles (m,) rad within given pieces; at their ends the one-sided limits."""
 
 
 @dataclass(frozen=True)
@@ -60,13 +56,15 @@ class Pieces:
     """J curves over one period.
 
     centre, half : (J, P) rad; half is 0 where two breaks coincide.
-    expansion : (J, P, 4) and (J, P).
+    cubic : (J, P, 4) coefficients of ((angle - centre) / half)^k; real for scalars.
+    rest : (J, P) bounds on what they leave out, half^4/24 times the largest fourth derivative.
     source : of finer ones.
     """
 
     centre: Real
     half: Real
-    expansion: Expansion
+    cubic: Complex
+    rest: Real
     source: Source
 
     def peaks(self, offset: Complex, tolerance: float, curve: Index | None = None) -> Bracket:
@@ -84,21 +82,6 @@ class Pieces:
         """Largest values (J,) of scalars times a sign: 1 for their maxima, -1 for their minima, negated."""
         measure = _Measure(lambda cubic: sign * cubic.real, lambda value: value)
         return _bracketed(self, np.zeros(self.half.shape[0], dtype=complex), None, tolerance, measure)
-
-    @property
-    def mean(self) -> Complex:
-        """Mean over the period (J,), but for the rests."""
-        return self._mean_of(self.expansion.cubic)
-
-    @property
-    def variance(self) -> Real:
-        """Mean of |d - mean|^2 over the period (J,), but for the rests."""
-        return self._mean_of(_squared(_moved(self.expansion.cubic, -self.mean[:, None])))
-
-    def _mean_of(self, polynomial: Any) -> Any:
-        power = np.arange(polynomial.shape[-1])
-        over_piece = polynomial @ np.where(power % 2 == 0, 1.0 / (power + 1.0), 0.0)
-        return np.sum(over_piece * (self.half / np.sum(self.half, axis=-1, keepdims=True)), axis=-1)
 
 
 class _Measure(NamedTuple):
@@ -125,14 +108,14 @@ class _Parts:
     def and_(self, other: "_Parts") -> "_Parts":
         return _Parts(**{name: np.concatenate([value, getattr(other, name)]) for name, value in vars(self).items()})
 
-    def cut(self) -> "_Parts":
-        """Each in parts, by the same polynomial."""
-        places, shift = _shifts(_PARTS)
-        again = _Parts(**{name: np.repeat(value, _PARTS, axis=0) for name, value in vars(self).items()})
+    def cut(self, count: int) -> "_Parts":
+        """Each in so many parts, by the same polynomial."""
+        places, shift = _shifts(count)
+        again = _Parts(**{name: np.repeat(value, count, axis=0) for name, value in vars(self).items()})
         return replace(
             again,
             centre=(self.centre[:, None] + self.half[:, None] * places).reshape(-1),
-            half=again.half / _PARTS,
+            half=again.half / count,
             cubic=np.einsum("nk,pki->npi", self.cubic, shift).reshape(-1, 4),
         )
 
@@ -168,10 +151,10 @@ def _bracketed(pieces: Pieces, offset: Complex, curve: Index | None, tolerance: 
         if not np.any(open_):
             break
         parts, too_coarse = parts.chosen(open_), (parts.rest > 0.125 * allowed[parts.peak])[open_]
-        fine = parts.chosen(~too_coarse).cut()
-        coarse = _expanded(pieces, of_peak, offset, parts.chosen(too_coarse).cut())
+        fine = parts.chosen(~too_coarse).cut(_PARTS)
+        coarse = _expanded(pieces, of_peak, offset, parts.chosen(too_coarse).cut(_FINER))
         parts = fine.and_(coarse)
-    value = pieces.source.expansion(of_peak, piece, angle, np.zeros_like(angle)).cubic[:, 0]
+    value = pieces.source.values(of_peak, piece, angle)
     lower = measure.size(measure.polynomial((value + offset)[:, None])[:, 0])
     return Bracket(angle, value, lower, upper + _ROUNDING * scale)
 
@@ -186,8 +169,8 @@ def _all_parts(pieces: Pieces, of_peak: Index, offset: Complex) -> _Parts:
         piece,
         pieces.centre[where],
         half[peak, piece],
-        _moved(pieces.expansion.cubic[where], offset[peak]),
-        pieces.expansion.rest[where],
+        _moved(pieces.cubic[where], offset[peak]),
+        pieces.rest[where],
     )
 
 
@@ -195,9 +178,12 @@ def _expanded(pieces: Pieces, of_peak: Index, offset: Complex, parts: _Parts) ->
     """The same parts by polynomials of their own."""
     if not parts.peak.size:
         return parts
-    found = pieces.source.expansion(of_peak[parts.peak], parts.piece, parts.centre, parts.half)
-    # a part is never worse known than what it is a part of
-    return replace(parts, cubic=_moved(found.cubic, offset[parts.peak]), rest=np.minimum(found.rest, parts.rest))
+    curve = of_peak[parts.peak]
+    cubic = pieces.source.cubics(curve, parts.piece, parts.centre, parts.half)
+    # the bound on the derivative is that of the whole piece
+    whole = (curve, parts.piece)
+    rest = pieces.rest[whole] * (parts.half / pieces.half[whole]) ** 4
+    return replace(parts, cubic=_moved(cubic, offset[parts.peak]), rest=rest)
 
 
 def _keep_best(best: tuple[Real, Real, Index], peak: Index, found: tuple[Real, Real, Index]) -> None:

@@ -19,10 +19,11 @@ from optimizer.arrays import Real
 from optimizer.effects.inertia import rod_problems
 from optimizer.effects.registry import run
 from optimizer.mechanics.cylinders import delivery_rules, gas_problems
-from optimizer.mechanics.kinematics import motion, own_angle, steep_angles
+from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.rod import rod_forces
 from optimizer.mechanics.turn import fluctuation, mean, panels
+from optimizer.mechanics.whole_turn import break_angles
 from schemas.accuracy import EffectRow
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Fidelity
@@ -132,13 +133,9 @@ def _inertia_torque(_machine: Machine, layout: Layout, fidelity: Fidelity, angle
 
 def _breaks(machine: Machine, layout: Layout, has_gas: bool) -> Real:
     """Shaft angles at which the torque jumps, has a kink or is steep, rad."""
-    ratio = layout.reciprocating.rod_ratio
-    own = [np.broadcast_to([0.0, np.pi], (ratio.size, 2)), steep_angles(ratio)]
-    if has_gas:
-        gas = run(machine, layout, ("gas",), Fidelity(), np.zeros(1))["gas"]
-        own += gas.opens
-    angles = np.concatenate(own, axis=1) - own_angle(layout, np.zeros(1))
-    return np.unique(np.mod(angles[~np.isnan(angles)], _TURN))
+    opens = run(machine, layout, ("gas",), Fidelity(), np.zeros(1))["gas"].opens if has_gas else ()
+    found = break_angles(layout, opens)
+    return np.unique(np.mod(found[~np.isnan(found)], _TURN))
 
 
 def _by_panels(torque: Torque, breaks: Real) -> Figures:

@@ -15,11 +15,12 @@ from optimizer.effects.inertia import RODS, rod_problems
 from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import Chambers, GasForces, gas_forces, indicated_work, switching_angles
-from optimizer.mechanics.kinematics import Motion, motion, own_angle, steep_angles
+from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.turn import fluctuation, mean, panels
+from optimizer.mechanics.whole_turn import break_angles
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.rules import Rule
@@ -208,17 +209,8 @@ def _torque_at(context: Context, angle: Real) -> TorqueSeries:
 
 
 def _breaks(context: Context) -> Real:
-    """Shaft angles between which all is smooth, (..., B) rad; nan where a design has one less."""
-    layout, cycle = context.layout, context.given["gas"]
-    ratio = layout.reciprocating.rod_ratio
-    # valves open and rows reverse at these own angles
-    dead = np.broadcast_to([0.0, np.pi], (*ratio.shape, 2))
-    own = np.concatenate([*cycle.opens, dead, steep_angles(ratio)], axis=-1)
-    breaks = (own - own_angle(layout, np.zeros(1))).reshape(*ratio.shape[:-1], -1)
-    designs = tuple(range(breaks.ndim - 1))
-    breaks = np.sort(breaks[..., ~np.all(np.isnan(breaks), axis=designs)], axis=-1)
-    # rows that reverse together would only make panels without width
-    return breaks[..., np.any(np.diff(breaks, axis=-1, prepend=-np.inf) != 0.0, axis=designs)]
+    """Shaft angles between which all is smooth, (..., B) rad."""
+    return break_angles(context.layout, context.given["gas"].opens)
 
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:
@@ -243,7 +235,10 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
 
 
 def _torque_errors(context: Context) -> TorqueErrors:
-    coarse, fine = panels(_breaks(context), _WIDEST_PANEL), context.given["torque_integrals"]
+    coarse, fine = (
+        panels(break_angles(context.layout, context.given["gas"].opens), _WIDEST_PANEL),
+        context.given["torque_integrals"],
+    )
     total = _torque_at(context, coarse.angle).total
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))

@@ -56,8 +56,8 @@ def test_brute_force_never_beats_the_bracket(seed: int, period_deg: float) -> No
 def test_mean_and_variance_are_those_of_the_series() -> None:
     # analytic: the coefficient of order 0, and Parseval's sum of the others
     response = _response([0, -1, 3], [1.0 - 1.0j, 0.5j, 0.25])
-    assert response.mean == pytest.approx(1.0 - 1.0j, abs=1e-6)
-    assert response.variance == pytest.approx(0.25 + 0.0625, abs=1e-6)
+    assert response.mean == pytest.approx(1.0 - 1.0j, rel=1e-14)
+    assert response.variance == pytest.approx(0.25 + 0.0625, rel=1e-14)
 
 
 def test_responses_of_different_curves_come_back_in_their_order() -> None:

@@ -1,0 +1,272 @@
+"""Forces of the rows as Taylor series in the shaft angle, at points or bounded over pieces of the turn.
+
+The same closed forms as in :mod:`kinematics`, :mod:`gas`, :mod:`friction` and :mod:`rod`, written so that each keeps
+its derivatives: W = cos^2 beta, secant = W^{-1/2}, and pressures as powers of the volume. Between two breaks a chamber
+is in one of its four processes and a row moves one way, so that every form is analytic; which one counts is decided at
+an angle within the piece.
+
+Shapes: N designs or places, R rows, P angles.
+"""
+
+from dataclasses import dataclass, fields
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.mechanics.gas import Chambers
+from optimizer.mechanics.kinematics import own_angle
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.taylor import Taylor, cosine, sine
+
+#: sign of a chamber's force in rod tension, head and crank side
+_SIGN = (-1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class RowData:
+    """What the forces of the rows depend on."""
+
+    ahead: Real  # (N, R) rad, own crank angle at shaft angle 0
+    crank_radius: Real  # (N, R) m
+    rod_ratio: Real  # (N, R)
+    rod_margin: Real  # (N, R) 1 - rod ratio
+    inertia: Real  # (N, R) m r omega^2, N
+    sense: Real  # (N, 1)
+    friction: Real  # (N, R) N
+    exact: bool  # or cut off after the second order
+    area: Real | None  # (N, R, 2) m^2, chambers as in :class:`Chambers`; None without gas
+    suction: Real | None = None
+    discharge: Real | None = None
+    clearance: Real | None = None
+    expansion_exponent: Real | None = None
+    compression_exponent: Real | None = None
+    closed: Real | None = None
+
+    def chosen(self, design: np.ndarray) -> "RowData":
+        """Those of some designs, as often as named."""
+        values = {field.name: getattr(self, field.name) for field in fields(self)}
+        return RowData(
+            **{name: value[design] if isinstance(value, np.ndarray) else value for name, value in values.items()}
+        )
+
+
+def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chambers | None) -> RowData:
+    """Data of designs whose leading axes become one, N.
+
+    Parameters
+    ----------
+    friction : (..., R) N, of the rows; None where there is none.
+    chambers : of the rows; None where there is no gas.
+    """
+    rows = layout.reciprocating
+    leading = layout.omega.shape
+    count = rows.mass.shape[-1]
+
+    def flat(value: Real, *own: int) -> Real:
+        return np.ascontiguousarray(np.broadcast_to(value, (*leading, *own))).reshape(-1, *own)
+
+    gas: dict[str, Any] = {"area": None}
+    if chambers is not None:
+        gas = {name: flat(value, count, 2) for name, value in vars(chambers).items()}
+    return RowData(
+        ahead=flat(own_angle(layout, np.zeros(1))[..., 0], count),
+        crank_radius=flat(rows.crank_radius, count),
+        rod_ratio=flat(rows.rod_ratio, count),
+        rod_margin=flat(rows.rod_margin, count),
+        inertia=flat(rows.mass * rows.crank_radius * layout.omega[..., None] ** 2, count),
+        sense=flat(layout.sense[..., None], 1),
+        friction=flat(np.zeros(()) if friction is None else friction, count),
+        exact=exact,
+        **gas,
+    )
+
+
+@dataclass(frozen=True)
+class RowSeries:
+    """Series of the rows about shaft angles, each (order + 1, N, R, P); worked out when asked for.
+
+    centre, half : (N, P) rad; half None for series at points.
+    within : (N, P) rad, angles that say which process counts.
+    """
+
+    data: RowData
+    centre: Real
+    half: Real | None
+    within: Real
+    order: int
+
+    @cached_property
+    def piston(self) -> Taylor:
+        """Force on the pistons, N, positive in rod tension."""
+        force = self.inertia.plus(self.friction)
+        return force if self.gas is None else force + self.gas
+
+    @property
+    def rod(self) -> Taylor:
+        """P / cos beta, N."""
+        return self.piston * self.secant
+
+    @property
+    def rod_without_gas(self) -> Taylor:
+        """The same of inertia and friction, N."""
+        return self.inertia.plus(self.friction) * self.secant
+
+    @property
+    def rod_at_rest(self) -> Taylor:
+        """The same of the gas, N."""
+        return self.secant.times(0.0) if self.gas is None else self.gas * self.secant
+
+    @property
+    def side(self) -> Taylor:
+        """P tan beta, N."""
+        return self.piston * (self._sine * self.secant).times(self._each(self.data.rod_ratio))
+
+    @cached_property
+    def tangential(self) -> Taylor:
+        """P sin(phi + beta) / cos beta, N, positive against rotation."""
+        half_ratio = 0.5 * self._each(self.data.rod_ratio)
+        return self.piston * (self._sine + (self._trigonometric(sine, 2) * self.secant).times(half_ratio))
+
+    @cached_property
+    def radial(self) -> Taylor:
+        """P cos(phi + beta) / cos beta, N, positive outward along the crank."""
+        lam = self._each(self.data.rod_ratio)
+        return self.piston * (self._cosine - (self._sine_squared * self.secant).times(lam))
+
+    @cached_property
+    def on_shaft(self) -> Taylor:
+        """Force on the crank pin as the shaft sees it, over the direction of the crank: radial - j s tangential, N."""
+        sense = self._each(self.data.sense)
+        along, across = self.radial, self.tangential
+        radius = None
+        if along.radius is not None and across.radius is not None:
+            radius = np.hypot(along.radius, across.radius)
+        return Taylor(along.middle - 1j * sense * across.middle, radius)
+
+    @cached_property
+    def secant(self) -> Taylor:
+        """1 / cos beta."""
+        return self._upright.power(-0.5)
+
+    @cached_property
+    def inertia(self) -> Taylor:
+        """m a, N."""
+        lam, size = self._each(self.data.rod_ratio), self._each(self.data.inertia)
+        if not self.data.exact:
+            return (self._cosine + self._trigonometric(cosine, 2).times(lam)).times(size)
+        short = self._each(self.data.rod_margin) * (1.0 + lam)
+        twice, four_times = self._trigonometric(cosine, 2), self._trigonometric(cosine, 4)
+        # cos^4 = (3 + 4 cos 2 phi + cos 4 phi) / 8
+        upper = twice.times(lam * (short + 0.5 * lam**2)) + four_times.times(0.125 * lam**3)
+        return (self._cosine + upper.plus(0.375 * lam**3) * self._upright.power(-1.5)).times(size)
+
+    @property
+    def friction(self) -> Real:
+        """(N, R, P) N, against the motion."""
+        return np.sign(np.sin(self._within)) * self._each(self.data.friction)
+
+    @cached_property
+    def gas(self) -> Taylor | None:
+        """Gas force, N; None without gas."""
+        data = self.data
+        if data.area is None:
+            return None
+        sides = [self._pressure(side).times(_SIGN[side] * self._each(data.area[..., side])) for side in (0, 1)]
+        return sides[0] + sides[1]
+
+    def _pressure(self, side: int) -> Taylor:
+        """Pressure in the chambers of one side, Pa: constant, or a power of the volume."""
+        data = self.data
+        low, high, clear, expansion, compression, closed = (
+            self._each(getattr(data, name)[..., side])
+            for name in ("suction", "discharge", "clearance", "expansion_exponent", "compression_exponent", "closed")
+        )
+        # in units of the crank radius; an open side has no clearance to divide by
+        clear = np.where(closed, 2.0 * clear, 1.0)
+        travel, there = self._travel(side), self._travel_at(side, self._within)
+        growing = (np.sin(self._within) > 0.0) == (side == 0)
+        expanding = closed & growing & (high * (clear / (there + clear)) ** expansion > low)
+        compressing = closed & ~growing & (low * ((2.0 + clear) / (there + clear)) ** compression < high)
+        exponent = np.where(expanding, expansion, np.where(compressing, compression, 0.0))
+        full = np.where(expanding, clear, 2.0 + clear)
+        first = np.where(expanding | (closed & ~growing & ~compressing), high, low)
+        return travel.plus(clear).times(1.0 / full).power(-exponent).times(first)
+
+    def _travel(self, side: int) -> Taylor:
+        """Own travel of the chambers of one side over the crank radius."""
+        lam = self._each(self.data.rod_ratio)
+        swing = self._sine_squared
+        swing = swing * self._cos_beta.plus(1.0).power(-1.0) if self.data.exact else swing.times(0.5)
+        swing = swing.times(lam)
+        series = (swing - self._cosine).plus(1.0) if side == 0 else (self._cosine - swing).plus(1.0)
+        if self.half is None:
+            # where 1 - cos would cancel
+            return Taylor(np.concatenate([self._travel_at(side, self._angle)[None], series.middle[1:]]))
+        # a row moves one way within a piece
+        ends = [self._travel_at(side, self._angle + end * self.half[:, None, :]) for end in (-1.0, 1.0)]
+        return series.between(np.minimum(*ends), np.maximum(*ends))
+
+    def _travel_at(self, side: int, angle: Real) -> Real:
+        lam = self._each(self.data.rod_ratio)
+        swing = lam * np.sin(angle) ** 2
+        if self.data.exact:
+            short = self._each(self.data.rod_margin) * (1.0 + lam)
+            swing = swing / (1.0 + np.sqrt(short + (lam * np.cos(angle)) ** 2))
+        else:
+            swing = 0.5 * swing
+        if side == 0:
+            return 2.0 * np.sin(0.5 * angle) ** 2 + swing
+        return np.maximum(2.0 * np.cos(0.5 * angle) ** 2 - swing, 0.0)
+
+    @cached_property
+    def _upright(self) -> Taylor:
+        """W = cos^2 beta = 1 - lam^2 + lam^2 cos^2 phi."""
+        lam = self._each(self.data.rod_ratio)
+        short = self._each(self.data.rod_margin) * (1.0 + lam)
+        series = self._trigonometric(cosine, 2).times(0.5 * lam**2).plus(short + 0.5 * lam**2)
+        if self._cosine.radius is None:
+            series.middle[0] = short + (lam * self._cosine.middle[0]) ** 2
+            return series
+        middle, radius = np.abs(self._cosine.middle[0]), self._cosine.radius[0]
+        least, most = np.maximum(middle - radius, 0.0), middle + radius
+        return series.between(short + (lam * least) ** 2, short + (lam * most) ** 2)
+
+    @cached_property
+    def _cos_beta(self) -> Taylor:
+        return self._upright.power(0.5)
+
+    @cached_property
+    def _sine_squared(self) -> Taylor:
+        series = self._trigonometric(cosine, 2).times(-0.5).plus(0.5)
+        if self._sine.radius is None:
+            series.middle[0] = self._sine.middle[0] ** 2
+            return series
+        middle, radius = np.abs(self._sine.middle[0]), self._sine.radius[0]
+        return series.between(np.maximum(middle - radius, 0.0) ** 2, (middle + radius) ** 2)
+
+    @cached_property
+    def _cosine(self) -> Taylor:
+        return self._trigonometric(cosine, 1)
+
+    @cached_property
+    def _sine(self) -> Taylor:
+        return self._trigonometric(sine, 1)
+
+    def _trigonometric(self, function, multiple: int) -> Taylor:  # type: ignore[no-untyped-def]
+        half = None if self.half is None else self.half[:, None, :]
+        return function(multiple, self._angle, half, self.order)
+
+    @cached_property
+    def _angle(self) -> Real:
+        return self.centre[:, None, :] + self.data.ahead[..., None]
+
+    @cached_property
+    def _within(self) -> Real:
+        return self.within[:, None, :] + self.data.ahead[..., None]
+
+    @staticmethod
+    def _each(value: Real) -> Real:
+        """Data (N, R), for every angle."""
+        return value[..., None]

@@ -1,0 +1,165 @@
+"""Curves over the whole turn, piece by piece between the angles at which something jumps or has a kink.
+
+A curve is a sum over the rows of one of their forces (:mod:`row_series`) times weights, and a constant: a rod force,
+the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod:`optimizer.pieces` brackets peaks with.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.polynomial.legendre import leggauss
+
+from optimizer.arrays import Complex, Real
+from optimizer.mechanics.kinematics import own_angle, steep_angles
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.row_series import RowData, RowSeries
+from optimizer.mechanics.taylor import Taylor
+from optimizer.mechanics.turn import panels
+from optimizer.pieces import Index, Pieces
+
+#: rad, width of pieces that no break shortens
+_WIDEST = np.deg2rad(5.0)
+#: rad; breaks nearer to each other are one
+_SLIVER = 1e-12
+#: nodes of the quadrature in a piece
+_GAUSS = 5
+
+Reading = Literal["piston", "rod", "rod_without_gas", "rod_at_rest", "side", "tangential", "radial", "on_shaft"]
+
+
+def break_angles(layout: Layout, opens: tuple[Real, ...] = ()) -> Real:
+    """Shaft angles between which all is smooth, (..., B) rad; nan where a design has one less.
+
+    Parameters
+    ----------
+    opens : (..., rows, n) own crank angles at which valves open; nan where they do not.
+    """
+    ratio = layout.reciprocating.rod_ratio
+    # rows reverse at their dead centres
+    dead = np.broadcast_to([0.0, np.pi], (*ratio.shape, 2))
+    own = np.concatenate([*opens, dead, steep_angles(ratio)], axis=-1)
+    found = (own - own_angle(layout, np.zeros(1))).reshape(*ratio.shape[:-1], -1)
+    designs = tuple(range(found.ndim - 1))
+    found = np.sort(found[..., ~np.all(np.isnan(found), axis=designs)], axis=-1)
+    # rows that reverse together would only make panels without width
+    return found[..., np.any(np.diff(found, axis=-1, prepend=-np.inf) != 0.0, axis=designs)]
+
+
+@dataclass(frozen=True)
+class WholeTurn:
+    """The rows of N designs over P pieces of the turn.
+
+    centre, half : (N, P) rad; half is 0 where breaks coincide.
+    """
+
+    rows: RowData
+    centre: Real
+    half: Real
+
+    def curves(self, reading: Reading, weights: Complex, constant: Complex | float = 0.0) -> "TurnCurves":
+        """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
+        return TurnCurves(self, reading, weights, np.broadcast_to(constant, weights.shape[:2]))
+
+    @cached_property
+    def points(self) -> RowSeries:
+        """Series about the centres of the pieces."""
+        return RowSeries(self.rows, self.centre, None, self.centre, 3)
+
+    @cached_property
+    def bounds(self) -> RowSeries:
+        """Series bounded over the pieces."""
+        return RowSeries(self.rows, self.centre, self.half, self.centre, 4)
+
+
+def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
+    """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one."""
+    turn = panels(breaks, _WIDEST)
+    half = 0.5 * turn.width.reshape(-1, turn.width.shape[-1])
+    centre = turn.start.reshape(half.shape) + half
+    count = len(rows.crank_radius)
+    half = np.where(half > 0.5 * _SLIVER, half, 0.0)
+    return WholeTurn(rows, *(np.broadcast_to(each, (count, half.shape[-1])) for each in (centre, half)))
+
+
+@dataclass(frozen=True)
+class TurnCurves:
+    """N C curves: sums of one force of the rows.
+
+    reading : which.
+    weights : (N, C, R).
+    constant : (N, C).
+    """
+
+    whole: WholeTurn
+    reading: Reading
+    weights: Complex
+    constant: Complex
+    period_deg: float = 360.0
+
+    @cached_property
+    def pieces(self) -> Pieces:
+        """The curves piece by piece (N C, P)."""
+        whole, bounds = self.whole, getattr(self.whole.bounds, self.reading)
+        half = whole.half[:, None, :]
+        cubic = _sums(getattr(whole.points, self.reading), self.weights, self.constant) * half[..., None] ** np.arange(
+            4
+        )
+        fourth = np.abs(self.weights @ bounds.middle[4]) + np.abs(self.weights) @ bounds.radius[4]
+        centre, width = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
+        rest = (fourth * half**4).reshape(centre.shape)
+        return Pieces(centre, width, cubic.reshape(*centre.shape, 4), rest, source=self)
+
+    @cached_property
+    def mean(self) -> Complex:
+        """Means over the turn (N C,)."""
+        values, shares = self._quadrature
+        return np.sum(values * shares, axis=-1).reshape(-1)
+
+    @cached_property
+    def variance(self) -> Real:
+        """Means of |curve - mean|^2 over the turn (N C,)."""
+        values, shares = self._quadrature
+        mean = np.sum(values * shares, axis=-1, keepdims=True)
+        return np.sum(np.abs(values - mean) ** 2 * shares, axis=-1).reshape(-1)
+
+    @cached_property
+    def _quadrature(self) -> tuple[Complex, Real]:
+        """Values (N, C, n) at the Gauss nodes of every piece, and the share of the turn for which each stands."""
+        whole, (places, weights) = self.whole, leggauss(_GAUSS)
+        angle = whole.centre[..., None] + whole.half[..., None] * places
+        shares = whole.half[..., None] * (weights / (2.0 * np.pi))
+        within = np.broadcast_to(whole.centre[..., None], angle.shape)
+        nodes, within, shares = (each.reshape(len(angle), -1) for each in (angle, within, shares))
+        series = getattr(RowSeries(whole.rows, nodes, None, within, 0), self.reading)
+        return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]
+
+    def at(self, angle: Real) -> Complex:
+        """The curves (N C, n) at shaft angles (n,) rad; at a jump one of its limits or their middle."""
+        places = np.broadcast_to(angle, (len(self.weights), len(angle)))
+        series = getattr(RowSeries(self.whole.rows, places, None, places, 0), self.reading)
+        return _sums(series, self.weights, self.constant)[..., 0].reshape(-1, len(angle))
+
+    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
+        """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
+        return self._within(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
+
+    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
+        """The curves at angles (m,) within pieces, ends included."""
+        return self._within(curve, piece, angle, 0)[:, 0]
+
+    def _within(self, curve: Index, piece: Index, angle: Real, order: int) -> Complex:
+        """Coefficients (m, order + 1) of the curves about angles (m,)."""
+        design, number = np.divmod(curve, self.weights.shape[1])
+        within = self.whole.centre[design, piece][:, None]
+        rows = RowSeries(self.whole.rows.chosen(design), angle[:, None], None, within, order)
+        weights, constant = self.weights[design, number][:, None], self.constant[design, number][:, None]
+        return _sums(getattr(rows, self.reading), weights, constant)[:, 0, 0]
+
+
+def _sums(series: Taylor, weights: Complex, constant: Complex) -> Complex:
+    """From the series (k, N, R, P) of the rows to coefficients (N, C, P, k) of the curves."""
+    found = np.moveaxis(weights @ series.middle, 0, -1)
+    found[..., 0] += constant[..., None]
+    return found

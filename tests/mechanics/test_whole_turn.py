@@ -1,0 +1,118 @@
+"""Forces of the rows as series: the values of the mechanics, what the cubics leave out, and the peaks of the turn."""
+
+import numpy as np
+import pytest
+
+from optimizer.mechanics.friction import reciprocating_friction
+from optimizer.mechanics.gas import gas_forces, switching_angles
+from optimizer.mechanics.kinematics import motion
+from optimizer.mechanics.rod import rod_forces, shaft_loads
+from optimizer.mechanics.row_series import RowSeries, row_data
+from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
+from tests.analyze.driven import STYLES, arrays, random_driven
+
+READINGS = ("piston", "rod", "side", "tangential", "radial")
+TURN = 2.0 * np.pi
+
+
+def _driven(seed: int, style: str, exact: bool = True, friction: float = 0.0) -> tuple[WholeTurn, object, object]:
+    plan, data = arrays(random_driven(seed, style))
+    magnitude = np.full(plan.reciprocating.mass.shape, friction)
+    cut = break_angles(plan, switching_angles(data, plan))
+    return whole_turn(row_data(plan, exact, magnitude, data), cut), plan, data
+
+
+def _forces(plan, data, angle, exact, friction):  # type: ignore[no-untyped-def]
+    """Piston forces and what they send into the mechanism, by the functions of the samples."""
+    moving = motion(plan, angle, exact)
+    force = plan.reciprocating.mass[:, None] * moving.acceleration + gas_forces(data, moving, plan).total
+    force = force + reciprocating_friction(moving, np.full(plan.reciprocating.mass.shape, friction))
+    return rod_forces(force, moving, plan), moving
+
+
+def _peaks_of_rows(turn: WholeTurn, reading: str) -> TurnCurves:
+    """One curve for every row."""
+    count = turn.rows.crank_radius.shape[-1]
+    return turn.curves(reading, np.eye(count)[None])  # type: ignore[arg-type]
+
+
+@pytest.mark.parametrize("exact", [True, False])
+@pytest.mark.parametrize("style", STYLES)
+def test_series_have_the_values_of_the_samples(style: str, exact: bool) -> None:
+    # independent: the same forces by other formulas
+    friction = 5e3
+    turn, plan, data = _driven(3, style, exact, friction)
+    angle = np.random.default_rng(0).uniform(0.0, TURN, 500)
+    expected, moving = _forces(plan, data, angle, exact, friction)
+    series = RowSeries(turn.rows, angle[None], None, angle[None], 0)
+    for reading in READINGS:
+        value, wanted = getattr(series, reading).middle[0, 0], getattr(expected, reading)
+        assert value == pytest.approx(wanted, rel=1e-9, abs=1e-11 * np.max(np.abs(wanted))), reading
+    _, loads = shaft_loads(expected.piston, moving, plan, angle)
+    count = plan.reciprocating.mass.size
+    seen = series.on_shaft.middle[0, 0] * plan.reciprocating.crank_direction[:, None]
+    assert seen == pytest.approx(
+        loads[:count] * np.exp(-1j * plan.sense * angle), rel=1e-9, abs=1e-11 * np.max(np.abs(loads))
+    )
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("seed", range(2))
+def test_no_curve_leaves_its_pieces(seed: int, style: str) -> None:
+    # analytic: Taylor's theorem; every reading, at angles spread over every piece
+    turn, _, _ = _driven(seed, style, friction=2e3)
+    for reading in (*READINGS, "rod_without_gas", "rod_at_rest", "on_shaft"):
+        curves = _peaks_of_rows(turn, reading)
+        pieces = curves.pieces
+        size = np.max(np.abs(pieces.cubic))
+        for place in np.linspace(-1.0, 1.0, 9):
+            curve, piece = np.nonzero(pieces.half > 0)
+            angle = pieces.centre[curve, piece] + place * pieces.half[curve, piece]
+            cubic = pieces.cubic[curve, piece] @ place ** np.arange(4)
+            left_out = np.abs(curves.values(curve, piece, angle) - cubic)
+            assert np.all(left_out <= pieces.rest[curve, piece] + 1e-12 * size), reading
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("seed", range(2))
+def test_brute_force_never_beats_a_peak(seed: int, style: str) -> None:
+    # independent: samples of the mechanics at 0.01 degrees, and on both sides of every jump
+    friction = 5e3
+    turn, plan, data = _driven(seed, style, friction=friction)
+    jumps = break_angles(plan, switching_angles(data, plan))
+    jumps = jumps[~np.isnan(jumps)]
+    angle = np.concatenate([np.arange(0.0, TURN, np.deg2rad(0.01)), jumps - 1e-10, jumps + 1e-10])
+    expected, _ = _forces(plan, data, angle, True, friction)
+    for reading in READINGS:
+        values = getattr(expected, reading)
+        pieces = _peaks_of_rows(turn, reading).pieces
+        for sign in (1.0, -1.0):
+            found = pieces.largest(sign, 1e-8)
+            brute = np.max(sign * values, axis=-1)
+            size = np.max(np.abs(values))
+            assert np.all(brute <= found.upper + 1e-9 * size), reading
+            # a parabola misses h^2/8 of its second derivative, here at most 1e4 times the size
+            assert np.all(found.lower <= brute + 4e-5 * size), reading
+            assert np.all(found.upper - found.lower <= 1e-8 * np.abs(found.lower) + 1e-11 * size), reading
+
+
+@pytest.mark.parametrize("style", STYLES)
+def test_mean_and_variance_are_those_of_many_samples(style: str) -> None:
+    # independent: the trapezoidal rule, which jumps and kinks keep from its full accuracy
+    turn, _, _ = _driven(2, style, friction=1e3)
+    curves = _peaks_of_rows(turn, "on_shaft")
+    values = curves.at(np.arange(0.0, TURN, np.deg2rad(0.01)))
+    mean, variance = np.mean(values, axis=-1), np.var(values, axis=-1)
+    assert np.all(np.abs(curves.mean - mean) <= 1e-4 * np.sqrt(variance))
+    assert curves.variance == pytest.approx(variance, rel=1e-4)
+
+
+def test_designs_together_are_as_designs_alone() -> None:
+    # regression: one function for rows of a sweep and for single answers
+    turn, _, _ = _driven(1, STYLES[0])
+    alone = _peaks_of_rows(turn, "rod").pieces.largest(1.0, 1e-8)
+    three = turn.rows.chosen(np.array([0, 0, 0]))
+    together = WholeTurn(three, *(np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half)))
+    count = three.crank_radius.shape[-1]
+    found = together.curves("rod", np.broadcast_to(np.eye(count), (3, count, count))).pieces.largest(1.0, 1e-8)
+    assert found.lower.reshape(3, -1) == pytest.approx(np.broadcast_to(alone.lower, (3, count)), rel=1e-14)
