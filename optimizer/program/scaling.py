@@ -103,6 +103,7 @@ def scale(
     margin: float = 0.0,
     target: float = 0.0,
     mass_unit: float = 1.0,
+    unit: float | None = None,
 ) -> tuple[ScaledData, Scaling]:
     """The scaled program of a statement.
 
@@ -112,10 +113,11 @@ def scale(
     margin : ceilings are lowered by this share of their size, so that the answer keeps them.
     target : stage "mass": largest objective allowed, in units of the objective.
     mass_unit : stage "mass": a mass of the size of the answer, kg.
+    unit : of the objective; by default the sum of its terms without counterweights.
     """
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     reach = np.minimum(limits.reach, clip)
-    unit = float(np.sum(np.abs(norms.constant)))
+    unit = unit or float(np.sum(np.abs(norms.constant)))
     if unit == 0.0:
         unit = float(np.sum(np.abs(norms.influence) * reach)) or 1.0
     budget = bool(np.sum(reach / limits.radius) > limits.max_total_mass)

@@ -1,0 +1,297 @@
+"""One stage of a program over the turn, by cuts: the smallest last goal, or the least mass, under what is kept.
+
+Finitely many cuts of every quantity make a statement that clarabel solves as matrices. Its multipliers prove a lower
+bound for all angles, since no u makes a quantity smaller than its cuts; the upper figure comes from brackets of the
+true peaks. Where the two are apart the cuts that the brackets found are added, and slack ones let go. So the certified
+gap tells when to stop, and not the solver.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
+from optimizer.program.cut import Cut
+from optimizer.program.multipliers import mass_multipliers, objective_multipliers
+from optimizer.program.over_turn import OverTurn, Values
+from optimizer.program.reference.assembled import NoPoint, Target, solved
+from optimizer.program.reference.modelling import Stage as CostStage
+from optimizer.program.scaling import natural_reach, scale
+from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
+from optimizer.program.statement import CEILING_TOLERANCE, Norms, Statement
+
+#: cuts of a quantity that are kept from one round to the next
+_MOST_CUTS = 8
+#: rounds of a stage before it ends with what is proven
+_MOST_ROUNDS = 60
+#: tolerance of the solver and multiple of the margins, and what is tried where that leaves more open than asked
+_ATTEMPTS = ((1e-10, 1.0), (1e-12, 1.0), (1e-10, 10.0), (1e-8, 50.0))
+#: limits beyond this multiple of the natural reach cannot bind
+_REACH = 10.0
+_TIME_LIMIT_S = 5.0
+#: relative gap of a mass that other settings of the solver do not mend
+_NEARLY = 1e-3
+#: share of the gap asked for that brackets may leave open
+_OPEN = 0.1
+#: by this share of their size ceilings are lowered, so that the answer keeps them; raised on the edge of what can be
+_LOWERED, _RAISED = 2e-10, CEILING_TOLERANCE - 2e-10
+#: so far towards a point inside the ceilings a point is moved at least that exceeds them
+_NARROWEST = 1e-12
+#: relative width of the brackets of a point that may be the answer
+_CLOSE = 1e-12
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A bound by multipliers of a statement with finitely many cuts.
+
+    charge : what the goals that are kept below a level are charged with: the bound of several goals is that of the
+        statement, whose groups are those of all goals times their prices, less this.
+    """
+
+    bound: float
+    statement: Statement
+    multipliers: Multipliers
+    charge: float = 0.0
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Levels of goals that come first, (goals,) each."""
+
+    margin: Real  # by which the solver aims lower
+    most: Real  # that the point keeps
+    counted: Real  # that the bound counts with
+
+
+@dataclass(frozen=True)
+class Point:
+    """Counterweights and what they come to."""
+
+    unbalance: Complex  # (K,) kg m
+    values: Values
+    mass: float  # kg
+
+
+class Stage(NamedTuple):
+    """What one stage came to."""
+
+    point: Point
+    proof: Proof | None  # None where nothing is proven
+    rounds: int
+
+
+class Pool:
+    """The cuts that are known of every quantity."""
+
+    def __init__(self, program: OverTurn) -> None:
+        self.cuts: list[list[Cut]] = [list(cuts) for cuts in program.first]
+
+    def count(self) -> int:
+        return sum(len(cuts) for cuts in self.cuts)
+
+    def add(self, found: Values, u: Complex, matters: Real) -> bool:
+        """Take the cut of every quantity whose true value is above what matters; whether any was new."""
+        new = False
+        for cuts, each, least in zip(self.cuts, found.reached, matters, strict=True):
+            known = max(cut.at(u) for cut in cuts)
+            if each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps):
+                cuts.append(each.cut)
+                new = True
+        return new
+
+    def forget(self, u: Complex) -> None:
+        """Keep what is largest at a point."""
+        for q, cuts in enumerate(self.cuts):
+            if len(cuts) > _MOST_CUTS:
+                self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u))[:_MOST_CUTS]
+
+
+class Search:
+    """One stage: the last goal of a program, or the mass, under what is kept."""
+
+    def __init__(self, program: OverTurn, pool: Pool, kept: Kept, inside: Point, raised: bool) -> None:
+        """Prepare.
+
+        Parameters
+        ----------
+        kept : levels of all goals but the last, or of all where the mass is to be small.
+        inside : a point that keeps all that has to be kept.
+        raised : ceilings take up the tolerance that they have.
+        """
+        self.program, self.pool, self.kept, self.inside = program, pool, kept, inside
+        self.of_mass = kept.most.size == len(program.goals)
+        self.raised = raised
+        self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
+        several = len(program.goals) > 1
+        self.unit = program.yardsticks if several else np.ones(1)
+        statement = times(program.statement(program.first), 1.0 / self.unit[program.goal_of])
+        needed = 2.0 * float(np.max(np.abs(inside.unbalance), initial=0.0))
+        largest = float(np.max(program.limits.reach, initial=0.0))
+        natural = float(natural_reach(statement))
+        self.clip = min(max(_REACH * natural, needed), largest) if natural > 0 else largest
+
+    def run(self, enough: float, told: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
+        """Rounds until the gap is small enough, or nothing more is to be had.
+
+        Parameters
+        ----------
+        enough : gap that ends the search, in the goal's unit; of a mass relative to it.
+        told : whether a value and its bound are all that has to be known.
+        """
+        best, proof = self.inside, None
+        attempts, gap, rounds = list(_ATTEMPTS), np.inf, 0
+        while attempts and rounds < _MOST_ROUNDS:
+            rounds += 1
+            statement = self.program.statement(self.pool.cuts)
+            found = self._solved(statement, *attempts[0])
+            new = False
+            if found is not None:
+                u, proofs = found
+                for one in proofs:
+                    proof = one if proof is None or one.bound > proof.bound else proof
+                point = self._evaluated(u, self._width(enough, gap))
+                kept = self._inside(point)
+                best = min(best, kept, key=self.figure)
+                bound = -np.inf if proof is None else proof.bound
+                gap = self.figure(best) - bound
+                if gap <= enough * (best.mass if self.of_mass else 1.0) or told(self.figure(best), bound):
+                    break
+                new = self.pool.add(point.values, u, self._matters(statement, u))
+                self.pool.forget(u)
+                if not new and self.of_mass and kept is point and gap <= _NEARLY * best.mass:
+                    # what is left open is between the levels that count and that are aimed at
+                    break
+            if not new:
+                attempts = attempts[1:]
+        return Stage(self._tidied(best), proof, rounds)
+
+    def figure(self, point: Point) -> float:
+        """What is minimised."""
+        return point.mass if self.of_mass else float(point.values.goals[-1])
+
+    def _width(self, enough: float, gap: float) -> float:
+        """Relative width of brackets that leaves open a share of what is asked, or of what is still open."""
+        size = self.program.yardsticks
+        if self.of_mass:
+            share = float(np.min(self.kept.margin / size))
+        else:
+            share = min(max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1]), 1e-3)
+        limited = bool(self.program.limited)
+        return float(np.clip(_OPEN * share, 1e-14, _OPEN * _LOWERED if limited else 1e-3))
+
+    def _solved(self, statement: Statement, tolerance: float, margins: float) -> tuple[Complex, list[Proof]] | None:
+        """The point of finitely many cuts, and what its multipliers prove.
+
+        Parameters
+        ----------
+        margins : multiple of what is kept back so that the point keeps what it has to.
+        """
+        program, goal_of = self.program, self.program.goal_of
+        posed = times(statement, 1.0 / self.unit[goal_of])
+        mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
+        lowered = -_RAISED if self.raised else margins * _LOWERED
+        largest = float(np.max(np.abs(posed.norms.constant)))
+        stage: CostStage = "mass" if self.of_mass else "objective"
+        data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
+        highest = posed.largest(posed.floor)
+        targets = [
+            Target(goal_of == n, (aimed / self.unit[n] - float(np.sum(highest[goal_of == n]))) / scaling.objective)
+            for n, aimed in enumerate(self.kept.most - margins * self.kept.margin)
+        ]
+        weighed = goal_of == len(program.goals) - 1
+        found = solved(data, tolerance, _TIME_LIMIT_S, weighed, targets)
+        if isinstance(found, NoPoint):
+            return None
+        u = program.limits.into(scaling.unbalance(posed, found.solution))
+        return u, list(self._proofs(statement, u, scaling.multipliers(posed, found.solution)))
+
+    def _proofs(self, statement: Statement, u: Complex, found: Multipliers) -> Iterator[Proof]:
+        """Bounds by the multipliers of the solver and by sharper ones."""
+        counted = self.kept.counted
+        if len(self.program.goals) > 1:
+            statement, found, charges = self._charged(statement, found)
+        else:
+            charges = np.ones(counted.size)
+        charge = float(np.sum(charges[: counted.size] * counted))
+        sharper = mass_multipliers if self.of_mass else objective_multipliers
+        for multipliers in sharper(statement, u, found):
+            if self.of_mass:
+                bound = float(mass_lower_bound(statement, multipliers, np.asarray(charge)))
+            else:
+                bound = float(objective_lower_bound(statement, multipliers)) - charge
+            if np.isfinite(bound):
+                yield Proof(bound, statement, multipliers, charge)
+
+    def _charged(self, statement: Statement, found: Multipliers) -> tuple[Statement, Multipliers, Real]:
+        """The statement whose groups have the prices of their goals, where each group's multipliers sum to 1."""
+        goal_of = self.program.goal_of
+        price = np.zeros(len(self.program.goals))
+        np.maximum.at(price, goal_of, np.add.reduceat(np.maximum(found.row, 0.0), statement.first_rows))
+        unit = 1.0 if self.of_mass else price[-1] / self.unit[-1]
+        if not unit > 0:
+            return statement, nothing_proven(statement), price
+        charges = price / self.unit / unit
+        each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[goal_of]
+        multipliers = Multipliers(
+            found.term * each[statement.group][statement.row], found.row * each[statement.group], found.ceiling / unit
+        )
+        return times(statement, charges[goal_of]), multipliers, charges
+
+    def _matters(self, statement: Statement, u: Complex) -> Real:
+        """(quantities,) above which a quantity changes anything."""
+        program = self.program
+        least = np.full(len(program.quantities), np.inf)
+        level = statement.largest(statement.rows(np.abs(statement.norms.at(u))))
+        for group, reached in zip(program.groups, level.tolist(), strict=True):
+            for each in group.weighed:
+                least[each.quantity] = min(least[each.quantity], (reached - each.offset) / each.weight)
+        for (q, cap), size in zip(program.limited, program.sizes[len(program.ceilings) :].tolist(), strict=True):
+            least[q] = min(least[q], cap + (0.0 if self.raised else -_LOWERED) * size)
+        return least
+
+    def _tidied(self, point: Point) -> Point:
+        """The point without its negligible counterweights, where it then still keeps all and is no worse."""
+        u = point.unbalance
+        small = np.abs(u) < NEGLIGIBLE * np.max(np.abs(u), initial=0.0)
+        if not self.of_mass or not np.any(small & (u != 0)):
+            return point
+        tidy = self._evaluated(np.where(small, 0.0, u), _CLOSE)
+        return point if np.any(self._excess(tidy.values) > 0) else tidy
+
+    def _evaluated(self, u: Complex, width: float) -> Point:
+        mass = float(np.sum(np.abs(u) / self.program.limits.radius))
+        return Point(u, self.program.values(u, width), mass)
+
+    def _inside(self, point: Point) -> Point:
+        """The point moved towards the one inside just so far that all is kept; all of it is convex."""
+        step = 0.0
+        for _ in range(4):
+            over, under = self._excess(point.values), self._excess(self.inside.values)
+            worst = np.where(over > 0, over / np.maximum(over - under, np.finfo(float).tiny), 0.0)
+            step = float(np.max(worst, initial=0.0))
+            if step <= 0.0:
+                return point
+            step = min(1.0, step * (1.0 + 1e-9) + _NARROWEST)
+            u = point.unbalance + step * (self.inside.unbalance - point.unbalance)
+            point = self._evaluated(u, _CLOSE)
+        return self.inside
+
+    def _excess(self, values: Values) -> Real:
+        """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""
+        kept = self.kept.most
+        over = (values.goals[: kept.size] - kept) / self.program.yardsticks[: kept.size]
+        return np.concatenate([over, values.over - self.allowed])
+
+
+def times(statement: Statement, factor: Real) -> Statement:
+    """The statement with its groups times factors (groups,)."""
+    if np.all(factor == 1.0):
+        return statement
+    of_row = factor[statement.group]
+    of_term = of_row[statement.row]
+    norms = Norms(statement.norms.constant * of_term, statement.norms.influence * of_term[:, None])
+    return replace(statement, norms=norms, floor=statement.floor * of_row)

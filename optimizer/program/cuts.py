@@ -1,0 +1,181 @@
+"""Certified optimum of a program over the turn by cuts: its goals one after the other, then the least mass."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.program.cut_stage import Kept, Point, Pool, Proof, Search, Stage, times
+from optimizer.program.limits import Limits
+from optimizer.program.over_turn import OverTurn
+from optimizer.program.reach import bounded, far_limits
+from optimizer.program.solution import CEILING_ROUNDING, OPTIMUM_SHARE
+
+METHOD = "cuts, clarabel"
+
+#: room below the ceilings, as a share of their size, that lets them be kept as they are
+_AMPLE = 1e-8
+#: room that makes a point without counterweights one to start from
+_ROOMY = 1e-3
+#: gap of the smallest excess that is good enough
+_TOLD = 1e-12
+#: the smallest objective is sought this much more sharply than optima are told apart, where another stage follows;
+#: the second where the mass is so steep that the first leaves it open
+_SHARPNESS = (1e-2, 1e-4)
+#: and this share of the asked gap where none does
+_ENOUGH = 0.5
+#: of what the stage before has left open, what a later stage leaves unused so that its point is an optimum
+_TARGET_MARGIN = 0.2
+#: relative gap of the mass that ends the search, and that is good enough
+_MASS_GAP, _LIGHT = 1e-5, 5e-5
+
+
+class Reached(NamedTuple):
+    """What a goal came to, and what is proven of it."""
+
+    goal: str
+    value: float
+    lower_bound: float
+    most: float  # that it may come to for what follows
+
+
+@dataclass(frozen=True)
+class Found:
+    """Counterweights over the whole turn with their proof; the last goal is the objective."""
+
+    point: Point
+    goals: tuple[Reached, ...]
+    proof: Proof | None
+    mass_proof: Proof | None  # None where the least mass was not sought
+    mass_target: float  # largest objective that the proof of the mass counts as an optimum
+    limits: Limits  # that the proofs count with
+    rounds: int
+    cuts: int
+
+
+@dataclass(frozen=True)
+class Unkept:
+    """Proof that no counterweights keep the ceilings, and those that come closest."""
+
+    closest: Point
+    proof: Proof  # of the smallest largest excess, relative to the sizes
+    limits: Limits
+    rounds: int
+
+
+def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowances: Sequence[float]) -> Found | Unkept:
+    """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
+
+    Parameters
+    ----------
+    relative_gap : asked gap of the last goal, relative to its yardstick.
+    least_mass : take the least total mass among the optima.
+    allowances : of all goals but the last, the share of its yardstick that what follows may use.
+    """
+    pool = Pool(program)
+    nearest = _nearest(program, pool)
+    if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING:
+        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds)
+    course = _Course(program, pool, nearest.point, nearest.point.values.excess > -_AMPLE, nearest.rounds)
+    for n, allowance in enumerate(allowances):
+        size = float(program.yardsticks[n])
+        course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), max(allowance, OPTIMUM_SHARE) * size)
+    last = len(program.goals) - 1
+    size = float(program.yardsticks[last])
+    if not least_mass:
+        proof = course.smallest(last, _ENOUGH * relative_gap * size)
+        course.keep(last, proof, 0.0)
+        return course.found(proof, None, np.inf)
+    share, proof = min(OPTIMUM_SHARE, relative_gap) * size, None
+    for sharpness in _SHARPNESS:
+        proof = course.smallest(last, sharpness * share, proof)
+        course.keep(last, proof, share)
+        target = course.goals[last].value + share
+        mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
+        mass = course.inside.mass
+        if mass_proof is not None and mass - mass_proof.bound <= _LIGHT * mass:
+            break
+    return course.found(proof, mass_proof, target)
+
+
+class _Course:
+    """Stages one after the other, each with what is known already."""
+
+    def __init__(self, program: OverTurn, pool: Pool, inside: Point, raised: bool, rounds: int) -> None:
+        self.program, self.pool, self.raised, self.rounds = program, pool, raised, rounds
+        self.inside, self.so_far = inside, program
+        self.goals: list[Reached] = []
+
+    def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof | None:
+        """Make a goal small under those before it."""
+        so_far = replace(self.program, goals=self.program.goals[: n + 1])
+        self.inside, most = _again(so_far, self.inside), self._most(n)
+        self.so_far = _bounded(so_far, self.inside, most)
+        margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.yardsticks[:n]
+        found = self._run(Kept(margin, most, most), enough)
+        return max((each for each in (known, found) if each is not None), key=lambda each: each.bound, default=None)
+
+    def keep(self, n: int, proof: Proof | None, share: float) -> None:
+        """What a goal may come to from now on: so much above its bound."""
+        value, bound = float(self.inside.values.goals[n]), -np.inf if proof is None else proof.bound
+        self.goals[n:] = [Reached(self.program.goals[n].name, value, bound, max(value, bound + share))]
+
+    def lightest(self, target: float, margin: float) -> Proof | None:
+        """The least mass under all goals.
+
+        Parameters
+        ----------
+        target : of the last goal, what the bound counts as an optimum.
+        margin : by which the solver aims below what the last goal may come to.
+        """
+        most = self._most(len(self.goals))
+        margins = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.yardsticks
+        margins[-1] = margin
+        return self._run(Kept(margins, most, np.append(most[:-1], target)), _MASS_GAP)
+
+    def found(self, proof: Proof | None, mass_proof: Proof | None, target: float) -> Found:
+        limits, cuts = self.so_far.limits, self.pool.count()
+        return Found(self.inside, tuple(self.goals), proof, mass_proof, target, limits, self.rounds, cuts)
+
+    def _most(self, n: int) -> Real:
+        return np.array([goal.most for goal in self.goals[:n]])
+
+    def _run(self, kept: Kept, enough: float) -> Proof | None:
+        stage = Search(self.so_far, self.pool, kept, self.inside, self.raised).run(enough)
+        self.inside, self.rounds = stage.point, self.rounds + stage.rounds
+        return stage.proof
+
+
+def _rest(program: OverTurn) -> Point:
+    return Point(np.zeros(program.limits.radius.shape, complex), program.at_rest, 0.0)
+
+
+def _nearest(program: OverTurn, pool: Pool) -> Stage:
+    """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
+    rest = _rest(program)
+    if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
+        return Stage(rest, None, 0)
+    excess = program.excess()
+    still = _rest(excess)
+    excess = _bounded(excess, still, np.zeros(0))
+    none = np.zeros(0)
+    found = Search(excess, pool, Kept(none, none, none), still, False).run(
+        _TOLD, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
+    )
+    return found._replace(point=_again(program, found.point))
+
+
+def _again(program: OverTurn, point: Point) -> Point:
+    """A point with what it comes to in another program."""
+    return replace(point, values=program.values(point.unbalance, _TOLD))
+
+
+def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
+    """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
+    statement = times(program.statement(program.first), 1.0 / program.yardsticks[program.goal_of])
+    if not np.any(far_limits(statement)):
+        return program
+    levels = np.append(most, inside.values.goals[most.size]) / program.yardsticks
+    return replace(program, limits=bounded(statement, 2.0 * float(np.sum(levels))).limits)
