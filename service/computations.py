@@ -194,6 +194,7 @@ COMPUTATIONS: dict[str, Computation] = {
             tag="rating",
             examples="rating",
         ),
+        # of answers
         Computation(
             name="verify",
             path="/v1/verify",

@@ -47,7 +47,14 @@ with TestClient(create_app(Settings(), warm_up=lambda: None)) as client:
     assert all(abs(one - other) < 1e-12 * other for one, other in zip(found, expected, strict=True)), (found, expected)
     page = client.post("/v1/report", json=body, headers={"Accept": "text/html"})
     assert page.status_code == 200 and "Lean of the rods" in page.text
-    assert "obliquity" in [one["name"] for one in client.get("/v1/effects").json()["outputs"]]
+    catalogue = client.get("/v1/effects").json()
+    assert "obliquity" in [one["name"] for one in catalogue["outputs"]]
+    (effect,) = (one for one in catalogue["effects"] if one["name"] == "obliquity")
+    assert effect["needs"] == ["kinematics"]
+    use = answer.json()["effects"]["obliquity"]
+    assert (use["simulated"], use["needed_by"]) == (True, ["obliquity"])
+    without = client.post("/v1/optimize", json=body | {"outputs": ["kinematics"]}).json()["effects"]
+    assert (without["obliquity"]["simulated"], without["kinematics"]["simulated"]) == (False, True)
     missing = json.loads(json.dumps(body))
     del missing["machine"]["throws"][0]["rows"][0]["connecting_rod"]
     refused = client.post("/v1/optimize", json=missing)
@@ -65,11 +72,45 @@ for row in rows:
 """
 
 
+_COMPUTED = """
+import sys, time
+from pathlib import Path
+
+from service.app import create_app
+from service.settings import Settings
+from starlette.testclient import TestClient
+
+path, body = "/v1/piston-speed", {"stroke_m": 0.28, "speed_rpm": 500}
+with TestClient(create_app(Settings(data_dir=Path(sys.argv[1])), warm_up=lambda: None)) as client:
+    now = client.post(path, json=body)
+    # analytic: two strokes in a turn
+    assert (now.status_code, abs(now.json()["mean_m_s"] - 2 * 0.28 * 500 / 60) < 1e-12) == (200, True), now.text
+    refused = client.post(path, json=body | {"speed_rpm": 0})
+    assert (refused.status_code, refused.json()["errors"][0]["pointer"]) == (422, "/speed_rpm")
+    later = client.post(path, json=body, headers={"Prefer": "respond-async"})
+    assert later.status_code == 202, later.text
+    patience = time.monotonic() + 240
+    while (state := client.get(later.headers["location"]).json())["state"] in ("queued", "running"):
+        assert time.monotonic() < patience, state
+        time.sleep(0.05)
+    assert state["state"] == "done", state
+    assert client.get(state["links"]["results"]).json() == now.json()
+    told = client.get("/metrics").text
+    assert 'counterweight_computation_seconds_count{computation="piston_speed"} 1.0' in told
+    operation = client.get("/openapi.json").json()["paths"][path]["post"]
+    assert (operation["operationId"], operation["summary"]) == ("piston_speed", "Mean speed of pistons")
+    listed = Path("docs/api.md").read_text()
+    assert "`POST " + path + "`" in listed
+"""
+_ADDED = ("An effect", "An output", "A computation")
+
+
 @pytest.fixture(scope="module")
 def steps() -> list[re.Match[str]]:
-    found = list(_STEP.finditer(section("CONTRIBUTING.md", "An output")))
+    told = "".join(section("CONTRIBUTING.md", heading) for heading in _ADDED)
+    found = list(_STEP.finditer(told))
     # none of the blocks is passed over
-    assert len(found) == len(re.findall(r"^```\w+$", section("CONTRIBUTING.md", "An output"), re.MULTILINE))
+    assert len(found) == len(re.findall(r"^```\w+$", told, re.MULTILINE))
     return found
 
 
@@ -88,7 +129,7 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
             continue
         lines = file.read_text().splitlines(keepends=True)
         (above,) = (number for number, text in enumerate(lines) if text.startswith(line))
-        apart = "\n\n" if block.startswith("class ") else ""
+        apart = "\n\n" if block.startswith(("class ", "def ")) else ""
         file.write_text("".join([*lines[:above], block + apart, *lines[above:]]))
     return place
 
@@ -108,12 +149,14 @@ def _run(copy: Path, *arguments: str) -> str:
     return ran.stdout
 
 
-def test_an_output_takes_as_many_files_as_it_says(steps: list[re.Match[str]]) -> None:
-    files = {step["file"] for step in steps}
-    assert section("CONTRIBUTING.md", "An output").lstrip().startswith(f"{_NUMBERS[len(files) - 1]} files")
+@pytest.mark.parametrize("heading", _ADDED)
+def test_it_takes_as_many_files_as_it_says(heading: str) -> None:
+    told = section("CONTRIBUTING.md", heading)
+    files = {step["file"] for step in _STEP.finditer(told)}
+    assert told.lstrip().startswith(f"{_NUMBERS[len(files) - 1]} files")
 
 
-def test_the_output_is_answered_swept_and_reported(copy: Path) -> None:
+def test_effect_and_output_are_answered_swept_and_reported(copy: Path) -> None:
     _run(copy, "-c", _SCRIPT)
 
 
@@ -123,7 +166,19 @@ def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
     assert re.search(r"largest angle of any rod, deg\W+\d", shown)
 
 
-def test_the_output_is_written_as_the_linter_wants_it(copy: Path) -> None:
+def test_the_computation_is_answered_now_and_later_and_counted(copy: Path, tmp_path: Path) -> None:
+    _run(copy, "-c", _COMPUTED, str(tmp_path))
+
+
+def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
+    body = tmp_path / "body.json"
+    body.write_text('{"stroke_m": "280 mm", "speed_rpm": 500}')
+    shown = _run(copy, "-m", "service", "piston-speed", str(body))
+    # analytic: two strokes in a turn
+    assert re.search(r"mean, m/s\W+4\.6", shown)
+
+
+def test_all_is_written_as_the_linter_wants_it(copy: Path) -> None:
     for check in (("check",), ("format", "--check")):
         _run(copy, "-m", "ruff", *check, "--no-cache", "schemas", "optimizer", "service")
 
