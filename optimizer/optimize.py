@@ -132,6 +132,7 @@ def _certified(
             objective_without_counterweights=rest * square,
             mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if goal.least_mass else None,
             mass_relative_gap=proven_or_null(judged.mass_gap) if goal.least_mass else None,
+            mass_yardstick_kg=float(judged.mass_yardstick) if goal.least_mass else None,
             mass_objective_limit=_finite(solution.mass_target * square) if goal.least_mass else None,
             implied_max_mass_kg=implied_max_mass(request.machine, statement.limits.max_mass),
             method=solution.method,

@@ -124,7 +124,13 @@ class Certificate(Model):
         examples=[41.2],
     )
     mass_relative_gap: float | None = Field(
-        description="total mass above that bound, relative to the total mass", examples=[2e-9]
+        description="total mass above that bound, over its yardstick; null likewise", examples=[2e-9]
+    )
+    mass_yardstick_kg: Kilograms | None = Field(
+        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the least mass that"
+        " could cancel the objective, or a response under a ceiling, at the web where a kilogram does most, so that the"
+        " gap allowed changes neither by more than ceilings may be exceeded by. Null if least mass was not asked for",
+        examples=[41.2],
     )
     mass_objective_limit: float | None = Field(
         description="largest objective that counts as an optimum in the bound of the mass; null if least mass was not"

@@ -104,7 +104,13 @@ class CornerCertificate(Model):
         examples=[236.35],
     )
     mass_relative_gap: float | None = Field(
-        description="total mass above that bound, relative to the total mass", examples=[3e-8]
+        description="total mass above that bound, over its yardstick; null likewise", examples=[3e-8]
+    )
+    mass_yardstick_kg: Kilograms | None = Field(
+        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the least mass that"
+        " could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does most, so that"
+        " the gap allowed changes none by more than ceilings may be exceeded by. Null if least mass was not asked for",
+        examples=[236.35],
     )
     mass_force_limit_N: Newtons | None = Field(
         description="largest weighted peak force that the bound of the mass allows; null if least mass was not asked"

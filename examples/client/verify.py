@@ -39,6 +39,7 @@ MASS = 1e-12  # of a limit: by which rounded masses may exceed it
 ANGLE = 1e-12  # degrees likewise
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
+MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
 #: an answer is held if these claims are, as far as they are made
 CENTRAL = {"counterweights", "max_mass", "sector", "max_total_mass", "ceilings", "objective", "lower_bound"}
 CENTRAL |= {"status", "corner", "conflict", "reach", "request"}
@@ -188,14 +189,12 @@ def optimum(request: Place, answer: Place) -> Claims:
         yield yardstick(statement, proof / "yardstick", rest, implied)
     asks_least = (goal / "least_mass").read((bool,), "true or false", True)
     if asks_least:
-        most = (proof / "mass_objective_limit").number(0.0)
-        yield from lightest(statement, proof, multipliers, dict.fromkeys(rows, most), after, mass)
+        most = dict.fromkeys(rows, (proof / "mass_objective_limit").number(0.0))
+        yield from lightest(statement, proof, multipliers, most, after, mass)
+        yield from light(statement, proof, dict.fromkeys(rows, size), mass, status == "optimal")
     if status == "optimal":
         room = (request / "accuracy" / "relative_gap").number(1e-6, least=0) * size + noise - gap
         yield "status", lowest, room if proof / "yardstick" else None, size
-        if asks_least:
-            least = proof / "mass_lower_bound_kg"
-            yield "status", least, mass * real(MASS_GAP) - mass + least.number(0.0), mass
 
 
 def lightest(
@@ -212,8 +211,20 @@ def lightest(
         yield from proven("mass_lower_bound", place, statement, multipliers / "mass", implied, slack, priced, ONE)
         for name, value in statement.values(after).items():
             yield "mass_lower_bound", place, most[name] - value, abs(value)
-    if place:
-        yield near("mass_gap", proof / "mass_relative_gap", ONE - place.number() / mass if mass.low > 0 else ZERO)
+
+
+def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Number, optimal: bool) -> Claims:
+    """The gap of the mass, over its yardstick: the mass, or what makes no difference to rows of these sizes."""
+    least, place = proof / "mass_lower_bound_kg", proof / "mass_yardstick_kg"
+    size, gap = place.number(0.0), mass - least.number(0.0)
+    if least and place:
+        yield near("mass_gap", proof / "mass_relative_gap", gap * ABOUT_ONE / size if size.low > 0 else ZERO)
+        limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
+        cancelling = (statement.lightest(sizes), limited.lightest(statement.sizes))
+        counts = min((one for one in cancelling if one is not None), key=lambda one: one.high, default=ZERO)
+        yield "yardstick", place, largest(mass, counts * real(MASS_SHARE)) * ABOUT_ONE - size, size
+    if optimal:
+        yield "status", least, size * real(MASS_GAP) - gap if least and place else None, size
 
 
 def before(machine: Machine, answer: Place, place: Place) -> Claims:
@@ -229,15 +240,10 @@ def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) 
     """The objective without counterweights, or where it is 0 to rounding at most what they could make it."""
     if rest.low > 0:
         return near("yardstick", place, rest)
-    reach, machine = ZERO, statement.machine
-    for web in machine.webs:
-        limit = statement.reach(web, implied)
-        if limit is None:
-            return "yardstick", place, None, ONE
-        arms = {"force": ONE, "moment": abs(web.position - machine.plane)}
-        does = total(abs(one.factor) * arms[one.response] for one in statement.terms.values())
-        reach = reach + does * web.radius * limit * machine.square
-    return "yardstick", place, reach * ABOUT_ONE - place.number(), reach
+    most = statement.reachable(implied)
+    if most is None:
+        return "yardstick", place, None, ONE
+    return "yardstick", place, most * ABOUT_ONE - place.number(), most
 
 
 def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Claims:

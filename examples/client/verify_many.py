@@ -23,6 +23,7 @@ from verify import (
     covered,
     infeasible,
     judged,
+    light,
     lightest,
     main,
     near,
@@ -31,7 +32,7 @@ from verify import (
     proven,
     smallest,
 )
-from verify_numbers import ONE, SPECK, NotCovered, Place, Unreadable, read, real
+from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Place, Unreadable, largest, read, real
 from verify_program import NAMES, Machine, Statement
 
 __all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
@@ -54,10 +55,25 @@ def front(request: Place, answer: Place) -> Claims:
             continue
         machine = _machine(request, answer, budget)
         statement = Statement(machine, goal, {name: {name: ONE} for name in NAMES})
+        for name, unit in NAMES.items():
+            yield _scale(Statement(machine, goal, {name: {name: ONE}}), each / "scale" / f"{name}_{unit}")
         for one in each / "points":
             yield from covered(point(statement, request, each / "scale", one))
         ends, implied = each / "ends", each / "implied_max_mass_kg"
         yield from covered(smallest(machine, goal, ends, ends / "multipliers", implied))
+
+
+def _scale(statement: Statement, place: Place) -> Claim:
+    """The peak without counterweights, or where that is next to nothing at most what they could make it."""
+    machine, said = statement.machine, place.number()
+    (rest,) = statement.values(machine.before).values()
+    most = statement.reachable(Place({}))
+    if rest.low > (said * real(1e-6)).high:
+        return near("yardstick", place, rest)
+    if most is None:
+        return "yardstick", place, None, ONE
+    # where they make nothing, 1 kg m or 1 kg m^2 that turns with the shaft
+    return "yardstick", place, largest(most, machine.square) * ABOUT_ONE - said, said
 
 
 def _machine(request: Place, answer: Place, budget: Place) -> Machine:
@@ -93,6 +109,8 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     most = {name: (proof / f"mass_{name}_limit_{unit}").number(0.0) for name, unit in NAMES.items()}
     if proof / "mass_lower_bound_kg":
         yield from lightest(statement, proof, multipliers, most, after, mass)
+        sizes = {name: (scale / f"{name}_{unit}").number() for name, unit in NAMES.items()}
+        yield from light(statement, proof, sizes, mass, optimal)
 
 
 def sweep(request: Place, rows: Place) -> Iterator[Claim]:

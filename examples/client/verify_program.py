@@ -268,6 +268,28 @@ class Statement:
         limits = [limit for limit in (web.limit, self.machine.budget, said) if limit is not None]
         return min(limits, key=lambda one: one.high) if limits else None
 
+    def change(self, web: Web, row: str) -> Number:
+        """What a kilogram on a web adds to a row at most."""
+        arms = {"force": ONE, "moment": abs(web.position - self.machine.plane)}
+        does = total(abs(one.factor) * arms[one.response] for one in self.terms.values() if one.row == row)
+        return does * web.radius * self.machine.square
+
+    def reachable(self, implied: Place) -> Number | None:
+        """What all that the limits allow adds to the rows at most; None where there is no limit."""
+        limits = [self.reach(web, implied) for web in self.machine.webs]
+        if None in limits:
+            return None
+        added = (self.change(web, row) * limit for web, limit in zip(self.machine.webs, limits) for row in self.rows)
+        return total(added)
+
+    def lightest(self, sizes: dict[str, Number]) -> Number | None:
+        """The least mass that could cancel one of the rows, of these sizes; None where none can be."""
+        limits = [(web, self.reach(web, Place(None))) for web in self.machine.webs]
+        webs = [web for web, limit in limits if limit is None or limit.high > 0]
+        most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
+        found = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]
+        return min(found, key=lambda one: one.high, default=None)
+
 
 def _share(pairs: Iterable[tuple[Number, Number]]) -> Number:
     """What all sizes are to be multiplied by to be no more than allowed (allowed, size), at most 1."""

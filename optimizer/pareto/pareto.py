@@ -17,7 +17,7 @@ from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
 from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
-from optimizer.program.verdict import Claim, verdict
+from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.scene import Prepared
 from schemas.answers import Timing
 from schemas.machine import Machine
@@ -153,6 +153,7 @@ def _point(
             yardstick=found.size,
             excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
             mass=np.asarray(mass),
+            mass_resolution=mass_resolution(traded.both, found.size),
             mass_lower_bound=np.asarray(solution.mass_lower_bound) if request.objective.least_mass else None,
         ),
         request.accuracy.relative_gap,
@@ -178,6 +179,7 @@ def _point(
             yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
             mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if request.objective.least_mass else None,
             mass_relative_gap=proven_or_null(judged.mass_gap) if request.objective.least_mass else None,
+            mass_yardstick_kg=float(judged.mass_yardstick) if request.objective.least_mass else None,
             mass_force_limit_N=limit[0],
             mass_moment_limit_Nm=limit[1],
             implied_max_mass_kg=implied_max_mass(machine, point.max_mass),

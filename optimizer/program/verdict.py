@@ -15,15 +15,17 @@ from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 _LOG = logging.getLogger(__name__)
-#: an answer whose total mass is not certified this closely is called inaccurate
+#: an answer whose total mass is not certified this closely, in units of its yardstick, is called inaccurate
 MASS_GAP = 1e-4
+#: of the least mass that could cancel something: masses below are not told apart any finer
+_MASS_SHARE = CEILING_TOLERANCE / MASS_GAP
 #: rounding of a mass, relative to it
 _MASS_ROUNDING = 1e-13
 
 OPTIMAL = "The gap to the proven lower bound is within the asked one, and every limit is kept."
 OPTIMAL_LIGHTEST = (
     "The gap to the proven lower bound is within the asked one, every limit is kept, and the total mass is proven to"
-    " be the least to 1e-4 of itself."
+    " be the least to 1e-4 of its yardstick."
 )
 NOT_KEPT = "The ceilings are not kept, nor proven out of reach: they are on the boundary of what can be reached."
 NOT_CLOSE = "The objective is not certified to the asked gap."
@@ -42,7 +44,8 @@ class Verdict:
     gap: Real  # (..., G) goal minus its bound
     relative_gap: Real  # (...) the largest gap over its yardstick
     mass_lower_bound: Real  # (...) kg
-    mass_gap: Real  # (...) relative to the mass
+    mass_gap: Real  # (...) total mass above its bound, over its yardstick
+    mass_yardstick: Real  # (...) kg
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,7 @@ class Claim:
     yardstick: Real  # (..., G)
     excess: Real  # (...) largest relative excess over a ceiling, -inf without ceilings
     mass: Real  # (...) kg
+    mass_resolution: Real  # (...) kg, lighter ones are not told apart any finer
     mass_lower_bound: Real | None  # (...) kg; None where the least mass was not asked for
 
 
@@ -81,13 +85,15 @@ def claim(
     """
     excess = statement.ceilings.excess(u)
     allowance = 0.0 if multipliers is None else ceiling_allowance(statement, multipliers, excess)
+    size = yardstick(statement)[..., None]
     return Claim(
         statement.objective(u)[..., None],
         np.asarray(lower_bound - allowance)[..., None],
         statement.rounding(u)[..., None],
-        yardstick(statement)[..., None],
+        size,
         np.max(excess, axis=-1, initial=-np.inf),
         mass,
+        mass_resolution(statement, size),
         mass_lower_bound,
     )
 
@@ -105,10 +111,11 @@ def verdict(claim: Claim, asked: float) -> Verdict:
     bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
     relative = np.max(relative_gap(gap, claim.yardstick), axis=-1)
     mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
+    mass_yardstick = np.maximum(claim.mass, claim.mass_resolution)
     if claim.mass_lower_bound is not None:
         false = false | (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING))
         mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
-        mass_gap = relative_gap(claim.mass - mass_bound, claim.mass)
+        mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
         light = mass_gap <= MASS_GAP
     if np.any(false):
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
@@ -125,6 +132,7 @@ def verdict(claim: Claim, asked: float) -> Verdict:
         np.where(nothing, np.nan, relative),
         np.where(false, np.nan, mass_bound),
         np.where(false, np.nan, mass_gap),
+        mass_yardstick,
     )
 
 
@@ -145,3 +153,26 @@ def yardstick(statement: Statement) -> Real:
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
     change = np.sum(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
     return np.where(rest > 0, rest, change)
+
+
+def mass_resolution(statement: Statement, yardstick: Real) -> Real:
+    """Mass below which masses are not told apart any finer (...), kg.
+
+    It is 1e-5 of the least mass that could cancel a row of the objective, or the response under a ceiling, at the web
+    where a kilogram does most. So the gap that it allows, 1e-4 of it, changes either by no more than ceilings may be
+    exceeded by: no least mass is known better than the ceilings that it is to keep.
+
+    Parameters
+    ----------
+    yardstick : (..., 1) of the objective or (..., rows) of its rows.
+    """
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    radius = np.where(limits.reach > 0, limits.radius, 0.0)[..., None, :]
+    does = np.concatenate(
+        [statement.membership @ (np.abs(norms.influence) * radius), np.abs(ceilings.norms.influence) * radius], axis=-2
+    )
+    most = np.max(does, axis=-1, initial=0.0)
+    rows = np.broadcast_to(yardstick, statement.floor.shape)
+    size = np.concatenate([rows, ceilings.size], axis=-1)
+    least = np.min(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
+    return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)

@@ -77,7 +77,11 @@ def _certified(
         "yardstick": claimed.yardstick[:, 0] * square,
     }
     if least_mass:
-        columns |= {"mass_lower_bound_kg": judged.mass_lower_bound, "mass_relative_gap": judged.mass_gap}
+        columns |= {
+            "mass_lower_bound_kg": judged.mass_lower_bound,
+            "mass_relative_gap": judged.mass_gap,
+            "mass_yardstick_kg": judged.mass_yardstick,
+        }
     columns["status"] = np.where(found.unreachable, "infeasible", judged.status)
     message = np.where(judged.status == "optimal", "", judged.reason)
     columns["message"] = np.where(found.unreachable, INFEASIBLE, message)

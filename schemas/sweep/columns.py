@@ -26,7 +26,10 @@ _CERTIFICATE = (
     Column("relative_gap", "number", None, "objective above that bound, over the yardstick"),
     Column("yardstick", "number", None, "what relative gaps are relative to: the objective without counterweights"),
     Column("mass_lower_bound_kg", "number", "kg", "no optimum has a smaller total mass"),
-    Column("mass_relative_gap", "number", None, "total mass above that bound, relative to the total mass"),
+    Column("mass_relative_gap", "number", None, "total mass above that bound, over its yardstick"),
+    Column(
+        "mass_yardstick_kg", "number", "kg", "what that gap is relative to: the total mass, or the least that counts"
+    ),
 )
 #: column of the proofs, which comes only if asked for
 MULTIPLIERS = "multipliers"

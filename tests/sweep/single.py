@@ -140,6 +140,7 @@ def _certificate_figures(certificate: Certificate) -> Any:
         "yardstick",
         "mass_lower_bound_kg",
         "mass_relative_gap",
+        "mass_yardstick_kg",
         "method",
     ):
         yield name, getattr(certificate, name)

@@ -67,6 +67,11 @@ SINGLE: dict[str, Body] = {
     "no limits, budget, ceiling": _body({"webs": _FREE, "max_total_mass_kg": 1e15}, force_ceiling_N=5000.0),
     "infeasible without limits": _body({"webs": _FREE}, force_ceiling_N=100.0),
     "limits beyond any need": _body({"webs": [{**one, "max_mass_kg": 1e300} for one in _WEBS]}),
+    "a hair of mass": {
+        "machine": machine([throw(0.0, 0.0, [], rotating=10.0)], [web("a", -0.1), web("b", 0.1)], speed_rpm=600.0),
+        # 10 kg at 0.1 m and 20 pi/s, less a ten millionth of it
+        "objective": {"force_weight": 0, "force_ceiling_N": 400 * 9.869604401089358 * (1 - 1e-7)},
+    },
     "no webs": {"machine": machine(_THROWS, [])},
     "nothing fits": {"machine": machine(_THROWS, [web("a", 0.0, 0.0)])},
     "balances itself": {"machine": machine([throw(0.0, 0.0, [])], [web("a", 0.1)])},

@@ -56,6 +56,17 @@ def test_multipliers_that_are_too_long_prove_no_more() -> None:
     assert any(one.startswith("lower_bound") for one in broken(body, answer))
 
 
+def test_a_hair_of_mass_is_told_to_what_counts() -> None:
+    """Analytic: 1e-5 of the 10 kg that would cancel as many, of which a ten millionth is too much."""
+    body = SINGLE["a hair of mass"]
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    certificate = answer["certificate"]
+    assert answer["total_mass_kg"] == pytest.approx(1e-6, rel=0.02)
+    assert certificate["mass_yardstick_kg"] == pytest.approx(1e-4, rel=1e-12)
+    certificate["mass_yardstick_kg"] *= 1 + 1e-6
+    assert any(one.startswith("yardstick") for one in broken(body, answer))
+
+
 def test_what_missing_limits_imply_need_not_be_believed() -> None:
     """Analytic: webs of any mass that force and moment of the multipliers do nothing to gain nothing."""
     body = SINGLE["no limits"]

@@ -133,6 +133,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         rows += [
             ("lower bound of the total mass, kg", proof.mass_lower_bound_kg),
             ("relative gap of the mass", proof.mass_relative_gap),
+            ("relative to, kg", proof.mass_yardstick_kg),
         ]
     rows.append(("found by", proof.method))
     return Chapter(title, (*blocks, facts("", rows)))
