@@ -30,7 +30,7 @@ class Database:
     Parameters
     ----------
     url : connection string, or the path of an SQLite file.
-    busy_s : how long a transaction waits for a locked database [s].
+    busy_s : how long a transaction waits for a locked database, or for one that takes no connection [s].
 
     Raises
     ------
@@ -120,8 +120,9 @@ def _engine(url: URL, busy_s: float) -> Engine:
         return _sqlite(url, busy_s)
     if url.drivername == "postgresql":
         url = url.set(drivername="postgresql+psycopg")
-    # a connection that the server has closed is replaced before it is used
-    return create_engine(url, pool_pre_ping=True, pool_timeout=busy_s, connect_args={"connect_timeout": 5})
+    # a connection that the server has closed is replaced before it is used; psycopg counts whole seconds
+    patience = {"connect_timeout": max(2, round(busy_s))}
+    return create_engine(url, pool_pre_ping=True, pool_timeout=busy_s, connect_args=patience)
 
 
 def _sqlite(url: URL, busy_s: float) -> Engine:

@@ -25,8 +25,8 @@ def house(tmp_path: Path) -> Iterator[House]:
 @pytest.fixture(scope="session")
 def postgres_url() -> Iterator[str]:
     try:
-        with postgres.server() as url:
-            yield url
+        with postgres.server() as running:
+            yield running.url
     except postgres.Missing as missing:
         pytest.skip(str(missing))
 

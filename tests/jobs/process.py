@@ -7,7 +7,7 @@ import os
 import subprocess
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
@@ -22,15 +22,22 @@ ROOT = Path(__file__).parents[2]
 
 
 class Service:
-    """A service that was started; it may be killed at any moment."""
+    """A service that was started; it may be killed at any moment.
 
-    def __init__(self, folder: Path, delay_s: float = 0.05, **settings: str) -> None:
+    Parameters
+    ----------
+    more : of its environment, besides its settings.
+    """
+
+    def __init__(
+        self, folder: Path, delay_s: float = 0.05, more: Mapping[str, str] | None = None, **settings: str
+    ) -> None:
         environment = {f"COUNTERWEIGHT_{name.upper()}": value for name, value in settings.items()}
         base = {"COUNTERWEIGHT_DATA_DIR": str(folder), "COUNTERWEIGHT_LEASE_S": "1", "COUNTERWEIGHT_SWEEP_WORKERS": "2"}
         self.process = subprocess.Popen(
             [sys.executable, "-m", "tests.jobs.serving"],
             cwd=ROOT,
-            env={**os.environ, **base, **environment, DELAY: str(delay_s)},
+            env={**os.environ, **base, **environment, DELAY: str(delay_s), **(more or {})},
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
@@ -48,7 +55,7 @@ class Service:
         return self
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
-        with closing(http.client.HTTPConnection(*self.where, timeout=30)) as connection:
+        with closing(http.client.HTTPConnection(*self.where, timeout=120)) as connection:
             content = None if body is None else json.dumps(body)
             connection.request(method, path, content, {"Content-Type": "application/json", **headers})
             answer = connection.getresponse()

@@ -12,6 +12,8 @@ from service.jobs.piece import Piece
 
 #: seconds that a chunk takes on top of its work
 DELAY = "TESTS_DELAY_S"
+#: seconds between two looks for leftovers
+TIDY = "TESTS_TIDY_S"
 
 
 def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
@@ -31,7 +33,7 @@ def serve(**given: Any) -> None:
     # a sweep of some thousand designs in hundreds of chunks instead of 16
     plan._FEWEST_CHUNKS = 400
     settings = Settings(port=0, **given)
-    jobs = Desk(settings, Pace(poll_s=0.05, lease_s=settings.lease_s), slow)
+    jobs = Desk(settings, Pace(poll_s=0.05, lease_s=settings.lease_s, tidy_s=float(os.environ.get(TIDY, "60"))), slow)
     socket = listen(settings)
     print(url(socket), flush=True)
     run(create_app(settings, warm_up=lambda: None, jobs=jobs), settings, socket)

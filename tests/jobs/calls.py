@@ -1,0 +1,244 @@
+"""What clients asked services and were answered, with times, so that it can be judged afterwards."""
+
+import http.client
+import io
+import json
+import random
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Literal
+
+import pyarrow as pa
+import pyarrow.compute as pc
+import pyarrow.parquet as pq
+
+from optimizer.sweep import run_chunk
+from schemas.sweep import SweepRequest
+from tests.jobs.process import Service
+from tests.jobs.sweeps import analyses
+
+Action = Literal["submit", "state", "rows", "kept", "list", "end", "resume"]
+
+
+@dataclass(frozen=True)
+class Call:
+    """A call and its answer; times are monotonic seconds.
+
+    service : who was asked.
+    subject : the id of a sweep, of a submission its key.
+    status : None if no whole answer came.
+    said : the state of a sweep.
+    ids : of the sweeps that were listed, or whose state was said.
+    rows : indices that were read.
+    whole : whether all rows were asked for that there are.
+    wrong : what cannot be right in this answer, whatever else was answered.
+    """
+
+    service: str
+    action: Action
+    subject: str
+    began: float
+    ended: float
+    status: int | None = None
+    said: dict[str, Any] | None = None
+    ids: frozenset[str] = frozenset()
+    rows: frozenset[int] = frozenset()
+    whole: bool = False
+    wrong: str = ""
+
+
+@dataclass(frozen=True)
+class Sweep:
+    """A sweep to ask for, and its rows as they are computed here (independent)."""
+
+    body: dict[str, Any]
+
+    @cached_property
+    def rows(self) -> pa.Table:
+        request = SweepRequest.model_validate(self.body)
+        return run_chunk(request.model_dump_json().encode(), 0, request.total)
+
+    @cached_property
+    def best(self) -> list[int]:
+        """The indices that are kept: those of the least forces, by sorting all of them; or all."""
+        if "top" not in self.body:
+            return list(self.all)
+        by = [("force_peak_N", "ascending"), ("index", "ascending")]
+        return sorted(pc.sort_indices(self.rows, by).to_pylist()[: self.body["top"]["count"]])
+
+    @property
+    def all(self) -> range:
+        """Every index."""
+        return range(self.rows.num_rows)
+
+    @cached_property
+    def failed(self) -> int:
+        return sum(status != "analyzed" for status in self.rows["status"].to_pylist())
+
+
+#: one whose rows are all kept, and one that selects some; a speed of 0 is invalid
+SWEEPS = (Sweep(analyses(30, 50)), Sweep(analyses(40, 40, top={"by": "force_peak_N", "count": 5})))
+
+
+@dataclass
+class Client:
+    """Calls services and writes down what it was answered.
+
+    Parameters
+    ----------
+    services : by name, those that live now.
+    calls, known, gone : shared with other clients: all calls; the sweeps that were accepted, by id; those of them that
+        were said to be gone.
+    """
+
+    name: str
+    services: Callable[[], dict[str, Service]]
+    chance: random.Random
+    calls: list[Call]
+    known: dict[str, Sweep]
+    gone: set[str]
+    #: sweeps that it wants there to be at most
+    most: int
+    #: submissions that were not answered yet
+    open: dict[str, Sweep] = field(default_factory=dict)
+    _submitted: int = 0
+
+    def submit(self) -> None:
+        """Submit a new sweep, or one again that was not answered."""
+        if not self.open:
+            self._submitted += 1
+            self.open[f"{self.name}-{self._submitted}"] = self.chance.choice(SWEEPS)
+        key, sweep = next(iter(self.open.items()))
+        found = self._call("submit", key, "POST", "/v1/sweeps", sweep.body, sweep)
+        if found.said is not None:
+            self.known[found.said["id"]] = sweep
+            del self.open[key]
+
+    def state(self, job: str) -> Call:
+        return self._call("state", job, "GET", f"/v1/sweeps/{job}")
+
+    def resume(self, job: str) -> Call:
+        return self._call("resume", job, "POST", f"/v1/sweeps/{job}/resume")
+
+    def end(self, job: str) -> Call:
+        """Cancel it if it runs, remove it if it has ended."""
+        return self._call("end", job, "DELETE", f"/v1/sweeps/{job}")
+
+    def rows(self, job: str, first: int = 0, count: int | None = None) -> Call:
+        limit = "" if count is None else f"&limit={count}"
+        path = f"/v1/sweeps/{job}/results?format=parquet&select=all&offset={first}{limit}"
+        asked = self.known[job].all[first : None if count is None else first + count]
+        return self._call("rows", job, "GET", path, asked=asked)
+
+    def kept(self, job: str) -> Call:
+        return self._call("kept", job, "GET", f"/v1/sweeps/{job}/results?format=parquet")
+
+    def all(self) -> Call:
+        """All sweeps, as far as they fit on a page."""
+        return self._call("list", "", "GET", "/v1/sweeps?limit=200")
+
+    def something(self) -> None:
+        """Whatever clients do."""
+        there = [job for job in list(self.known) if job not in self.gone]
+        if self.open or not there or (len(there) < self.most and self.chance.random() < 0.1):
+            return self.submit()
+        job = self.chance.choice(there)
+        first, count = self.chance.randrange(1000), self.chance.randrange(1, 1000)
+        does: dict[Callable[[], object], int] = {
+            lambda: self.state(job): 30,
+            lambda: self.rows(job): 15,
+            lambda: self.rows(job, first, count): 10,
+            lambda: self.kept(job): 10,
+            self.all: 10,
+            lambda: self.end(job): 4,
+            lambda: self.resume(job): 6,
+        }
+        self.chance.choices(list(does), list(does.values()))[0]()
+        return None
+
+    def _call(
+        self,
+        action: Action,
+        subject: str,
+        method: str,
+        path: str,
+        body: object = None,
+        sweep: Sweep | None = None,
+        asked: range = range(0),
+    ) -> Call:
+        while not (services := self.services()):
+            time.sleep(0.05)
+        service = self.chance.choice(sorted(services))
+        headers = {"Idempotency-Key": subject} if action == "submit" else {}
+        began = time.monotonic()
+        try:
+            status, told, content = services[service].send(method, path, body, **headers)
+        except (OSError, http.client.HTTPException):
+            found = Call(service, action, subject, began, time.monotonic())
+        else:
+            ended = time.monotonic()
+            about = _understood(action, status, told, content, sweep or self.known.get(subject), asked)
+            found = Call(service, action, subject, began, ended, status, **about)
+        self.calls.append(found)
+        if action != "submit" and found.status in (204, 404):
+            self.gone.add(subject)
+        return found
+
+
+def _understood(
+    action: Action, status: int, headers: dict[str, str], content: bytes, sweep: Sweep | None, asked: range
+) -> dict[str, Any]:
+    if status >= 400:
+        return {"wrong": _wrong_problem(status, headers, content)}
+    if status == 204:
+        return {}
+    if action == "list":
+        page = json.loads(content)
+        wrong = "" if page["next"] is None else "more sweeps than fit on a page"
+        return {"ids": frozenset(one["id"] for one in page["sweeps"]), "wrong": wrong}
+    assert sweep is not None
+    if action in ("rows", "kept"):
+        rows = pq.ParquetFile(io.BytesIO(content)).read(use_threads=False)
+        index = rows["index"].to_pylist()
+        complete = headers["sweep-complete"] == "true"
+        right = list(asked) if action == "rows" else sweep.best
+        wrong = _wrong_rows(rows, index, right if complete else None, sweep)
+        return {"rows": frozenset(index), "whole": asked == sweep.all, "wrong": wrong}
+    said = json.loads(content)
+    return {"said": said, "ids": frozenset([said["id"]]), "wrong": _wrong_state(said, sweep)}
+
+
+def _wrong_problem(status: int, headers: dict[str, str], content: bytes) -> str:
+    """Problem details say what is wrong, and when to ask again where that helps."""
+    if headers.get("content-type") != "application/problem+json":
+        return f"{status} is no problem+json"
+    said = json.loads(content)
+    if said["status"] != status or not said["title"] or not said["detail"]:
+        return f"a problem that says nothing: {said}"
+    if status == 503 and "retry-after" not in headers:
+        return "503 without Retry-After"
+    if status >= 500 and said["title"] != "Database unavailable":
+        return f"{status} {said['title']}: {said['detail']}"
+    return ""
+
+
+def _wrong_rows(rows: pa.Table, index: list[int], complete: list[int] | None, sweep: Sweep) -> str:
+    if index != sorted(set(index)):
+        return "rows are doubled, or not in order"
+    if not rows.equals(sweep.rows.take(pa.array(index, pa.int64()))):
+        return "rows differ from those that are computed here"
+    if complete is not None and index != complete:
+        return f"{len(index)} rows are said to be complete, which are {len(complete)} others"
+    return ""
+
+
+def _wrong_state(said: dict[str, Any], sweep: Sweep) -> str:
+    if said["total"] != sweep.rows.num_rows:
+        return f"a sweep of {said['total']} rows"
+    if said["repaired"] or said["state"] == "failed":
+        return f"a sweep that is {said['state']}, with {said['repaired']} damaged files: {said['message']}"
+    if said["state"] == "done" and (said["done"], said["failed"]) != (said["total"], sweep.failed):
+        return f"done, with {said['done']} rows, of which {said['failed']} failed"
+    return ""
