@@ -24,14 +24,16 @@ from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
 from optimizer.program.statement import CEILING_TOLERANCE, Norms, Statement
 
 #: cuts of a quantity that are kept from one round to the next
-_MOST_CUTS = 8
+_MOST_CUTS = 16
 #: rounds of a stage before it ends with what is proven
 _MOST_ROUNDS = 60
 #: tolerance of the solver and multiple of the margins, and what is tried where that leaves more open than asked
-_ATTEMPTS = ((1e-10, 1.0), (1e-12, 1.0), (1e-10, 10.0), (1e-8, 50.0))
+_ATTEMPTS = ((1e-10, 1.0), (1e-10, 20.0), (1e-12, 1.0), (1e-8, 50.0))
 #: limits beyond this multiple of the natural reach cannot bind
 _REACH = 10.0
 _TIME_LIMIT_S = 5.0
+#: share of a goal below which samples of the turn tell no more
+_SAMPLED = 1e-4
 #: relative gap of a mass that other settings of the solver do not mend
 _NEARLY = 1e-3
 #: share of the gap asked for that brackets may leave open
@@ -143,31 +145,52 @@ class Search:
         told : whether a value and its bound are all that has to be known.
         """
         best, proof = self.inside, None
-        attempts, gap, rounds = list(_ATTEMPTS), np.inf, 0
+        attempts, gap, rounds, coarse = list(_ATTEMPTS), np.inf, 0, True
         while attempts and rounds < _MOST_ROUNDS:
             rounds += 1
             statement = self.program.statement(self.pool.cuts)
             found = self._solved(statement, *attempts[0])
-            new = False
-            if found is not None:
-                u, proofs = found
-                for one in proofs:
-                    proof = one if proof is None or one.bound > proof.bound else proof
-                point = self._evaluated(u, self._width(enough, gap))
-                kept = self._inside(point)
-                best = min(best, kept, key=self.figure)
-                bound = -np.inf if proof is None else proof.bound
-                gap = self.figure(best) - bound
-                if gap <= enough * (best.mass if self.of_mass else 1.0) or told(self.figure(best), bound):
-                    break
-                new = self.pool.add(point.values, u, self._matters(statement, u))
-                self.pool.forget(u)
-                if not new and self.of_mass and kept is point and gap <= _NEARLY * best.mass:
+            if found is None:
+                attempts, coarse = attempts[1:], False
+                continue
+            u, proofs = found
+            for one in proofs:
+                proof = one if proof is None or one.bound > proof.bound else proof
+            if coarse:
+                # the largest samples are cuts as well, and cost next to nothing
+                values = self.program.sampled(u)
+                coarse = self._apart(statement, u, values) and self._learnt(statement, u, values)
+                if coarse:
+                    continue
+            point = self._evaluated(u, self._width(enough, gap))
+            kept = self._inside(point)
+            best = min(best, kept, key=self.figure)
+            if kept is point and self.of_mass:
+                # what is nearer is the better one to be moved towards
+                self.inside = kept
+            bound = -np.inf if proof is None else proof.bound
+            gap = self.figure(best) - bound
+            if gap <= enough * (best.mass if self.of_mass else 1.0) or told(self.figure(best), bound):
+                break
+            if not self._learnt(statement, u, point.values):
+                if self.of_mass and kept is point and gap <= _NEARLY * best.mass:
                     # what is left open is between the levels that count and that are aimed at
                     break
-            if not new:
                 attempts = attempts[1:]
         return Stage(self._tidied(best), proof, rounds)
+
+    def _learnt(self, statement: Statement, u: Complex, values: Values) -> bool:
+        """Whether a point has shown a cut that was not known."""
+        new = self.pool.add(values, u, self._matters(statement, u))
+        self.pool.forget(u)
+        return new
+
+    def _apart(self, statement: Statement, u: Complex, values: Values) -> bool:
+        """Whether a point comes to more than its statement says by more than samples leave open."""
+        of_group = statement.largest(statement.rows(np.abs(statement.norms.at(u))))
+        said = np.bincount(self.program.goal_of, of_group)
+        over = float(np.max((values.goals - said) / self.program.yardsticks))
+        return over > _SAMPLED or values.excess > _SAMPLED
 
     def figure(self, point: Point) -> float:
         """What is minimised."""

@@ -15,11 +15,11 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.cut import Cut, Quantity, Reached, reached
+from optimizer.program.cut import Cut, Quantity, Reached, Samples, reached
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Norms, Row, Statement, WeightedPeak, statement
+from optimizer.program.statement import PARTS, Ceilings, Names, Norms, Row, Statement, Term, WeightedPeak, limited
 from optimizer.program.verdict import yardstick
-from optimizer.response import Phasors, Response
+from optimizer.response import Response
 
 #: relative width of the brackets by which quantities are known where they only are a measure
 _FINE = 1e-9
@@ -87,9 +87,14 @@ class OverTurn:
         return np.repeat(np.arange(len(self.goals)), [len(goal.groups) for goal in self.goals])
 
     @cached_property
+    def samples(self) -> Samples:
+        """The quantities all over the turn."""
+        return Samples(self.quantities)
+
+    @cached_property
     def first(self) -> Cuts:
         """Cuts to begin with."""
-        return tuple(quantity.first for quantity in self.quantities)
+        return self.samples.first()
 
     @cached_property
     def at_rest(self) -> Values:
@@ -112,10 +117,14 @@ class OverTurn:
     @cached_property
     def sizes(self) -> Real:
         """(ceilings and limited,) what excesses are measured by."""
-        exact = self._posed(self.first).ceilings.size[: len(self.ceilings)]
         rest = np.array([self._resting[q].upper for q, _ in self.limited])
         size = np.maximum(np.array([cap for _, cap in self.limited]), rest)
-        return np.concatenate([exact, np.where(size > 0, size, 1.0)])
+        return np.concatenate([self._exact_ceilings.size, np.where(size > 0, size, 1.0)])
+
+    @cached_property
+    def _exact_ceilings(self) -> Ceilings:
+        """The ceilings on responses."""
+        return limited(self.ceilings, self._objective(self.first).norms, self.limits.radius.size)
 
     def alone(self, n: int) -> "OverTurn":
         """The program of one of the goals alone."""
@@ -123,39 +132,39 @@ class OverTurn:
 
     def statement(self, cuts: Cuts) -> Statement:
         """The program with finitely many cuts of every quantity: its groups, its ceilings with what is limited last."""
-        posed = self._posed(cuts)
-        if not self.limited:
-            return posed
-        # an excess is a share of the quantity's size, not of its cuts'
-        count = np.concatenate([np.ones(len(self.ceilings), int), [len(cuts[q]) for q, _ in self.limited]])
-        return replace(posed, ceilings=replace(posed.ceilings, size=np.repeat(self.sizes, count.astype(int))))
-
-    def _posed(self, cuts: Cuts) -> Statement:
-        groups = [
-            [
-                *group.rows,
-                *(self._row(each, cut) for each in group.weighed for cut in cuts[each.quantity]),
-            ]
-            for group in self.groups
-        ]
-        limited = [(self._limited(q, cut), cap) for q, cap in self.limited for cut in cuts[q]]
-        return statement(groups, [*self.ceilings, *limited], self.limits)
-
-    def _row(self, weighed: Weighed, cut: Cut) -> Row:
-        name, weight = self.quantities[weighed.quantity].name, weighed.weight
-        norms = Norms(np.array([weight * cut.constant]), weight * cut.influence[None, :])
-        peak = WeightedPeak(name, np.asarray(weighed.offset + weight * cut.floor), norms)
-        return Row(name if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg", (peak,))
-
-    def _limited(self, q: int, cut: Cut) -> Response:
-        """A response that is above a ceiling only where the quantity is."""
-        response = self.quantities[q].response
-        return Response(
-            response.name,
-            response.unit,
-            Phasors(np.asarray(cut.constant), np.asarray(complex(cut.floor))),
-            cut.influence,
+        posed = self._objective(cuts)
+        exact, chosen = self._exact_ceilings, [(q, cap, cut) for q, cap in self.limited for cut in cuts[q]]
+        if not chosen:
+            return replace(posed, ceilings=exact)
+        norms = Norms(
+            np.append(exact.norms.constant, [cut.constant for _, _, cut in chosen]),
+            np.concatenate([exact.norms.influence, *(cut.influence[None] for _, _, cut in chosen)]),
         )
+        # an excess is a share of the quantity's size, not of its cuts'
+        size = dict(zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True))
+        ceilings = Ceilings(
+            (*exact.names, *(self.quantities[q].name for q, _, _ in chosen)),
+            norms,
+            np.append(exact.cap, [cap - cut.floor for _, cap, cut in chosen]),
+            np.append(exact.size, [size[q, cap] for q, cap, _ in chosen]),
+            angles_deg=(*(None for _ in exact.names), *(cut.angle_deg for _, _, cut in chosen)),
+        )
+        return replace(posed, ceilings=ceilings)
+
+    def _objective(self, cuts: Cuts) -> Statement:
+        """The statement without ceilings."""
+        terms = _Terms()
+        for n, group in enumerate(self.groups):
+            for row in group.rows:
+                terms.add(n, row)
+            for each in group.weighed:
+                for cut in cuts[each.quantity]:
+                    terms.add_cut(n, self.quantities[each.quantity].name, cut, each)
+        influence: Real | Complex = np.stack(terms.influence)  # type: ignore[assignment]  # real or complex
+        norms = Norms(np.array(terms.constant, dtype=complex), influence)
+        none = limited((), norms, self.limits.radius.size)
+        owner, group_of, floor = np.array(terms.row), np.array(terms.group), np.array(terms.floor)
+        return Statement(norms, owner, group_of, floor, none, self.limits, Names(tuple(terms.names), tuple(terms.rows)))
 
     def values(self, u: Complex, tolerance: float) -> Values:
         """What an unbalance (K,) comes to.
@@ -165,6 +174,10 @@ class OverTurn:
         tolerance : relative width of the brackets of the quantities.
         """
         return self._values(u, reached(self.quantities, u, tolerance), self.sizes)
+
+    def sampled(self, u: Complex) -> Values:
+        """What an unbalance comes to at the samples, which is less."""
+        return self._values(u, self.samples.reached(u), self.sizes)
 
     def _values(self, u: Complex, found: tuple[Reached, ...], sizes: Real) -> Values:
         largest = [
@@ -189,6 +202,41 @@ class OverTurn:
         weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
         goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),))
         return replace(self, goals=(goal,), ceilings=(), limited=())
+
+
+class _Terms:
+    """Terms and rows of an objective, one after the other."""
+
+    def __init__(self) -> None:
+        self.constant: list[complex] = []
+        self.influence: list[Real | Complex] = []
+        self.row: list[int] = []
+        self.names: list[Term] = []
+        self.floor: list[float] = []
+        self.group: list[int] = []
+        self.rows: list[str] = []
+
+    def add(self, group: int, row: Row) -> None:
+        for peak in row.peaks:
+            count = peak.norms.constant.size
+            self.constant += peak.norms.constant.tolist()
+            self.influence += list(peak.norms.influence)
+            self.row += [len(self.rows)] * count
+            self.names += [Term(peak.name, part) for part in PARTS[:count]]
+        self._end(group, row.name, float(sum(peak.floor for peak in row.peaks)))
+
+    def add_cut(self, group: int, name: str, cut: Cut, weighed: Weighed) -> None:
+        self.constant.append(weighed.weight * cut.constant)
+        self.influence.append(weighed.weight * cut.influence)
+        self.row.append(len(self.rows))
+        self.names.append(Term(name, "co", cut.angle_deg))
+        called = name if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
+        self._end(group, called, weighed.offset + weighed.weight * cut.floor)
+
+    def _end(self, group: int, name: str, floor: float) -> None:
+        self.floor.append(floor)
+        self.group.append(group)
+        self.rows.append(name)
 
 
 def _sum(row: Row, u: Complex) -> float:

@@ -22,7 +22,7 @@ CEILING_TOLERANCE = 1e-9
 #: of a sum, in units of the sum of the magnitudes of its terms
 _ROUNDING = 4 * np.finfo(float).eps
 #: what a term of a weighted peak is the size of: the vector that turns with the shaft, and the one against it
-_PARTS: tuple[Part, ...] = ("co", "counter")
+PARTS: tuple[Part, ...] = ("co", "counter")
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,7 @@ class Ceilings:
     cap: Real  # (..., I)
     size: Real  # (..., I) > 0, what an excess is measured by
     tolerance: float = CEILING_TOLERANCE  # up to which they count as kept, as a share of the size
+    angles_deg: tuple[float | None, ...] | None = None  # (I,) at which a response is limited; None is over the turn
 
     def excess(self, u: Complex) -> Real:
         """How far each response is above its ceiling, relative to its size; <= 0 if met."""
@@ -85,6 +86,7 @@ class Term(NamedTuple):
 
     response: str
     part: Part
+    angle_deg: float | None = None  # of the shaft, where it is the response at one angle
 
 
 class Names(NamedTuple):
@@ -247,16 +249,17 @@ def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response
         row=np.repeat(owner, terms),
         group=np.repeat(np.arange(len(groups)), [len(group) for group in groups]),
         floor=floor,
-        ceilings=_ceilings(ceilings, norms, limits.radius.shape[-1]),
+        ceilings=limited(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
         names=Names(
-            tuple(Term(peak.name, part) for peak, count in zip(peaks, terms, strict=True) for part in _PARTS[:count]),
+            tuple(Term(peak.name, part) for peak, count in zip(peaks, terms, strict=True) for part in PARTS[:count]),
             tuple(row.name for row in rows),
         ),
     )
 
 
-def _ceilings(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: int) -> Ceilings:
+def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: int) -> Ceilings:
+    """Ceilings on responses beside an objective."""
     leading = objective.constant.shape[:-1]
     none = Norms(np.zeros((*leading, 0), complex), np.zeros((*leading, 0, webs)))
     terms = [Norms(response.baseline.co[..., None], response.influence[..., None, :]) for response, _ in ceilings]
