@@ -55,7 +55,7 @@ class Row(Model):
         examples=[{"length_m": 0.7, "mass_kg": 86.025, "reciprocating_share": 0.3}],
     )
     cylinder: Cylinder | None = Field(
-        None, description="gas data; needed only when an output asks for gas effects", examples=[None]
+        None, description="gas data; a row without it carries no gas, and the output gas needs it", examples=[None]
     )
 
 

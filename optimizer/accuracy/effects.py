@@ -18,7 +18,7 @@ from optimizer.accuracy.ladder import median_ms
 from optimizer.arrays import Real
 from optimizer.effects.inertia import rod_problems
 from optimizer.effects.registry import run
-from optimizer.mechanics.cylinders import delivery_rules, gas_problems
+from optimizer.mechanics.cylinders import delivery_rules, gas_problems, without_gas
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.rod import rod_forces
@@ -69,7 +69,8 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
         return ()
     if not 0 < layout.reciprocating.mass.size <= MAX_ROWS:
         return ()
-    has_gas = not any(gas_problems(machine)) and not any(rule.broken for rule in delivery_rules(machine, layout))
+    complete = not without_gas(machine) and not any(gas_problems(machine))
+    has_gas = complete and not any(rule.broken for rule in delivery_rules(machine, layout))
     torque = _torque if has_gas else _inertia_torque
     exact, cut_off = (partial(torque, machine, layout, each) for each in (Fidelity(), Fidelity(kinematics="order_2")))
     breaks = _breaks(machine, layout, has_gas)

@@ -12,7 +12,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import RODS, rod_problems
-from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems
+from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, without_gas
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import Chambers, GasForces, gas_forces, indicated_work, switching_angles
 from optimizer.mechanics.kinematics import Motion, motion
@@ -125,6 +125,28 @@ def _gas_problems(machine: Machine) -> Iterator[FieldProblem]:
         yield from gas_problems(machine)
 
 
+def _cylinder_problems(machine: Machine) -> Iterator[FieldProblem]:
+    if isinstance(machine, ReciprocatingMachine):
+        for path in without_gas(machine):
+            yield FieldProblem(path, "gas forces need the cylinder")
+
+
+def _has_gas(machine: Machine) -> bool:
+    """Whether any of the rows has a cylinder; the others carry no gas."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return False
+    rows = sum(len(throw.rows) for throw in machine.throws)
+    return rows == 0 or len(without_gas(machine)) < rows
+
+
+def _friction_problems(machine: Machine) -> Iterator[FieldProblem]:
+    data = _reciprocating(machine).friction
+    by_efficiency = data is not None and data.mechanical_efficiency is not None
+    if by_efficiency and data is not None and data.indicated_power_W is None and not _has_gas(machine):
+        message = "friction by the efficiency needs the indicated power, or the cylinders"
+        yield FieldProblem(("friction", "indicated_power_W"), message)
+
+
 def _gas_rules(machine: Machine) -> Iterator[Rule]:
     return delivery_rules(_reciprocating(machine), layout_of(machine))
 
@@ -156,7 +178,7 @@ def _gas(context: Context) -> GasCycle:
 def _friction(context: Context) -> FrictionForces:
     data = _reciprocating(context.machine).friction
     assert data is not None  # the effect does not apply without it
-    moving, cycle = context.given["kinematics"], context.given["gas"]
+    moving = context.given["kinematics"]
     omega, stroke = context.layout.omega, 2.0 * context.layout.reciprocating.crank_radius
 
     def of_rows(given: Sequence[float] | None, default: Real) -> Real:
@@ -169,7 +191,7 @@ def _friction(context: Context) -> FrictionForces:
         magnitude, torque = of_rows(data.reciprocating_force_N, np.zeros(())), of_shaft(data.rotating_torque_Nm)
     else:
         magnitude, torque = share_of_losses(
-            of_rows(data.indicated_power_W, cycle.power),
+            of_rows(data.indicated_power_W, _indicated_power(context)),
             of_shaft(data.mechanical_efficiency),
             of_shaft(data.reciprocating_share),
             stroke,
@@ -178,10 +200,15 @@ def _friction(context: Context) -> FrictionForces:
     return FrictionForces(magnitude, reciprocating_friction(moving, magnitude), torque)
 
 
+def _indicated_power(context: Context) -> Real:
+    """Power put into the gas of the rows, (..., rows) W."""
+    return context.given["gas"].power if "gas" in context.given else np.zeros(context.layout.reciprocating.mass.shape)
+
+
 def _piston_force(context: Context) -> PistonForces:
-    gas = context.given["gas"].forces.total
     inertia = context.layout.reciprocating.mass[..., None] * context.given["kinematics"].acceleration
-    friction = context.given["friction"].force if "friction" in context.given else np.zeros_like(gas)
+    gas = context.given["gas"].forces.total if "gas" in context.given else np.zeros_like(inertia)
+    friction = context.given["friction"].force if "friction" in context.given else np.zeros_like(inertia)
     return PistonForces(gas, inertia, friction, gas + inertia + friction)
 
 
@@ -210,7 +237,7 @@ def _torque_at(context: Context, angle: Real) -> TorqueSeries:
 
 def _breaks(context: Context) -> Real:
     """Shaft angles between which all is smooth, (..., B) rad."""
-    return break_angles(context.layout, context.given["gas"].opens)
+    return break_angles(context.layout, context.given["gas"].opens if "gas" in context.given else ())
 
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:
@@ -229,16 +256,13 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
         row_mean=row_mean,
         mean=mean(fine, found.total),
         fluctuation=fluctuation(fine, found.total),
-        indicated_power=np.sum(context.given["gas"].power, axis=-1),
+        indicated_power=np.sum(_indicated_power(context), axis=-1),
         friction_power=friction_power,
     )
 
 
 def _torque_errors(context: Context) -> TorqueErrors:
-    coarse, fine = (
-        panels(break_angles(context.layout, context.given["gas"].opens), _WIDEST_PANEL),
-        context.given["torque_integrals"],
-    )
+    coarse, fine = panels(_breaks(context), _WIDEST_PANEL), context.given["torque_integrals"]
     total = _torque_at(context, coarse.angle).total
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))
@@ -263,12 +287,21 @@ DYNAMICS = (
     Effect("kinematics", "motion of the rows", _kinematics, inputs=RODS, problems=_motion_problems),
     Effect(
         "gas",
-        "four-process cycle in every chamber",
+        "four-process cycle in every chamber, where rows have cylinders",
         _gas,
         needs=("kinematics",),
         inputs=("machine.throws.rows.cylinder",),
         problems=_gas_problems,
         rules=_gas_rules,
+        applies=_has_gas,
+    ),
+    Effect(
+        "indicated_work",
+        "work put into the gas of every chamber",
+        lambda context: context.given["gas"].work,
+        needs=("gas",),
+        inputs=("machine.throws.rows.cylinder",),
+        problems=_cylinder_problems,
     ),
     Effect(
         "friction",
@@ -276,6 +309,7 @@ DYNAMICS = (
         _friction,
         needs=("kinematics", "gas"),
         inputs=("machine.friction",),
+        problems=_friction_problems,
         applies=_has_friction,
     ),
     Effect(

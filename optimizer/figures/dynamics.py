@@ -69,7 +69,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
             force_N=_series(force[k, side]),
             suction_opens_deg=suction,
             discharge_opens_deg=discharge,
-            indicated_work_J=float(cycle.work[k, side]),
+            indicated_work_J=float(scene.results["indicated_work"][k, side]),
         )
 
     return Gas(
@@ -266,7 +266,13 @@ def _overturning_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 OVER_THE_TURN = (
     Output("kinematics", "motion of every row", ("kinematics",), kinematics),
-    Output("gas", "pressures and gas forces of every row, indicated power", ("gas",), gas, Columns(_gas_columns)),
+    Output(
+        "gas",
+        "pressures and gas forces of every row, indicated power",
+        ("gas", "indicated_work"),
+        gas,
+        Columns(_gas_columns),
+    ),
     Output(
         "piston_force",
         "gas, inertia and friction on every piston",

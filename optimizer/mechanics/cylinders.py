@@ -23,15 +23,16 @@ _NEVER_DELIVERS = "with this clearance and pressure ratio the chamber never deli
 
 
 def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Chambers:
-    """Chambers of all rows (..., rows, 2), throw by throw; every row has complete data (``gas_problems``).
+    """Chambers of all rows (..., rows, 2), throw by throw; every cylinder has complete data (``gas_problems``).
 
-    Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
+    A row without a cylinder has pistons without area. Fields may hold columns, as in
+    :func:`optimizer.mechanics.layout.layout`.
 
     Parameters
     ----------
     leading : axes that every array is to have, whatever depends on columns.
     """
-    rows = [_row(row.cylinder) for throw in machine.throws for row in throw.rows if row.cylinder is not None]
+    rows = [_row(row.cylinder) for throw in machine.throws for row in throw.rows]
 
     values = stacked([row[side][number] for number in range(7) for row in rows for side in (0, 1)])
     axes = np.broadcast_shapes(leading, values.shape[:-1])
@@ -40,14 +41,17 @@ def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Ch
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 
 
+def without_gas(machine: ReciprocatingMachine) -> tuple[Path, ...]:
+    """Where rows have no cylinder, by paths from the machine."""
+    return tuple(path for path, cylinder in _cylinders(machine) if cylinder is None)
+
+
 def gas_problems(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
-    """Fields that the gas forces need and the machine does not give, by paths from the machine."""
+    """Fields that the gas forces of cylinders need and the machine does not give, by paths from the machine."""
     for path, cylinder in _cylinders(machine):
-        if cylinder is None:
-            yield FieldProblem(path, "gas forces need the cylinder")
-            continue
-        for field in _missing(cylinder):
-            yield FieldProblem((*path, field), "gas forces need this field")
+        if cylinder is not None:
+            for field in _missing(cylinder):
+                yield FieldProblem((*path, field), "gas forces need this field")
 
 
 def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
@@ -96,7 +100,9 @@ def _missing(cylinder: Cylinder) -> Iterator[str]:
             yield field
 
 
-def _row(cylinder: Cylinder) -> list[list[float | None]]:
+def _row(cylinder: Cylinder | None) -> list[list[float | None]]:
+    if cylinder is None:
+        return [[0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0]] * 2
     areas = _areas(cylinder)
     ambient = cylinder.ambient_pressure_Pa
     return [

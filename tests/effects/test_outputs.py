@@ -101,7 +101,7 @@ _GAS = set(SAMPLED) - {"kinematics"}
     ("drop", "named", "reached"),
     [
         ("suction_pressure_Pa", (*ROW, "cylinder", "suction_pressure_Pa"), _GAS),
-        ("cylinder", (*ROW, "cylinder"), _GAS),
+        ("cylinder", (*ROW, "cylinder"), {"gas"}),
         ("connecting_rod", (*ROW, "connecting_rod"), {"orders", "stages", *SAMPLED}),
         ("flywheel", ("machine", "flywheel"), {"flywheel"}),
         ("bearings", ("machine", "bearings"), {"main_bearings"}),

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.mechanics.cylinders import chambers, delivery_problems, gas_problems
+from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, without_gas
 from optimizer.mechanics.layout import layout
 from schemas.cylinder import Cylinder
 from schemas.machine import ReciprocatingMachine
@@ -97,15 +97,22 @@ def test_nothing_is_missing_where_it_is_not_needed() -> None:
     assert paths([without(*state, head=own)]) == [("throws", 0, "rows", 0, "cylinder", name) for name in state]
 
 
-def test_single_acting_needs_the_ambient_and_a_row_its_cylinder() -> None:
+def test_single_acting_needs_the_ambient() -> None:
     assert paths([without(acting="crank")]) == [("throws", 0, "rows", 0, "cylinder", "ambient_pressure_Pa")]
-    assert paths([FULL, None]) == [("throws", 0, "rows", 1, "cylinder")]
+
+
+def test_a_row_without_a_cylinder_carries_no_gas() -> None:
+    one = machine(FULL, None)
+    assert without_gas(one) == (("throws", 0, "rows", 1, "cylinder"),)
+    assert paths([FULL, None]) == []
+    assert np.all(chambers(one).area[1] == 0.0)
+    assert np.all(chambers(one).area[0] > 0.0)
 
 
 def test_all_that_is_missing_is_named_at_once() -> None:
     # areas of both sides, and five of the gas
     assert len(paths([{}])) == 7
-    assert len(paths([{}, None, {"acting": "head"}])) == 7 + 1 + 8
+    assert len(paths([{}, None, {"acting": "head"}])) == 7 + 8
 
 
 @pytest.mark.parametrize(
@@ -123,8 +130,10 @@ def test_all_that_is_missing_is_named_at_once() -> None:
 )
 def test_too_much_clearance_is_named(changes: dict[str, Any], delivers: bool) -> None:
     one = machine(FULL, {**FULL, **changes})
-    found = list(delivery_problems(one, layout(one)))
-    assert [p.path for p in found] == ([] if delivers else [("throws", 0, "rows", 1, "cylinder", "relative_clearance")])
+    found = [rule for rule in delivery_rules(one, layout(one)) if rule.broken]
+    assert [rule.path for rule in found] == (
+        [] if delivers else [("throws", 0, "rows", 1, "cylinder", "relative_clearance")]
+    )
 
 
 @pytest.mark.parametrize(

@@ -92,7 +92,6 @@ def test_a_continuous_shaft(post: Post, body: dict[str, Any]) -> None:
     ("output", "taken", "pointed"),
     [
         ("gas", f"{ROW}/cylinder", f"{ROW}/cylinder"),
-        ("torque", f"{ROW}/cylinder", f"{ROW}/cylinder"),
         ("gas", f"{ROW}/cylinder/piston_rod_diameter_m", f"{ROW}/cylinder/piston_rod_diameter_m"),
         ("gas", f"{ROW}/cylinder/relative_clearance", f"{ROW}/cylinder/relative_clearance"),
         ("flywheel", "/machine/flywheel", "/machine/flywheel"),
@@ -109,6 +108,29 @@ def test_a_missing_input_is_named(
     answer = post(path, json.dumps(body | {"outputs": [output]}))
     assert pointers(answer, "missing-input") == [pointed]
     assert f"'{output}'" in answer.json()["errors"][0]["message"]
+
+
+def test_inertia_needs_no_gas_data(post: Post, body: dict[str, Any]) -> None:
+    # analytic: inertia does no work over a turn; loads without gas are those of "no load"
+    friction = body["machine"].pop("friction")
+    for throw in body["machine"]["throws"]:
+        for row in throw["rows"]:
+            row["cylinder"] = None
+    asked = body | {"outputs": ["main_bearings", "rod_loads", "overturning", "torque", "piston_force"]}
+    answer = post("/v1/analyze", json.dumps(asked))
+    assert answer.status_code == 200
+    found = answer.json()
+    assert not found["effects"]["gas"]["simulated"]
+    assert found["torque"]["indicated_power_W"] == 0
+    assert abs(found["torque"]["mean_torque_Nm"]) < 1e-9 * max(found["torque"]["torque_Nm"])
+    for row in found["rod_loads"]["rows"]:
+        running, no_load, sudden_stop = row["cases"]
+        assert running["tension_N"] == no_load["tension_N"] > 0
+        assert sudden_stop["tension_N"] == sudden_stop["compression_N"] == 0
+    # friction by the efficiency needs a power
+    body["machine"]["friction"] = {**friction, "indicated_power_W": None}
+    refused = post("/v1/analyze", json.dumps(body | {"outputs": ["torque"]}))
+    assert pointers(refused, "missing-input") == ["/machine/friction/indicated_power_W"]
 
 
 @pytest.mark.parametrize("output", OVER_THE_TURN)
