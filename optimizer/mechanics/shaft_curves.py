@@ -10,7 +10,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Real
 from optimizer.curve import TurnResponse
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
@@ -43,7 +43,7 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
     planes = _planes(layout)
     stations = np.unique(np.concatenate([planes, places]))
     unit = np.eye(planes.size, dtype=complex)
-    reaction: Complex = influence(places, planes) @ unit
+    reaction = influence(places, planes).astype(complex)
     moment = bending_moment(places, reaction, planes, unit, stations).real
     some = np.any(np.abs(moment) > 0.0, axis=-1)
     names = [f"bending at {station!r} m" for station in stations[some].tolist()]
