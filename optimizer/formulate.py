@@ -154,6 +154,7 @@ def formulate(machine: Machine, objective: Objective, responses: Sequence[Respon
 
 
 def smallest_peak(response: Response, machine: Machine) -> Statement:
-    """The program for one peak alone, without ceilings."""
+    """The program for one peak alone (...), without ceilings."""
     # the larger of one is that one, and its row has its name
-    return statement(combined([weighted_peak(response, 1.0)], "max"), [], limits(machine))
+    peak = weighted_peak(response, 1.0)
+    return statement(combined([peak], "max"), [], limits(machine, response.baseline.co.shape))

@@ -5,35 +5,32 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
-from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.arrays import Real, mapped
+from optimizer.certified import Certified, certified
+from optimizer.figures.counterweights import counterweights
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.machine_limits import touched_limits
-from optimizer.figures.proof import conflict, named, named_conflict, physical
+from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
 from optimizer.figures.shadow_prices import shadow_prices as priced
-from optimizer.formulate import RESPONSES, ceilings, formulate, smallest_peak, weights
+from optimizer.formulate import RESPONSES, ceilings, smallest_peak, weights
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
-from optimizer.program.edge import Unreachable
 from optimizer.program.optima import optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
-from optimizer.program.solution import Solution
-from optimizer.program.statement import Statement
-from optimizer.program.verdict import INFEASIBLE, claim, verdict
 from optimizer.scene import Prepared
 from schemas.answers import (
     Certificate,
     Closest,
     Counterweight,
     Infeasibility,
+    MachineLimit,
     OptimizeAnswer,
+    ShadowPrice,
     Timing,
 )
-from schemas.machine import Machine
-from schemas.proof import InfeasibilityMultipliers
-from schemas.proof import Multipliers as NamedMultipliers
+from schemas.proof import InfeasibilityMultipliers, Multipliers
 from schemas.requests import OptimizeRequest
 
 #: outputs that every answer holds
@@ -56,157 +53,105 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
     start = time.perf_counter()
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
-    statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
-    statement = within_reach(statement, solver)
-    outcome = optima(statement.alone(), request.accuracy.relative_gap, request.objective.least_mass, solver).one()
+    best = certified(request, scene.responses, np.array([scene.omega_squared]), solver)
 
     reporting = time.perf_counter()
-    if isinstance(outcome, Unreachable):
-        fields = _infeasible(request, scene, statement, outcome, solver)
-    else:
-        fields = _certified(request, scene, statement, outcome)
+    unreachable = bool(best.found.unreachable[0])
+    fields = _infeasible(request, scene, best, solver) if unreachable else _reached(request, scene, best)
     end = time.perf_counter()
+    proving = float(best.found.certify_s[0])
     return OptimizeAnswer(
+        status=str(best.status[0]),
+        status_reason=str(best.reason[0]),
         **fields,
+        **answered(scene, None if unreachable else best.unbalance[0], _ALWAYS),
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(
             total_ms=(end - start) * 1e3,
-            solve_ms=(reporting - solving - outcome.certify_s) * 1e3,
+            solve_ms=(reporting - solving - proving) * 1e3,
             mechanics_ms=scene.mechanics_ms,
-            certificate_ms=outcome.certify_s * 1e3,
+            certificate_ms=proving * 1e3,
             report_ms=(end - reporting) * 1e3,
         ),
     )
 
 
-def _fitted(machine: Machine, statement: Statement, u: Complex) -> tuple[tuple[Counterweight, ...], Complex]:
-    """Counterweights for an unbalance, and the unbalance that their masses and angles really make."""
-    mass, angle = masses_and_angles(machine, u, statement.limits)
-    return counterweights(machine, mass, angle), unbalance(mass, angle, statement.limits.radius)
-
-
-def _certified(
-    request: OptimizeRequest, scene: Prepared, statement: Statement, solution: Solution
-) -> dict[str, object]:
-    fitted, u = _fitted(request.machine, statement, solution.unbalance)
-    square, goal = scene.omega_squared, request.objective
-    mass = float(sum(counterweight.mass_kg for counterweight in fitted))
-    claimed = claim(
-        statement,
-        u,
-        np.asarray(mass),
-        np.asarray(solution.lower_bound),
-        solution.multipliers,
-        np.asarray(solution.mass_lower_bound) if goal.least_mass else None,
-    )
-    judged = verdict(claimed, request.accuracy.relative_gap)
-    value, rest = float(claimed.value[0]), float(statement.at_rest)
-    gap = float(judged.gap[0])
-    touched = touched_limits(request.machine, goal, scene.responses, u, mass, square)
+def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict[str, object]:
+    """Counterweights, what holds them up, and their certificate."""
+    machine, goal = request.machine, request.objective
+    fitted, u = counterweights(machine, best.mass_kg[0], best.angle_deg[0]), best.unbalance[0]
+    mass = float(np.sum(best.mass_kg[0]))
+    touched = touched_limits(machine, goal, scene.responses, u, mass, scene.omega_squared)
+    (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
+    figures = {name: column[0] for name, column in best.certificate.items()}
     return {
-        "status": str(judged.status),
-        "status_reason": str(judged.reason),
         "counterweights": fitted,
         "total_mass_kg": mass,
         "active_limits": touched,
-        "shadow_prices": ()
-        if solution.multipliers is None or np.isnan(gap)
-        else priced(
-            request.machine,
-            goal,
-            {name: float(weight) for name, weight in weights(request.machine, goal).items()},
-            shadow_prices(statement, u, solution.multipliers),
-            fitted,
-            touched,
-            square,
-            gap,
-            rest,
-        ),
+        "shadow_prices": _prices(request, scene, best, fitted, touched),
         "certificate": Certificate(
-            objective=value * square,
-            lower_bound=proven_or_null(judged.lower_bound[0] * square),
-            gap=proven_or_null(gap * square),
-            relative_gap=proven_or_null(judged.relative_gap),
-            yardstick=float(claimed.yardstick[0]) * square,
-            objective_without_counterweights=rest * square,
-            mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if goal.least_mass else None,
-            mass_relative_gap=proven_or_null(judged.mass_gap) if goal.least_mass else None,
-            mass_yardstick_kg=float(judged.mass_yardstick) if goal.least_mass else None,
-            mass_objective_limit=_finite(solution.mass_target * square) if goal.least_mass else None,
-            implied_max_mass_kg=implied_max_mass(request.machine, statement.limits.max_mass),
-            method=solution.method,
-            multipliers=_multipliers(statement, solution, square, goal.least_mass),
+            **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
+            implied_max_mass_kg=implied_max_mass(machine, best.program.limits.max_mass)[0],
+            multipliers=Multipliers(objective=proofs.objective, mass=proofs.mass),
         ),
-        **answered(scene, u, _ALWAYS),
     }
 
 
-def _multipliers(statement: Statement, solution: Solution, omega_squared: float, least_mass: bool) -> NamedMultipliers:
-    """The proofs of both stages."""
-    # a bound that is printed has multipliers: rest, at least, proves one
-    assert solution.multipliers is not None
-    of_mass = solution.mass_multipliers if least_mass else None
-    return NamedMultipliers(
-        objective=named(statement, physical(statement, solution.multipliers, "objective", omega_squared)),
-        mass=None if of_mass is None else named(statement, physical(statement, of_mass, "mass", omega_squared)),
+def _prices(
+    request: OptimizeRequest,
+    scene: Prepared,
+    best: Certified,
+    fitted: tuple[Counterweight, ...],
+    touched: tuple[MachineLimit, ...],
+) -> tuple[ShadowPrice, ...]:
+    gap = float(best.verdict.gap[0, 0])
+    if np.isnan(gap):
+        return ()
+    prices = shadow_prices(best.program, best.unbalance, best.found.multipliers)
+    return priced(
+        request.machine,
+        request.objective,
+        {name: float(weight) for name, weight in weights(request.machine, request.objective).items()},
+        mapped(prices, lambda array: array[0]),
+        fitted,
+        touched,
+        scene.omega_squared,
+        gap,
+        float(best.program.at_rest[0]),
     )
 
 
-def implied_max_mass(machine: Machine, most: Real) -> dict[str, float]:
-    """Limits that the proof counts with in place of those of the machine, kg."""
-    return {
-        web.name: float(mass)
-        for web, mass in zip(machine.webs, most, strict=True)
-        if np.isfinite(mass) and (web.max_mass_kg is None or mass < web.max_mass_kg)
-    }
-
-
-def _finite(value: float) -> float | None:
-    return value if np.isfinite(value) else None
-
-
-def proven_or_null(value: Real | float) -> float | None:
+def finite_or_null(value: Real | float) -> float | None:
     """A figure, null where nothing is proven."""
-    return None if np.isnan(value) else float(value)
+    return float(value) if np.isfinite(value) else None
 
 
-def _infeasible(
-    request: OptimizeRequest, scene: Prepared, statement: Statement, proof: Unreachable, solver: Solver
-) -> dict[str, object]:
+def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solver: Solver) -> dict[str, object]:
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
-    square, allowed = scene.omega_squared, ceilings(request.objective)
-    smallest, bound, proofs = {}, {}, {}
-    peaks = {response.name: smallest_peak(response, request.machine) for response in scene.responses}
+    machine, square, allowed = request.machine, best.omega_squared, ceilings(request.objective)
+    peaks = {each.name: smallest_peak(each.spread(square.shape), machine) for each in scene.responses}
     # one reach for all that is proven here
-    most = np.max(
-        [each.limits.max_mass for each in (statement, *(within_reach(peak, solver) for peak in peaks.values()))], axis=0
-    )
-    for response in scene.responses:
-        peak = replace(peaks[response.name], limits=replace(statement.limits, max_mass=most))
-        alone = optima(peak.alone(), 1e-9, False, solver).one()
-        # without ceilings nothing is unreachable, and rest proves something
-        assert isinstance(alone, Solution)
-        assert alone.multipliers is not None
-        proofs[response.name] = named(peak, physical(peak, alone.multipliers, "objective", square))
-        smallest[response.name], bound[response.name] = alone.objective * square, alone.lower_bound * square
+    reached = (best.program, *(within_reach(peak, solver) for peak in peaks.values()))
+    most = np.max([each.limits.max_mass for each in reached], axis=0)
+    smallest, bound, proofs = {}, {}, {}
+    for name, each in peaks.items():
+        peak = replace(each, limits=replace(best.program.limits, max_mass=most))
+        alone = optima(peak, 1e-9, False, solver)
+        proofs[name] = named(peak, physical(peak, alone.multipliers, "objective", square).chosen(0))
+        smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
     impossible = [name for name in allowed if bound[name] > allowed[name]]
-    fitted, u = _fitted(request.machine, statement, proof.closest)
+    closest = counterweights(machine, best.mass_kg[0], best.angle_deg[0])
+    (proof,) = named_proofs(best.program, best.found, square, request.objective.least_mass)
     return {
-        "status": "infeasible",
-        "status_reason": INFEASIBLE,
         "counterweights": (),
         "total_mass_kg": None,
         "certificate": None,
         "infeasibility": Infeasibility(
             conflict=tuple(each.ceiling_field for each in RESPONSES.values() if each.name in (impossible or allowed)),
             **smallest_peaks(smallest, bound),
-            implied_max_mass_kg=implied_max_mass(request.machine, most),
-            closest=Closest(counterweights=fitted, first_order=first_order(scene.first_order(u))),
-            multipliers=InfeasibilityMultipliers(
-                conflict=named_conflict(statement, conflict(statement, proof.multipliers, square)),
-                **smallest_proofs(proofs),
-            ),
+            implied_max_mass_kg=implied_max_mass(machine, most)[0],
+            closest=Closest(counterweights=closest, first_order=first_order(scene.first_order(best.unbalance[0]))),
+            multipliers=InfeasibilityMultipliers(conflict=proof.conflict, **smallest_proofs(proofs)),
         ),
-        **answered(scene, None, _ALWAYS),
     }

@@ -5,14 +5,18 @@ of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Web
 multipliers of their own, so none is missing where the program went without them.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any, Literal
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, Reals
+from optimizer.arrays import Complex, Real, Reals, mapped
+from optimizer.formulate import limits
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven
+from optimizer.program.optima import Optima
 from optimizer.program.statement import Statement
+from schemas.machine import Machine
 from schemas.proof import BoundMultipliers
 
 #: |y| <= lambda holds for the printed numbers too, whatever the rounding of the division by omega^2
@@ -32,7 +36,7 @@ class PhysicalMultipliers:
 
     def chosen(self, program: int) -> "PhysicalMultipliers":
         """Those of one program of one leading axis."""
-        return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])
+        return mapped(self, lambda array: array[program])
 
 
 def physical(
@@ -73,8 +77,39 @@ def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) ->
     return PhysicalMultipliers(alone.term, row * per_newton, ceiling * per_newton, price)
 
 
+class Proofs(NamedTuple):
+    """What is printed of the proofs of one design."""
+
+    objective: BoundMultipliers | None  # null where the ceilings are out of reach
+    mass: BoundMultipliers | None
+    conflict: BoundMultipliers | None
+
+
+def named_proofs(statement: Statement, found: Optima, omega_squared: Real, least_mass: bool) -> Iterator[Proofs]:
+    """The proofs of N programs, one leading axis (N,), one by one."""
+    objective = physical(statement, found.multipliers, "objective", omega_squared)
+    mass = physical(statement, found.mass_multipliers, "mass", omega_squared)
+    for n, unreachable in enumerate(found.unreachable.tolist()):
+        if unreachable:
+            alone = statement.chosen(n)
+            against = conflict(alone, found.conflict.chosen(n), omega_squared[n])
+            yield Proofs(None, None, named_conflict(alone, against))
+        else:
+            of_mass = named(statement, mass.chosen(n)) if least_mass else None
+            yield Proofs(named(statement, objective.chosen(n)), of_mass, None)
+
+
+def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
+    """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
+    smaller = most < limits(machine, most.shape[:-1]).max_mass
+    return [
+        {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
+        for of_design in zip(most.tolist(), smaller.tolist(), strict=True)
+    ]
+
+
 def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
-    """Multipliers of a bound on one program (no leading axes) by the names of its terms, rows and ceilings."""
+    """Multipliers of a bound on one program (no leading axes of theirs) by the names of its terms, rows, ceilings."""
     terms, rows = statement.names
     # one validation of the whole takes half the time of one of each
     return BoundMultipliers.model_validate(

@@ -10,8 +10,8 @@ from optimizer.arrays import Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, floor
 from optimizer.figures.machine_limits import touched_limits
-from optimizer.figures.proof import named, physical
-from optimizer.optimize import implied_max_mass, optimize, proven_or_null
+from optimizer.figures.proof import implied_max_mass, named, physical
+from optimizer.optimize import finite_or_null, optimize
 from optimizer.outputs import prepare
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
@@ -173,16 +173,16 @@ def _point(
         counterweights=fitted,
         active_limits=touched_limits(machine, request.objective, scene.responses, u, mass, square),
         certificate=CornerCertificate(
-            force_N=proven_or_null(proven[0]),
-            moment_Nm=proven_or_null(proven[1]),
-            relative_gap=proven_or_null(judged.relative_gap),
+            force_N=finite_or_null(proven[0]),
+            moment_Nm=finite_or_null(proven[1]),
+            relative_gap=finite_or_null(judged.relative_gap),
             yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
-            mass_lower_bound_kg=proven_or_null(judged.mass_lower_bound) if request.objective.least_mass else None,
-            mass_relative_gap=proven_or_null(judged.mass_gap) if request.objective.least_mass else None,
+            mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound) if request.objective.least_mass else None,
+            mass_relative_gap=finite_or_null(judged.mass_gap) if request.objective.least_mass else None,
             mass_yardstick_kg=float(judged.mass_yardstick) if request.objective.least_mass else None,
             mass_force_limit_N=limit[0],
             mass_moment_limit_Nm=limit[1],
-            implied_max_mass_kg=implied_max_mass(machine, point.max_mass),
+            implied_max_mass_kg=implied_max_mass(machine, point.max_mass[None])[0],
             method=solution.method,
         ),
         multipliers=_of_point(traded, point, square) if request.multipliers else None,

@@ -89,5 +89,5 @@ class Limits:
 
     def only(self, webs: np.ndarray) -> "Limits":
         """The limits of some of the webs (K,) bool."""
-        of_webs = {field.name: getattr(self, field.name)[..., webs] for field in fields(self)[:-1]}
+        of_webs = {field.name: np.compress(webs, getattr(self, field.name), axis=-1) for field in fields(self)[:-1]}
         return Limits(**of_webs, max_total_mass=self.max_total_mass)

@@ -132,7 +132,8 @@ def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreach
         answer.unreachable[n] = True
         answer.conflict.put(n, found.multipliers)
         # that ceilings cannot be kept is a finding of the reference solver alone
-        nowhere = Solution(found.closest, np.inf, -np.inf, np.inf, 0.0, np.inf, CONE_PROGRAM, found.certify_s)
+        method = CONE_PROGRAM if found.closest.size else CLOSED_FORM
+        nowhere = Solution(found.closest, np.inf, -np.inf, np.inf, 0.0, np.inf, method, found.certify_s)
         found = nowhere.moved_to(statement, found.closest)
     for field in fields(Solution):
         value = getattr(found, field.name)

@@ -43,7 +43,8 @@ class Norms:
         return np.where(largest > 0, largest, 1.0)
 
     def only(self, webs: np.ndarray) -> "Norms":
-        return Norms(self.constant, self.influence[..., webs])
+        # in the usual order in memory, in which sums are the same to the last bit
+        return Norms(self.constant, self.influence[..., webs].copy())
 
 
 @dataclass(frozen=True)

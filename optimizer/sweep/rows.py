@@ -9,9 +9,8 @@ from numpy.typing import NDArray
 from optimizer.arrays import Complex, Real
 from optimizer.outputs import columns, input_rules
 from optimizer.program.reference.solver import Solver
-from optimizer.sweep.analyzed import analyzed
+from optimizer.sweep.counterweights import given, optimal, shape_keys
 from optimizer.sweep.designs import axis_values
-from optimizer.sweep.optimized import optimized, shape_keys
 from optimizer.sweep.variation import with_fields
 from optimizer.sweep.work import work_per_design
 from schemas.requests import AnalyzeRequest, OptimizeRequest
@@ -85,7 +84,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multiplie
         return
     request = group.of(designs)
     if isinstance(request, AnalyzeRequest):
-        found, unbalance = analyzed(request, designs.size)
+        found, unbalance = given(request, designs.size)
         table.put(designs, found)
         _fill_outputs(table, group, designs, unbalance)
         return
@@ -94,7 +93,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multiplie
         alike = designs[keys == key]
         part = group.of(alike)
         assert isinstance(part, OptimizeRequest)  # all designs of a sweep are
-        found, unbalance = optimized(part, alike.size, solver, multipliers)
+        found, unbalance = optimal(part, alike.size, solver, multipliers)
         table.put(alike, found)
         _fill_outputs(table, group, alike, unbalance)
 

@@ -21,7 +21,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
 from optimizer.response import Response
 from optimizer.scene import Prepared
-from optimizer.sweep.optimized import optimized
+from optimizer.sweep.counterweights import optimal
 from schemas.requests import OptimizeRequest
 from tests.program.cases import optimum
 
@@ -145,7 +145,7 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
 def test_a_sweep_knows_the_response_as_well(monkeypatch: pytest.MonkeyPatch) -> None:
     _register(monkeypatch)
     scene, _, found = _solved(REQUEST)
-    columns, unbalance = optimized(REQUEST, 3, SOLVER)
+    columns, unbalance = optimal(REQUEST, 3, SOLVER)
     assert columns["status"].tolist() == ["optimal"] * 3
     np.testing.assert_allclose(columns["objective"], found.objective * scene.omega_squared, rtol=1e-12)
     np.testing.assert_allclose(unbalance, np.tile(found.unbalance, (3, 1)), rtol=1e-9, atol=1e-12)

@@ -1,0 +1,74 @@
+"""Certified counterweights of many designs of one shape; one request is a batch of one."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.figures.counterweights import masses_and_angles, unbalance
+from optimizer.formulate import formulate
+from optimizer.program.optima import Optima, optima
+from optimizer.program.reach import within_reach
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import INFEASIBLE, Verdict, claim, verdict
+from optimizer.response import Response
+from schemas.requests import OptimizeRequest
+
+
+@dataclass(frozen=True)
+class Certified:
+    """Counterweights of N designs as they are fitted, and what is proven of them."""
+
+    program: Statement  # (N,), over omega^2, with the limits that the proofs count with
+    omega_squared: Real  # (N,) rad^2/s^2
+    found: Optima
+    mass_kg: Real  # (N, K)
+    angle_deg: Real  # (N, K)
+    unbalance: Complex  # (N, K) kg m, of these masses and angles
+    verdict: Verdict
+    certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null
+    status: np.ndarray  # (N,)
+    reason: np.ndarray  # (N,) a sentence
+
+
+def certified(
+    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+) -> Certified:
+    """Counterweights that minimise the objective, or those closest to ceilings that are out of reach.
+
+    Parameters
+    ----------
+    request : of columns (N,) or of numbers; its designs have one shape of program.
+    omega_squared : (N,) rad^2/s^2.
+    """
+    machine, goal, square = request.machine, request.objective, omega_squared
+    program = within_reach(formulate(machine, goal, responses, square), solver)
+    found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
+    mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
+    u = unbalance(mass, angle, program.limits.radius)
+    mass_bound = found.mass_lower_bound if goal.least_mass else None
+    claimed = claim(program, u, np.sum(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
+    judged = verdict(claimed, request.accuracy.relative_gap)
+    of_mass = {
+        "mass_lower_bound_kg": judged.mass_lower_bound,
+        "mass_relative_gap": judged.mass_gap,
+        "mass_yardstick_kg": judged.mass_yardstick,
+        "mass_objective_limit": found.mass_target * square,
+    }
+    if not goal.least_mass:
+        of_mass = dict.fromkeys(of_mass, np.full(square.shape, np.nan))
+    certificate = {
+        "objective": claimed.value[:, 0] * square,
+        "lower_bound": judged.lower_bound[:, 0] * square,
+        "gap": judged.gap[:, 0] * square,
+        "relative_gap": judged.relative_gap,
+        "yardstick": claimed.yardstick[:, 0] * square,
+        "objective_without_counterweights": program.at_rest * square,
+        "method": found.method,
+        **of_mass,
+    }
+    status = np.where(found.unreachable, "infeasible", judged.status)
+    reason = np.where(found.unreachable, INFEASIBLE, judged.reason)
+    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)
