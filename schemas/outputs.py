@@ -113,7 +113,7 @@ class RuleOfThumb(Model):
 
 
 class Stage(Model):
-    """One of the eight balancing stages of seed 002."""
+    """One of the eight stages in which an engineer balances a machine."""
 
     stage: Literal["I", "II", "III", "IV", "V", "VI", "VII", "VIII"] = Field(
         description="number of the stage", examples=["III"]

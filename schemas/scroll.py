@@ -169,7 +169,7 @@ class PinEquilibrium(Model):
 
 
 class DegreesOfFreedom(Model):
-    """Gruebler's count F = 3 n - (2 P_l + P_h - P') - F' of the mechanism (seed 003, section 1)."""
+    """Gruebler's count F = 3 n - (2 P_l + P_h - P') - F' of the mechanism (Liu, Zhao and Li 2006, section 1)."""
 
     moving_links: int = Field(description="n: shaft, orbiting scroll and the small cranks", examples=[5])
     lower_pairs: int = Field(description="P_l: turning pairs", examples=[8])

@@ -1,5 +1,6 @@
 """The published document: pinned names, described fields, units, examples that are valid."""
 
+import json
 import re
 from typing import Any
 
@@ -49,6 +50,11 @@ def document() -> dict[str, Any]:
 
 def operations(document: dict[str, Any]) -> list[dict[str, Any]]:
     return [operation for methods in document["paths"].values() for operation in methods.values()]
+
+
+def test_sources_are_named_in_words(document: dict[str, Any]) -> None:
+    # comments count them: docs/mathematics.md, section 12
+    assert not re.findall(r"seed \d+", json.dumps(document), re.IGNORECASE)
 
 
 def test_names_that_clients_depend_on(document: dict[str, Any]) -> None:

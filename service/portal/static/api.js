@@ -38,7 +38,7 @@ export async function ask(method, path, { body, headers, signal, waiting } = {})
     if (key()) sent.set("Authorization", `Bearer ${key()}`);
     let response;
     try {
-      response = await fetch(address(path), { method, headers: sent, body: body && JSON.stringify(body), signal });
+      response = await fetch(address(path), { method, headers: sent, body: body === undefined ? null : JSON.stringify(body), signal });
     } catch (error) {
       if (error.name === "AbortError") throw error;
       throw new Problem(0, { title: "No answer", detail: "The service does not answer." });
@@ -60,13 +60,14 @@ export const post = async (path, body, options) => (await ask("POST", path, { bo
 // Server-sent events. The browser's own reader cannot send a key.
 export async function* events(path, signal) {
   const response = await ask("GET", path, { headers: { Accept: "text/event-stream" }, signal });
+  if (!response.body) throw new Problem(response.status, null);
   const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";
   for (;;) {
     const { done, value } = await reader.read();
     if (done) return;
     const blocks = (rest + value).split(/\r?\n\r?\n/);
-    rest = blocks.pop();
+    rest = blocks.pop() ?? "";
     for (const block of blocks) {
       const lines = block.split(/\r?\n/);
       const data = lines.filter((line) => line.startsWith("data:")).map((line) => line.slice(5).trimStart()).join("\n");

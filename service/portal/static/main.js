@@ -24,6 +24,7 @@ const PANELS = [counterweights, hodographs, overAngle, orders, pareto, accuracy,
 const STEP = { step_deg: 2 };
 
 const schema = get("openapi.json").then((document) => new Schema(document));
+/** @type {{ request: any, example: string | null, kept: { [name: string]: any } }} */
 const state = { request: null, example: null, kept: {} };
 let form = null;
 let runs = 0;

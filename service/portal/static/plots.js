@@ -18,7 +18,7 @@ export function load() {
     document.head.appendChild = (/** @type {any} */ node) => (node.tagName === "STYLE" && node.textContent ? node : append.call(document.head, node));
     const script = document.createElement("script");
     script.src = new URL("plotly.min.js", import.meta.url).href;
-    script.onload = () => { delete document.head.appendChild; resolve(Reflect.get(globalThis, "Plotly")); };
+    script.onload = () => { Reflect.deleteProperty(document.head, "appendChild"); resolve(Reflect.get(globalThis, "Plotly")); };
     script.onerror = () => { library = null; reject(new Error("The plotting library did not arrive.")); };
     document.head.append(script);
   });

@@ -60,7 +60,7 @@ export class Schema {
   }
 
   union(objects) {
-    const tag = Object.keys(objects[0].properties).find((name) => "const" in objects[0].properties[name]);
+    const tag = Object.keys(objects[0].properties).find((name) => "const" in objects[0].properties[name]) ?? "";
     return { tag, options: new Map(objects.map((one) => [one.properties[tag].const, this.object(one)])) };
   }
 

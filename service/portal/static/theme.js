@@ -12,7 +12,8 @@ export function theme(button) {
     button.textContent = `Theme: ${chosen}`;
     recolour();
   };
-  let now = CHOICES.includes(localStorage.getItem(PLACE)) ? localStorage.getItem(PLACE) : "auto";
+  const kept = localStorage.getItem(PLACE);
+  let now = kept !== null && CHOICES.includes(kept) ? kept : "auto";
   apply(now);
   button.addEventListener("click", () => {
     now = CHOICES[(CHOICES.indexOf(now) + 1) % CHOICES.length];
