@@ -8,7 +8,7 @@ from types import ModuleType
 from schemas.base import FieldProblem
 from schemas.verify import VerifyAnswer, VerifyRequest
 from service.documents.examples import directory
-from service.http.validation import InvalidRequest
+from service.validation import InvalidRequest
 
 
 def verify(asked: VerifyRequest) -> VerifyAnswer:

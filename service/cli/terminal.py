@@ -27,7 +27,7 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print the exact answer of 
 
 def question(model: "type[Question]", file: str, given: Mapping[str, object] | None = None) -> "Question":
     """The request in a file, with fields given on the command line in place of those in it."""
-    from service.http.validation import InvalidRequest, UnreadableJson, check, read_json
+    from service.validation import InvalidRequest, UnreadableJson, check, read_json
 
     source = "standard input" if file == "-" else file
     try:
@@ -62,7 +62,7 @@ def answer(compute: "Callable[[Question], Answer]", question: "Question") -> "An
 
 
 def fail_fields(problems: "Sequence[FieldProblem]", more: bool = False) -> NoReturn:
-    from service.http.validation import pointer
+    from service.validation import pointer
 
     lines = [f"{pointer(problem.path) or 'the request'}: {problem.message}" for problem in problems]
     fail(*lines, *(["... and more"] if more else []))

@@ -1,5 +1,6 @@
 """Who asks, before a path is even looked at; and, at each route, whether they may."""
 
+from collections.abc import Callable
 from typing import Any
 
 from fastapi import Depends
@@ -14,7 +15,9 @@ from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
 from service.guard.refusals import Forbidden, ForeignHost, Unauthorized
 from service.guard.shares import Holding, Shares
-from service.http.errors import answered
+
+#: the answer to a request for a path that is refused for a reason
+Refused = Callable[[Exception, str], ASGIApp]
 
 
 def needs(*scopes: KeyScope) -> Any:
@@ -35,12 +38,15 @@ class Access:
     Whose request it is goes into ``state["caller"]``, and what of the service it takes into ``state["holding"]``.
     """
 
-    def __init__(self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits, shares: Shares) -> None:
+    def __init__(
+        self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits, shares: Shares, refused: Refused
+    ) -> None:
         self._app = app
         self._keys = keys
         self._hosts = hosts
         self._limits = limits
         self._shares = shares
+        self._refused = refused
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -49,7 +55,7 @@ class Access:
         try:
             caller = await self._admitted(scope, self._keys)
         except (Unauthorized, ForeignHost, TooManyRequests) as error:
-            await answered(error, scope["path"])(scope, receive, send)
+            await self._refused(error, scope["path"])(scope, receive, send)
             return
         holding = Holding(self._shares, _who(scope, caller))
         state = scope.setdefault("state", {})

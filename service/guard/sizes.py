@@ -9,8 +9,8 @@ from schemas.machine import ReciprocatingMachine
 from schemas.requests import Scene
 from schemas.rules import Path
 from schemas.sweep import SweepRequest
-from service.http.validation import InvalidRequest
 from service.settings import Settings
+from service.validation import InvalidRequest
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,11 @@
 """What a client accepts: the one reader of the headers Accept and Accept-Encoding."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from typing import TypeVar
+
+from starlette.requests import Request
+
+Offer = TypeVar("Offer")
 
 
 class NotAcceptable(ValueError):
@@ -26,6 +31,12 @@ def preferred(header: str, offered: Sequence[str]) -> str | None:
     liked = {each: _quality(each, ranges) for each in offered}
     best = max(offered, key=liked.__getitem__)
     return best if liked[best] > 0 else None
+
+
+def liked(request: Request, offered: Mapping[str, Offer]) -> Offer | None:
+    """What the header Accept of a request likes best of what there is, by media type; None if it accepts nothing."""
+    chosen = preferred(",".join(request.headers.getlist("accept")), tuple(offered))
+    return None if chosen is None else offered[chosen]
 
 
 def _quality(name: str, ranges: Mapping[str, float]) -> float:

@@ -14,11 +14,11 @@ from schemas.base import Model
 from service.computations import Computation, Form
 from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
-from service.http.accept import NotAcceptable, preferred
+from service.http.accept import NotAcceptable, liked
 from service.http.request_body import read_body
-from service.http.validation import check, read_json
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
+from service.validation import check, read_json
 from service.watch.metrics import Metrics
 from service.watch.readiness import Readiness
 from service.watch.tracing import Tracing
@@ -140,10 +140,10 @@ def _form(request: Request, forms: Sequence[Form]) -> Form:
     if len(forms) == 1:
         return forms[0]
     offered = {form.media_type: form for form in forms}
-    chosen = preferred(",".join(request.headers.getlist("accept")), tuple(offered))
-    if chosen is None:
+    form = liked(request, offered)
+    if form is None:
         raise NotAcceptable(tuple(offered))
-    return offered[chosen]
+    return form
 
 
 async def _while_connected(request: Request, work: Callable[[], Awaitable[Result]]) -> Result:

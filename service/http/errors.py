@@ -23,7 +23,6 @@ from service.guard.shares import OverShare
 from service.http.accept import NotAcceptable
 from service.http.computing import ClientGone, ComputationFailed
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
-from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
 from service.jobs.accepting import BadHeader
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.files import FilesUnavailable
@@ -32,6 +31,7 @@ from service.jobs.results import UnknownColumn
 from service.jobs.rows import UnknownJob
 from service.jobs.schema import WrongSchema
 from service.jobs.store import KeyReused, QuotaExceeded, TooManyJobs
+from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
 from service.watch.readiness import NotReady
 from service.workers.pool import Busy, TooSlow, WorkerDied, WorkersFailed
 from service.workers.worker import NoRoom, OutOfMemory

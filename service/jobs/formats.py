@@ -11,8 +11,6 @@ import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
-from service.http.accept import preferred
-
 Name = Literal["ndjson", "csv", "parquet", "arrow"]
 Batches = Iterable[pa.RecordBatch]
 
@@ -139,10 +137,3 @@ FORMATS: Mapping[Name, Format] = {
 
 #: Arrow with its index at the end, as programs expect of a file
 ARROW_FILE = Format("application/vnd.apache.arrow.file", _arrow_file, describes_itself=True)
-
-
-def negotiated(accept: str) -> Name:
-    """The format that an Accept header likes best; NDJSON if it likes none of them."""
-    offered = {known.media_type.split(";")[0]: name for name, known in FORMATS.items()}
-    liked = preferred(accept, tuple(offered))
-    return "ndjson" if liked is None else offered[liked]

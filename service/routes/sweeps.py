@@ -15,11 +15,12 @@ from service.guard.access import needs
 from service.guard.keys import still_admitted
 from service.guard.shares import holding
 from service.guard.threads import Threads, in_threads
+from service.http.accept import liked
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
 from service.jobs.events import events
-from service.jobs.formats import FORMATS, Name, negotiated
+from service.jobs.formats import FORMATS, Name
 from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs, Rows
 from service.jobs.page import SweepPage
@@ -40,7 +41,8 @@ _ENDS = [needs("sweeps", "compute")]
 _STARTS = [needs("sweeps")]
 _NO_STORE = {"Cache-Control": "no-store"}
 _LOCATION = {"Location": {"description": "where the sweep is", "schema": {"type": "string"}}}
-_ROWS = {known.media_type.split(";")[0]: {"schema": {"type": "string"}} for known in FORMATS.values()}
+_BY_MEDIA_TYPE: Mapping[str, Name] = {known.media_type.split(";")[0]: name for name, known in FORMATS.items()}
+_ROWS = {media_type: {"schema": {"type": "string"}} for media_type in _BY_MEDIA_TYPE}
 
 
 @router.post(
@@ -177,7 +179,8 @@ def read_results(
     job = desk.get(id)
     if job.kind != "sweep":
         return Response(desk.answer(job), media_type="application/json", headers=_NO_STORE)
-    name = format or negotiated(",".join(request.headers.getlist("accept")))
+    # who likes none of them is not refused
+    name = format or liked(request, _BY_MEDIA_TYPE) or "ndjson"
     schema = chosen(desk.schema(job), columns or ())
     last = None if limit is None else offset + limit
     rows = (desk.kept if select == "kept" and job.selects else desk.rows)(job, schema, offset, last)

@@ -22,7 +22,7 @@ from optimizer.errors import MissingInput
 from optimizer.rating.errors import OutOfRange
 from service.computations import Computation, Form
 from service.guard.sizes import SizeLimits
-from service.http.validation import InvalidRequest, UnreadableJson, check, read_json
+from service.validation import InvalidRequest, UnreadableJson, check, read_json
 
 #: below the event loop, above the workers of sweeps
 _NICENESS = 5

@@ -24,7 +24,7 @@ from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
-from service.http.validation import InvalidRequest, check
+from service.validation import InvalidRequest, check
 
 Body = dict[str, Any]
 #: of every 20 bodies so many are asked as a front, as a sweep and as an analysis; the others are optimised

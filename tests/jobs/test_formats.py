@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.jobs.formats import ARROW_FILE, FORMATS, negotiated
+from service.jobs.formats import ARROW_FILE, FORMATS
 
 SCHEMA = pa.schema(
     [
@@ -110,19 +110,3 @@ def test_memory_stays_flat(name: str) -> None:
 
     # ten times the rows, and nowhere near ten times the memory
     assert peak(200) < 2 * peak(20) + 1_000_000
-
-
-@pytest.mark.parametrize(
-    ("accept", "name"),
-    [
-        ("", "ndjson"),
-        ("*/*", "ndjson"),
-        ("text/csv", "csv"),
-        ("text/html, application/vnd.apache.parquet;q=0.5, text/csv;q=0.4", "parquet"),
-        ("application/vnd.apache.arrow.stream;q=0", "ndjson"),
-        ("text/csv;q=nonsense, application/vnd.apache.arrow.stream", "arrow"),
-        (",;;=,", "ndjson"),
-    ],
-)
-def test_content_negotiation(accept: str, name: str) -> None:
-    assert negotiated(accept) == name

@@ -67,6 +67,9 @@ def test_every_format_holds_the_rows(client: TestClient, sweep: str) -> None:
     kinds = [answer.headers["content-type"].split(";")[0] for answer in got.values()]
     asked = [client.get(f"{sweep}/results", headers={"Accept": kind}).headers["content-type"] for kind in kinds]
     assert [kind.split(";")[0] for kind in asked] == kinds
+    # who likes none of them gets the first
+    neither = client.get(f"{sweep}/results", headers={"Accept": "image/png"})
+    assert neither.headers["content-type"] == got["ndjson"].headers["content-type"]
 
 
 def test_the_file_says_what_made_it(client: TestClient, sweep: str) -> None:

@@ -1,8 +1,10 @@
 """What a client accepts."""
 
 import pytest
+from starlette.requests import Request
 
-from service.http.accept import preferred
+from service.http.accept import liked, preferred
+from service.jobs.formats import FORMATS
 
 _FORMS = ("text/html", "application/pdf")
 
@@ -38,3 +40,20 @@ def test_what_a_client_likes_best(header: str, chosen: str | None) -> None:
 def test_codings(header: str, taken: bool) -> None:
     """RFC 9110, section 12.5.3: the same lists, with a wildcard of its own."""
     assert (preferred(header, ("gzip",)) == "gzip") is taken
+
+
+@pytest.mark.parametrize(
+    ("accept", "name"),
+    [
+        ([], "ndjson"),
+        (["*/*"], "ndjson"),
+        (["text/csv"], "csv"),
+        (["text/html, application/vnd.apache.parquet;q=0.5", "text/csv;q=0.4"], "parquet"),
+        (["application/vnd.apache.arrow.stream;q=0"], None),
+        (["text/csv;q=nonsense, application/vnd.apache.arrow.stream"], "arrow"),
+        ([",;;=,"], None),
+    ],
+)
+def test_the_format_of_rows(accept: list[str], name: str | None) -> None:
+    request = Request({"type": "http", "headers": [(b"accept", each.encode()) for each in accept]})
+    assert liked(request, {known.media_type.split(";")[0]: each for each, known in FORMATS.items()}) == name

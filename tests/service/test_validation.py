@@ -8,7 +8,7 @@ import pytest
 
 from schemas.outputs import OutputName
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from service.http.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
+from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
 
 
 def complaints(body: object, model: Any = OptimizeRequest) -> dict[str, str]:

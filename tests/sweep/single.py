@@ -15,7 +15,7 @@ from optimizer.sweep import run_chunk
 from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
-from service.http.validation import InvalidRequest, check, pointer
+from service.validation import InvalidRequest, check, pointer
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 #: agreement of a row with the single call, relative to the larger of the value and its natural size

@@ -6,7 +6,7 @@ import pytest
 
 from schemas.sweep import SweepRequest
 from schemas.sweep.target import BadPointer, find_target
-from service.http.validation import InvalidRequest, check, pointer
+from service.validation import InvalidRequest, check, pointer
 from tests.sweep.single import example, numeric_paths, sweep
 
 SPEED = {"path": "/machine/speed_rpm", "values": [400, 500]}

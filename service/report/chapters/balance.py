@@ -9,7 +9,6 @@ from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.outputs import Hodographs, OrdersComparison, Stage
 from schemas.requests import OptimizeRequest
-from service.http.validation import pointer
 from service.report import charts
 from service.report.blocks import (
     Block,
@@ -24,6 +23,7 @@ from service.report.blocks import (
 from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
+from service.validation import pointer
 
 _FIRST_ORDER = (
     ("peak force, N", "force", "peak_N"),
