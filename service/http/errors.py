@@ -33,7 +33,8 @@ from service.jobs.schema import WrongSchema
 from service.jobs.store import KeyReused, QuotaExceeded, TooManyJobs
 from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
 from service.watch.readiness import NotReady
-from service.workers.pool import Busy, TooSlow, WorkerDied, WorkersFailed
+from service.workers.pool import Busy, TooSlow, WorkerDied
+from service.workers.process import WorkersFailed
 from service.workers.worker import NoRoom, OutOfMemory
 
 PROBLEM_JSON = "application/problem+json"

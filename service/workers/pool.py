@@ -1,43 +1,26 @@
-"""Worker processes: started when needed, ended when their client is gone or their time is over, replaced when dead."""
+"""Workers lent to requests: started when needed, ended when a client is gone or its time over, replaced when dead."""
 
 import logging
-import multiprocessing
-import os
-import signal
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext, suppress
+from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass, field
-from multiprocessing import forkserver
-from multiprocessing.connection import Connection
-from multiprocessing.process import BaseProcess
 from pathlib import Path
-from threading import Lock, Timer
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from anyio import CancelScope, CapacityLimiter, fail_after, get_cancelled_exc_class, move_on_after, to_thread
-from anyio import wait_readable as readable
 
+from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
 from service.workers.turns import Full, Turns
-from service.workers.worker import Answer, Crashed, Outcome, Task, receive, serve
+from service.workers.worker import Answer, Crashed, Outcome, Task
 
 _LOG = logging.getLogger(__name__)
-#: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
-_PRELOAD = ["service.workers.preload", "service.cli"]
 #: a request whose client is gone may end within this time, which is cheaper than another worker
 _GRACE_S = 0.1
 #: what a connection takes without waiting for its reader
 _AT_ONCE_BYTES = 32_000
-#: a fork takes a hundredth of a second, and seconds where the process it comes from has to be loaded anew
-_START_S = 30.0
-#: for a killed worker to be gone; one whose parent has stopped is not said to be
-_END_S = 1.0
 _MB = 1_000_000
 
 Result = TypeVar("Result")
-
-
-class WorkersFailed(Exception):
-    """No worker can compute; the message says why."""
 
 
 class WorkerDied(Exception):
@@ -75,114 +58,6 @@ class PoolCounts:
     refused_busy: int = 0
 
 
-class _Dead(Exception):
-    """The other end of a connection is closed."""
-
-
-class _Worker:
-    def __init__(self, memory_bytes: int, folder: Path | None) -> None:
-        context = multiprocessing.get_context("forkserver")
-        ours, theirs = context.Pipe()
-        self._connection: Connection = ours
-        self._process: BaseProcess = context.Process(
-            target=serve, args=(theirs, memory_bytes, folder), name="solver", daemon=True
-        )
-        try:
-            self._process.start()
-            theirs.close()
-            failure = self.receive()
-        except (_Dead, OSError, EOFError):
-            self.end()
-            raise WorkersFailed("a worker died at its start") from None
-        if failure is not None:
-            self.end()
-            raise WorkersFailed(str(failure))
-
-    @property
-    def pid(self) -> int:
-        return self._process.pid or 0
-
-    def alive(self) -> bool:
-        return self._process.is_alive()
-
-    def send(self, task: Task) -> None:
-        try:
-            self._connection.send(task)
-        except OSError as error:
-            raise _Dead from error
-
-    async def answered(self) -> None:
-        await readable(self._connection)
-
-    def receive(self) -> Any:
-        try:
-            return receive(self._connection)
-        except (EOFError, OSError) as error:
-            raise _Dead from error
-
-    def kill(self) -> None:
-        """Kill it; who waits for its answer is told that it is dead."""
-        with suppress(OSError, ValueError, AttributeError):
-            self._process.kill()
-
-    def end(self) -> None:
-        """Kill it; nobody may be waiting for its answer."""
-        self.kill()
-        with suppress(OSError, ValueError, AssertionError):
-            self._process.join(_END_S)
-        self._connection.close()
-
-
-class _Start:
-    """The start of a worker in a thread; whoever waits for it may leave, and then it is kept for the next one.
-
-    It is not waited for then: a process that workers are forked from may have stopped.
-    """
-
-    def __init__(self, start: Callable[[], _Worker], keep: Callable[[_Worker], None]) -> None:
-        self._start = start
-        self._keep = keep
-        self._lock = Lock()
-        self._started: _Worker | None = None
-        self._left = False
-
-    def __call__(self) -> _Worker:
-        worker = self._start()
-        with self._lock:
-            self._started = worker
-            if self._left:
-                self._keep(worker)
-        return worker
-
-    def leave(self) -> None:
-        """Keep the worker for somebody else."""
-        with self._lock:
-            self._left = True
-            if self._started is not None:
-                self._keep(self._started)
-
-
-@contextmanager
-def _watched() -> Iterator[None]:
-    """A start that takes longer than any does ends the process that workers are forked from; the next makes another."""
-    watch = Timer(_START_S, _end_fork_server)
-    watch.daemon = True
-    watch.start()
-    try:
-        yield
-    finally:
-        watch.cancel()
-
-
-def _end_fork_server() -> None:
-    # multiprocessing has no public way to it
-    pid = getattr(getattr(forkserver, "_forkserver", None), "_forkserver_pid", None)
-    if pid is not None:
-        _LOG.error("the process that workers are forked from does not answer, and is ended")
-        with suppress(ProcessLookupError):
-            os.kill(pid, signal.SIGKILL)
-
-
 @dataclass
 class Pool:
     """So many computations at a time, each in a process.
@@ -208,8 +83,8 @@ class Pool:
     def __post_init__(self) -> None:
         self._turns = Turns(self.size, self.waiting, self.each)
         self._threads = CapacityLimiter(2 * (self.size + 1))
-        self._idle: list[_Worker] = []
-        self._busy: set[_Worker] = set()
+        self._idle: list[Worker] = []
+        self._busy: set[Worker] = set()
         # of recent computations, for Retry-After [s]
         self._typical_s = 0.1
         self._closed = False
@@ -272,7 +147,7 @@ class Pool:
             self._busy.add(worker)
             try:
                 outcome = await self._asked(worker, task)
-            except _Dead:
+            except Dead:
                 if not self._closed:
                     _LOG.warning("a worker died while it computed")
                     self.counts.died += 1
@@ -288,7 +163,7 @@ class Pool:
                 self._busy.discard(worker)
         raise WorkerDied("The process that computed this died; try again later.")
 
-    async def _asked(self, worker: _Worker, task: Task) -> Outcome:
+    async def _asked(self, worker: Worker, task: Task) -> Outcome:
         answering = False
         try:
             if len(task.body) < _AT_ONCE_BYTES:
@@ -303,8 +178,8 @@ class Pool:
                 await self._abandon(worker, 0.0 if answering else _GRACE_S)
             raise
 
-    async def _abandon(self, worker: _Worker, grace_s: float) -> None:
-        with suppress(_Dead, OSError), move_on_after(grace_s):
+    async def _abandon(self, worker: Worker, grace_s: float) -> None:
+        with suppress(Dead, OSError), move_on_after(grace_s):
             await worker.answered()
             left = await self._in_thread(worker.receive)
             if isinstance(left, Answer) and left.file is not None:
@@ -314,7 +189,7 @@ class Pool:
         self.counts.ended_gone += 1
         await self._in_thread(worker.end)
 
-    async def _free(self) -> _Worker:
+    async def _free(self) -> Worker:
         while self._idle:
             worker = self._idle.pop()
             if worker.alive():
@@ -324,33 +199,30 @@ class Pool:
             await self._in_thread(worker.end)
         return await self._fresh()
 
-    async def _fresh(self) -> _Worker:
-        start = _Start(self._start, self._spare)
+    async def _fresh(self) -> Worker:
+        start = Start(self._start, self._spare)
         try:
             return await self._in_thread(start)
         except get_cancelled_exc_class():
             start.leave()
             raise
 
-    def _start(self) -> _Worker:
+    def _start(self) -> Worker:
         if not self._closed:
-            multiprocessing.set_forkserver_preload(_PRELOAD)
-            # the first start loads the optimiser and compiles it, later ones fork
-            with _watched() if self.counts.started else nullcontext():
-                worker = _Worker(self.memory_mb * _MB, self.folder)
+            worker = forked(self.memory_mb * _MB, self.folder, first=not self.counts.started)
             self.counts.started += 1
             if not self._closed:
                 return worker
             worker.end()
         raise WorkersFailed("The service ends.")
 
-    def _spare(self, worker: _Worker) -> None:
+    def _spare(self, worker: Worker) -> None:
         if len(self._idle) < self.size and not self._closed:
             self._idle.append(worker)
         else:
             worker.end()
 
-    async def _keep(self, worker: _Worker, outcome: Outcome) -> None:
+    async def _keep(self, worker: Worker, outcome: Outcome) -> None:
         resident = getattr(outcome, "resident", 0)
         if isinstance(outcome, Crashed) or resident > self.memory_mb * _MB / 2 or len(self._idle) >= self.size:
             # fresh ones hold no more than they need, and there are no more of them than needed

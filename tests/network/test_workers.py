@@ -11,7 +11,8 @@ import anyio
 import psutil
 import pytest
 
-from service.workers.pool import Busy, Pool, TooSlow, WorkerDied, WorkersFailed
+from service.workers.pool import Busy, Pool, TooSlow, WorkerDied
+from service.workers.process import WorkersFailed
 from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused
 from tests.network import tasks
 from tests.network.tasks import task
@@ -184,7 +185,7 @@ def test_a_worker_that_has_stopped_is_given_up_at_the_time_limit(pool: Pool) -> 
 def test_a_process_to_fork_from_that_has_stopped_is_given_up_and_replaced(
     pool: Pool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("service.workers.pool._START_S", 3.0)
+    monkeypatch.setattr("service.workers.process._START_S", 3.0)
     run(pool, task(tasks.quick))
     pool.close()
     pool._closed = False
@@ -194,7 +195,7 @@ def test_a_process_to_fork_from_that_has_stopped_is_given_up_and_replaced(
     assert isinstance(run(pool, task(tasks.quick))[0], TooSlow)
     assert time.monotonic() - begun < 2.9
     pool.timeout_s = 60
-    monkeypatch.setattr("service.workers.pool._START_S", 60.0)
+    monkeypatch.setattr("service.workers.process._START_S", 60.0)
     deadline = time.monotonic() + 60
     while not isinstance(run(pool, task(tasks.quick))[0], Answer):
         assert time.monotonic() < deadline

@@ -1,0 +1,158 @@
+"""One worker as the service sees it: a process that is forked, asked, and killed."""
+
+import logging
+import multiprocessing
+import os
+import signal
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, nullcontext, suppress
+from multiprocessing import forkserver
+from multiprocessing.connection import Connection
+from multiprocessing.process import BaseProcess
+from pathlib import Path
+from threading import Lock, Timer
+from typing import Any
+
+from anyio import wait_readable as readable
+
+from service.workers.worker import Task, receive, serve
+
+_LOG = logging.getLogger(__name__)
+#: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
+_PRELOAD = ["service.workers.preload", "service.cli"]
+#: a fork takes a hundredth of a second, and seconds where the process it comes from has to be loaded anew
+_START_S = 30.0
+#: for a killed worker to be gone; one whose parent has stopped is not said to be
+_END_S = 1.0
+
+
+class WorkersFailed(Exception):
+    """No worker can compute; the message says why."""
+
+
+class Dead(Exception):
+    """The other end of a connection is closed."""
+
+
+class Worker:
+    """A process that computes, started here.
+
+    Raises
+    ------
+    WorkersFailed
+        if it does not start.
+    """
+
+    def __init__(self, memory_bytes: int, folder: Path | None) -> None:
+        context = multiprocessing.get_context("forkserver")
+        ours, theirs = context.Pipe()
+        self._connection: Connection = ours
+        self._process: BaseProcess = context.Process(
+            target=serve, args=(theirs, memory_bytes, folder), name="solver", daemon=True
+        )
+        try:
+            self._process.start()
+            theirs.close()
+            failure = self.receive()
+        except (Dead, OSError, EOFError):
+            self.end()
+            raise WorkersFailed("a worker died at its start") from None
+        if failure is not None:
+            self.end()
+            raise WorkersFailed(str(failure))
+
+    @property
+    def pid(self) -> int:
+        return self._process.pid or 0
+
+    def alive(self) -> bool:
+        return self._process.is_alive()
+
+    def send(self, task: Task) -> None:
+        try:
+            self._connection.send(task)
+        except OSError as error:
+            raise Dead from error
+
+    async def answered(self) -> None:
+        await readable(self._connection)
+
+    def receive(self) -> Any:
+        try:
+            return receive(self._connection)
+        except (EOFError, OSError) as error:
+            raise Dead from error
+
+    def kill(self) -> None:
+        """Kill it; who waits for its answer is told that it is dead."""
+        with suppress(OSError, ValueError, AttributeError):
+            self._process.kill()
+
+    def end(self) -> None:
+        """Kill it; nobody may be waiting for its answer."""
+        self.kill()
+        with suppress(OSError, ValueError, AssertionError):
+            self._process.join(_END_S)
+        self._connection.close()
+
+
+def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:
+    """A worker from the process that has loaded everything; the first one of all loads and compiles it.
+
+    Raises
+    ------
+    WorkersFailed
+    """
+    multiprocessing.set_forkserver_preload(_PRELOAD)
+    with nullcontext() if first else _watched():
+        return Worker(memory_bytes, folder)
+
+
+@contextmanager
+def _watched() -> Iterator[None]:
+    """A start that takes longer than any does ends the process that workers are forked from; the next makes another."""
+    watch = Timer(_START_S, _end_fork_server)
+    watch.daemon = True
+    watch.start()
+    try:
+        yield
+    finally:
+        watch.cancel()
+
+
+def _end_fork_server() -> None:
+    # multiprocessing has no public way to it
+    pid = getattr(getattr(forkserver, "_forkserver", None), "_forkserver_pid", None)
+    if pid is not None:
+        _LOG.error("the process that workers are forked from does not answer, and is ended")
+        with suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+
+
+class Start:
+    """The start of a worker in a thread; whoever waits for it may leave, and then it is kept for the next one.
+
+    It is not waited for then: a process that workers are forked from may have stopped.
+    """
+
+    def __init__(self, start: Callable[[], Worker], keep: Callable[[Worker], None]) -> None:
+        self._start = start
+        self._keep = keep
+        self._lock = Lock()
+        self._started: Worker | None = None
+        self._left = False
+
+    def __call__(self) -> Worker:
+        worker = self._start()
+        with self._lock:
+            self._started = worker
+            if self._left:
+                self._keep(worker)
+        return worker
+
+    def leave(self) -> None:
+        """Keep the worker for somebody else."""
+        with self._lock:
+            self._left = True
+            if self._started is not None:
+                self._keep(self._started)
