@@ -103,7 +103,7 @@ def create_app(
     readiness = Readiness(
         {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)}
     )
-    metrics = Metrics(pool, desk.counts)
+    metrics = Metrics(pool, desk.counts, desk.faults)
     traces = tracing(chosen)
 
     @asynccontextmanager

@@ -131,6 +131,8 @@ class Computing:
             # the message of an exception may quote the request
             _LOG.error("%s failed\n%s%s", name, outcome.trace, f": {outcome.message}" if self._quotes else "")
             raise ComputationFailed(name)
+        for fault in outcome.faults:
+            _LOG.error("%s: %s", name, fault)
         self._metrics.computed(name, outcome)
         return outcome
 

@@ -95,6 +95,8 @@ class Coordinator:
         # jobs that ended badly while the database could not be told
         self._verdicts: dict[str, str] = {}
         self._away = False
+        #: what the service found wrong with its own answers, so far
+        self.faults = 0
         self._renewed = self._tidied = float("-inf")
         self._stopping = False
         self._wake = threading.Event()
@@ -220,6 +222,9 @@ class Coordinator:
         self._flights.remove(flight)
 
     def _keep(self, chunk: Chunk, piece: Piece, covers: int = 0) -> None:
+        for fault in piece.faults:
+            _LOG.error("job %s: rows %d to %d: %s", chunk.job, chunk.start, chunk.stop - 1, fault)
+        self.faults += len(piece.faults)
         try:
             record = self._files.keep(chunk.job, chunk.start, chunk.stop, piece.content)
         except OSError as error:

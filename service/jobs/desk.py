@@ -96,6 +96,10 @@ class Desk:
             return self._parts.store.counts()
         return None
 
+    def faults(self) -> int:
+        """How often a bound contradicted an answer, in chunks that this service took in since it started."""
+        return self._parts.coordinator.faults
+
 
 def _limits(settings: Settings) -> Limits:
     return Limits(

@@ -14,11 +14,15 @@ class Unanswerable(Exception):
 
 @dataclass(frozen=True)
 class Piece:
-    """What a chunk comes to: the content of its file, and how many of its rows failed; of a selection, its rows."""
+    """What a chunk comes to: the content of its file, and how many of its rows failed; of a selection, its rows.
+
+    faults : what the service found wrong with its own answers, and says in them.
+    """
 
     content: bytes
     failed: int
     kept: int = 0
+    faults: tuple[str, ...] = ()
 
 
 #: kind, request, start, stop, path of the flag -> piece

@@ -3,9 +3,11 @@
 import os
 import signal
 import threading
+from dataclasses import replace
 from multiprocessing import parent_process
 from pathlib import Path
 
+from service.faults import kept
 from service.jobs.kinds import KINDS
 from service.jobs.piece import Piece, Stopped
 
@@ -30,7 +32,9 @@ def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
             raise Stopped
 
     proceed()
-    return KINDS[kind].compute(request, start, stop, proceed)
+    with kept() as faults:
+        piece = KINDS[kind].compute(request, start, stop, proceed)
+    return replace(piece, faults=tuple(faults))
 
 
 def prepare(niceness: int) -> None:

@@ -22,7 +22,7 @@ SweepCounts = Callable[[], Mapping[str, tuple[int, int, int]] | None]
 class Metrics:
     """The metrics of one service."""
 
-    def __init__(self, pool: Pool, sweeps: SweepCounts) -> None:
+    def __init__(self, pool: Pool, sweeps: SweepCounts, job_faults: Callable[[], int]) -> None:
         self._registry = CollectorRegistry()
         self._requests = Counter(
             "counterweight_requests", "answered requests", ("method", "route", "status"), registry=self._registry
@@ -55,6 +55,8 @@ class Metrics:
             buckets=_GAPS,
             registry=self._registry,
         )
+        self._faults = 0
+        self._registry.register(_Faults(lambda: {"request": self._faults, "job": job_faults()}))
         self._registry.register(_Work(pool))
         self._registry.register(_Sweeps(sweeps))
 
@@ -67,6 +69,7 @@ class Metrics:
     def computed(self, computation: str, answer: Answer) -> None:
         """A worker has answered."""
         self._computation_seconds.labels(computation).observe(answer.seconds)
+        self._faults += len(answer.faults)
         if answer.certified is not None:
             self._solve_seconds.labels(answer.certified.method).observe(answer.certified.solve_s)
             self._gaps.labels(answer.certified.method).observe(max(0.0, answer.certified.relative_gap))
@@ -74,6 +77,21 @@ class Metrics:
     def exposition(self) -> bytes:
         """Everything, in the text format of Prometheus."""
         return generate_latest(self._registry)
+
+
+class _Faults(Collector):
+    def __init__(self, counts: Callable[[], Mapping[str, int]]) -> None:
+        self._counts = counts
+
+    def collect(self) -> Iterable[Metric]:
+        found = CounterMetricFamily(
+            "counterweight_faults",
+            "answers of which the service itself found that a bound contradicts them, and that are logged",
+            labels=["asked_as"],
+        )
+        for asked_as, count in self._counts().items():
+            found.add_metric([asked_as], count)
+        yield found
 
 
 class _Work(Collector):

@@ -21,6 +21,7 @@ from typing import BinaryIO
 from optimizer.errors import MissingInput
 from optimizer.rating.errors import OutOfRange
 from service.computations import Computation, Form
+from service.faults import kept
 from service.guard.sizes import SizeLimits
 from service.validation import InvalidRequest, UnreadableJson, check, read_json
 
@@ -68,6 +69,7 @@ class Answer:
     seconds : time of the whole computation.
     resident : memory that the worker holds now [bytes].
     file : of a large content, without a name: it is gone when nobody reads it any more.
+    faults : what the service found wrong with its own answer, and says in it.
     """
 
     content: bytes
@@ -76,6 +78,7 @@ class Answer:
     certified: Certified | None
     resident: int
     file: BinaryIO | None = None
+    faults: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -162,9 +165,11 @@ def perform(task: Task) -> Outcome:
     try:
         asked = check(task.computation.asks, read_json(task.body))
         task.limits.require(asked)
-        found = task.computation.function(asked)
+        with kept() as faults:
+            found = task.computation.function(asked)
         content = resolve_name(task.form.write)(found)
-        return Answer(content, len(content), time.perf_counter() - begun, _certified(found), _resident())
+        seconds = time.perf_counter() - begun
+        return Answer(content, len(content), seconds, _certified(found), _resident(), faults=tuple(faults))
     except REFUSALS as error:
         return Refused.because(error)
     except MemoryError:

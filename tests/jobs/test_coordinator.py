@@ -9,6 +9,7 @@ import time
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -99,6 +100,19 @@ def test_a_row_that_raises_is_the_only_one_that_fails(house: House, tmp_path: Pa
         assert house.wait(other).failed == 0
     assert (found.state, found.done, found.failed) == ("done", 100, 1)
     assert house.rows(job).equals(synthetic.rows(0, 100, failed=(73,)))
+
+
+def test_what_workers_find_wrong_is_logged_and_counted(house: House, caplog: pytest.LogCaptureFixture) -> None:
+    def run(*chunk: Any) -> Piece:
+        return replace(synthetic.run(*chunk), faults=("a bound is wrong",))
+
+    job = house.submit(total=60, chunk_rows=20)
+    coordinator = house.coordinator_on(threads(), run=run)
+    coordinator.start()
+    assert house.wait(job).state == "done"
+    coordinator.stop()
+    assert coordinator.faults == 3
+    assert f"job {job}: rows 20 to 39: a bound is wrong" in caplog.text
 
 
 def test_a_job_with_too_many_faults_fails(house: House) -> None:

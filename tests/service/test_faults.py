@@ -1,0 +1,64 @@
+"""A bound that contradicts its answer: the answer says so, the log says so, and it is counted."""
+
+import json
+import sys
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import optimizer.sweep.optimized
+import pytest
+from starlette.testclient import TestClient
+
+from optimizer.program.verdict import CONTRADICTED, Claim, claim
+from service.computations import COMPUTATIONS
+from service.documents.examples import bodies
+from service.guard.sizes import SizeLimits
+from service.jobs import worker as jobs
+from service.settings import Settings
+from service.watch.metrics import Metrics
+from service.workers.worker import Answer, Task, perform
+
+BODY = bodies("")["v90-equal"]
+
+
+def _false(*arguments: Any) -> Claim:
+    """The same claim with a bound of twice the objective without counterweights."""
+    right = claim(*arguments)
+    return replace(right, lower_bound=2.0 * right.yardstick)
+
+
+@pytest.fixture
+def outcome(monkeypatch: pytest.MonkeyPatch) -> Answer:
+    # the package has a function of the same name
+    monkeypatch.setattr(sys.modules["optimizer.optimize"], "claim", _false)
+    optimize = COMPUTATIONS["optimize"]
+    found = perform(Task(optimize, optimize.forms[0], json.dumps(BODY).encode(), SizeLimits.of(Settings())))
+    assert isinstance(found, Answer), found
+    return found
+
+
+def test_the_answer_proves_nothing_and_the_worker_tells(outcome: Answer) -> None:
+    answer = json.loads(outcome.content)
+    assert (answer["status"], answer["status_reason"]) == ("inaccurate", CONTRADICTED)
+    proof = answer["certificate"]
+    assert proof["lower_bound"] is proof["gap"] is proof["relative_gap"] is None
+    assert answer["shadow_prices"] == []
+    assert outcome.faults == ("a lower bound is above the value of an answer: 1 of 1",)
+
+
+def test_it_is_counted(outcome: Answer, client: TestClient) -> None:
+    metrics: Metrics = client.app.state.metrics  # type: ignore[attr-defined]
+    before = client.get("/metrics").text
+    assert 'counterweight_faults_total{asked_as="request"} 0.0' in before
+    assert 'counterweight_faults_total{asked_as="job"} 0.0' in before
+    metrics.computed("optimize", outcome)
+    assert 'counterweight_faults_total{asked_as="request"} 1.0' in client.get("/metrics").text
+
+
+def test_a_chunk_of_a_sweep_tells_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(optimizer.sweep.optimized, "claim", _false)
+    asked = {"base": BODY, "axes": [{"path": "/machine/speed_rpm", "values": [600, 700, 800]}]}
+    piece = jobs.run("sweep", json.dumps(asked).encode(), 0, 3, str(tmp_path / "stop"))
+    assert piece.failed == 3
+    assert piece.faults == ("a lower bound is above the value of an answer: 3 of 3",)
