@@ -1,15 +1,14 @@
 """A bound that contradicts its answer: the answer says so, the log says so, and it is counted."""
 
 import json
-import sys
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import optimizer.sweep.optimized
 import pytest
 from starlette.testclient import TestClient
 
+from optimizer import certified
 from optimizer.program.verdict import CONTRADICTED, Claim, claim
 from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
@@ -30,8 +29,7 @@ def _false(*arguments: Any) -> Claim:
 
 @pytest.fixture
 def outcome(monkeypatch: pytest.MonkeyPatch) -> Answer:
-    # the package has a function of the same name
-    monkeypatch.setattr(sys.modules["optimizer.optimize"], "claim", _false)
+    monkeypatch.setattr(certified, "claim", _false)
     optimize = COMPUTATIONS["optimize"]
     found = perform(Task(optimize, optimize.forms[0], json.dumps(BODY).encode(), SizeLimits.of(Settings())))
     assert isinstance(found, Answer), found
@@ -57,7 +55,7 @@ def test_it_is_counted(outcome: Answer, client: TestClient) -> None:
 
 
 def test_a_chunk_of_a_sweep_tells_too(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    monkeypatch.setattr(optimizer.sweep.optimized, "claim", _false)
+    monkeypatch.setattr(certified, "claim", _false)
     asked = {"base": BODY, "axes": [{"path": "/machine/speed_rpm", "values": [600, 700, 800]}]}
     piece = jobs.run("sweep", json.dumps(asked).encode(), 0, 3, str(tmp_path / "stop"))
     assert piece.failed == 3
