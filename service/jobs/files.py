@@ -175,6 +175,9 @@ class JobFiles:
         with suppress(OSError):
             if not mark.exists():
                 self._write(mark, identity.encode())
+            # of a service that was killed while it wrote the mark; one that still writes it tries again
+            for half in self._root.glob(f".{_MARK}.*"):
+                half.unlink(missing_ok=True)
             return mark.read_bytes() == identity.encode()
         return False
 

@@ -146,7 +146,7 @@ def check(root: Path, told: Told) -> tuple[int, int]:
             lost += TOTAL if found.state != "cancelled" or kept != found.done else 0
         expected = {house.files.piece(job, piece).name for piece in house.store.pieces(job)} | {"stop"}
         orphans += len(set(house.files.names(job)) - expected)
-    orphans += len(set(house.files.folders()) - known)
+    orphans += len({one.name for one in (root / "results").glob("*")} - known - {".database"})
     house.database.close()
     return lost, orphans
 
