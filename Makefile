@@ -56,8 +56,9 @@ hard: .venv/development $(kernels)
 	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; exit $$failed
 
 # hours: the references against references of their own, and what the tests do a few times, thousands of times; the image needs root
-long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.tampered tests.jobs.crashes tests.jobs.flips \
-    tests.jobs.history tests.jobs.kills tests.network.attacks tests.network.bystander tests.network.load tests.network.schema
+long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.tampered tests.jobs.clocks tests.jobs.crashes \
+    tests.jobs.flips tests.jobs.history tests.jobs.kills tests.network.attacks tests.network.bystander tests.network.load \
+    tests.network.schema
 nightly: .venv/development $(kernels)
 	failed=0; $(MAKE) hard || failed=1; $(bin)/pytest --numprocesses 2 -m nightly || failed=1; \
 	$(MAKE) image-check || failed=1; \
