@@ -8,7 +8,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 
 limit_mb=${IMAGE_LIMIT_MB:-1200}
-suite=$(sed -n 's/^ARG BASE=python:[0-9.]*-slim-//p' deploy/Dockerfile)
+suite=$(sed -n 's/^ARG BASE=python:[0-9.]*-slim-\([a-z]*\).*/\1/p' deploy/Dockerfile)
 
 if [ "$(id --user)" != 0 ]; then
     echo "image-check.sh needs root: it makes file systems and changes its root" >&2

@@ -66,6 +66,18 @@ def test_workers_read_the_folder_at_the_same_path() -> None:
     assert dockerfile_environment()["COUNTERWEIGHT_DATA_DIR"] == "/data"
 
 
+@pytest.mark.parametrize("name", SERVICES)
+def test_memory_processors_and_disk_are_limited(name: str) -> None:
+    found = SERVICES[name]
+    assert {"mem_limit", "cpus", "pids_limit"} <= found.keys()
+    assert found["logging"]["options"].keys() == {"max-size", "max-file"}
+    assert name not in OURS or any("size=1g" in one for one in found["tmpfs"])
+
+
+def test_what_others_made_is_named_by_digest() -> None:
+    assert re.fullmatch(r"postgres:17-bookworm@sha256:[0-9a-f]{64}", SERVICES["postgres"]["image"])
+
+
 def test_memory_suffices_for_the_computations_that_it_allows() -> None:
     """As by default; dask sweeps, so there are no sweep workers beside the service."""
     limit, solves = (

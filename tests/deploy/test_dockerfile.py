@@ -2,6 +2,7 @@
 
 import json
 import os
+import re
 import shlex
 import subprocess
 from fnmatch import fnmatch
@@ -48,6 +49,11 @@ def test_packages_come_by_hash_and_as_wheels() -> None:
     assert "--require-hashes" in installs[0]
     assert "--only-binary :all:" in installs[0]
     assert "--no-deps" in installs[1]
+
+
+def test_the_base_is_named_by_digest() -> None:
+    assert re.fullmatch(r"BASE=python:3\.11-slim-bookworm@sha256:[0-9a-f]{64}", last("ARG"))
+    assert [rest.split()[0] for kind, rest in instructions() if kind == "FROM"] == ["${BASE}", "${BASE}"]
 
 
 def test_nobody_is_root_in_it() -> None:

@@ -45,7 +45,7 @@ def test_it_takes_the_release_of_the_official_base() -> None:
     assert pattern is not None
     found = subprocess.run(["sed", "-n", pattern[1]], input=f"ARG {base}\n", capture_output=True, text=True, check=True)
     assert found.stdout.strip()
-    assert base.endswith(f"-slim-{found.stdout.strip()}")
+    assert f"-slim-{found.stdout.strip()}@" in base
 
 
 def test_it_runs_commands_and_examples_that_there_are() -> None:

@@ -106,6 +106,12 @@ def test_several_replicas_share_what_they_must() -> None:
     }
 
 
+def test_memory_processors_and_disk_are_limited() -> None:
+    assert CONTAINER["resources"]["limits"].keys() == {"cpu", "memory", "ephemeral-storage"}
+    assert CONTAINER["resources"]["requests"].keys() == {"cpu", "memory", "ephemeral-storage"}
+    assert all("sizeLimit" in volume["emptyDir"] for volume in POD["volumes"] if "emptyDir" in volume)
+
+
 def test_memory_suffices_for_the_computations_that_it_allows() -> None:
     limit = int(CONTAINER["resources"]["limits"]["memory"].removesuffix("Gi")) * 2**30
     set_here = ALL["ConfigMap"]["data"]

@@ -50,6 +50,13 @@ def test_it_is_not_root() -> None:
     assert unit()["CapabilityBoundingSet"] == [""]
 
 
+def test_memory_and_processors_are_limited() -> None:
+    """And a worker that the kernel ends for its memory is the service's to replace, not a reason to end the service."""
+    found = unit()
+    assert {"MemoryMax", "CPUQuota", "TasksMax"} <= found.keys()
+    assert found["OOMPolicy"] == ["continue"]
+
+
 def test_kernels_may_be_compiled() -> None:
     """Machine code is made in memory, which MemoryDenyWriteExecute forbids."""
     assert "MemoryDenyWriteExecute" not in unit()
