@@ -8,7 +8,6 @@ x = r (cos phi + sqrt(1 - lam^2 sin^2 phi) / lam) from the shaft, and the force 
 from functools import cache
 
 import numpy as np
-from scipy.special import binom, hyp2f1
 
 from optimizer.arrays import Real
 
@@ -35,6 +34,9 @@ def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
         return np.ones_like(lam)
     if order % 2:
         return np.zeros_like(lam)
+    # takes as long to load as all that the first order needs
+    from scipy.special import hyp2f1
+
     n = order // 2
     complement = np.sqrt((1.0 - lam) * (1.0 + lam))
     # q / lam, without the division that an infinite rod would not survive
@@ -58,4 +60,6 @@ def acceleration_harmonic_order_2(order: int, rod_ratio: Real) -> Real:
 
 @cache
 def _half_binomial(n: int) -> float:
+    from scipy.special import binom
+
     return float(binom(0.5, n))

@@ -55,10 +55,6 @@ class PeriodicTable:
         return np.interp(angle_deg, self.angle_deg, self.value, period=360.0)
 
     @property
-    def is_constant(self) -> bool:
-        return bool(np.all(self.value == self.value[0]))
-
-    @property
     def keeps_its_sign(self) -> bool:
         return bool(np.all(self.value > 0.0) or np.all(self.value < 0.0))
 

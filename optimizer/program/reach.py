@@ -9,7 +9,6 @@ can carry with little mass. So the lightest optimum is no heavier there (docs/ma
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import linprog
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
@@ -161,6 +160,9 @@ def _in_sectors(influence: Real, limits: Limits, most: Real) -> float:
     others, so that those carry sum lam <= c.y/delta. What they leave lies in the lineality space, each direction of
     which is carried by the rays in it. Both come from linear programs, whose numbers are used as they turn out.
     """
+    # takes longer to load than what every program needs, and few have sectors
+    from scipy.optimize import linprog
+
     edge = limits.half_angle_cos + 1j * limits.half_angle_sin
     turns = [np.where(limits.free, step, turn) for step, turn in ((1, 1), (1j, edge), (-1j, np.conj(edge)), (-1, 1))]
     unit = np.concatenate([limits.centre * turn for turn in turns])
@@ -200,6 +202,8 @@ def _in_sectors(influence: Real, limits: Limits, most: Real) -> float:
 
 def _price(rays: Real) -> float:
     """sum lam that carries any unit vector of the space that the rays span; inf where they do not carry all of it."""
+    from scipy.optimize import linprog
+
     if not rays.size:
         return 0.0
     _, values, basis = np.linalg.svd(rays, full_matrices=False)

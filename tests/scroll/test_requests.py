@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.pins.loads import PeriodicTable, gas_torques
+from optimizer.pins.loads import gas_torques
 from schemas.scroll import MAX_PINS, PinLoadsAnswer, PinLoadsRequest
 from tests.scroll.patterns import TABLE, TORQUE, ask, even, given_pins, loads
 
@@ -55,7 +55,6 @@ def test_a_level_table_is_a_constant_analytic() -> None:
     level = even(4, rotation_torque_Nm={"angle_deg": [10, 200, 300], "torque_Nm": [TORQUE] * 3})
     np.testing.assert_allclose(loads(level), loads(even(4)), rtol=0, atol=1e-12)
     assert level.peak_N == pytest.approx(even(4).peak_N, rel=1e-14)
-    assert PeriodicTable(np.array([10.0, 200.0]), np.array([2.0, 2.0])).is_constant
 
 
 def test_a_torque_that_changes_its_sign_leaves_no_halves_analytic() -> None:
