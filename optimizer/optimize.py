@@ -15,6 +15,7 @@ from optimizer.figures.shadow_prices import shadow_prices as priced
 from optimizer.formulate import RESPONSES, ceilings, smallest_peak, weights
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
+from optimizer.own_solver import own_solver
 from optimizer.program.optima import optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
@@ -36,11 +37,8 @@ from schemas.requests import OptimizeRequest
 #: outputs that every answer holds
 _ALWAYS = ("residual",)
 
-# compiled programs of this process; they are lent to one thread at a time
-_SOLVER = Solver()
 
-
-def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnswer:
+def optimize(request: OptimizeRequest, solver: Solver | None = None) -> OptimizeAnswer:
     """Counterweights that minimise the weighted first-order peaks, with a certificate.
 
     Every figure is evaluated by the mechanics from the returned masses and angles.
@@ -50,6 +48,7 @@ def optimize(request: OptimizeRequest, solver: Solver = _SOLVER) -> OptimizeAnsw
     MissingInput
         if the machine lacks what a requested output needs.
     """
+    solver = solver or own_solver()
     start = time.perf_counter()
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()

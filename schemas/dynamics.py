@@ -23,7 +23,7 @@ from schemas.quantities import (
     Watts,
 )
 
-Angles = Annotated[
+ShaftAngles = Annotated[
     tuple[Degrees, ...],
     Field(description="shaft angles of the samples, the end point not repeated", examples=[[0.0, 1.0]]),
 ]
@@ -51,7 +51,7 @@ class RowMotion(RowSeries):
 class Kinematics(Model):
     """Motion of every row."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     rows: tuple[RowMotion, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
 
 
@@ -81,7 +81,7 @@ class RowGas(RowSeries):
 class Gas(Model):
     """Gas forces of every row."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     rows: tuple[RowGas, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     indicated_power_W: Watts = Field(description="indicated power of the machine", examples=[1216873.9])
 
@@ -100,7 +100,7 @@ class RowPistonForce(RowSeries):
 class PistonForce(Model):
     """Piston forces of every row."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     rows: tuple[RowPistonForce, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
 
 
@@ -133,7 +133,7 @@ class RowRodLoads(RowSeries):
 class RodLoads(Model):
     """Forces in the mechanism of every row."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     rows: tuple[RowRodLoads, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     governing_load_N: Newtons = Field(description="largest rod force of the machine", examples=[239937.4])
 
@@ -148,7 +148,7 @@ class RowTorque(RowSeries):
 class Torque(Model):
     """Torque of the machine against its rotation, and what it means for the drive."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     rows: tuple[RowTorque, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     rotating_friction_Nm: NewtonMetres = Field(description="rotating friction, constant", examples=[435.7])
     torque_Nm: tuple[NewtonMetres, ...] = Field(description="all rows and rotating friction", examples=[[435.7]])
@@ -190,7 +190,7 @@ class RowOverturning(RowSeries):
 class Overturning(Model):
     """Overturning couple on the frame, with the rotation; it equals the torque of the rows."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     rows: tuple[RowOverturning, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     couple_Nm: tuple[NewtonMetres, ...] = Field(description="all rows", examples=[[0.0]])
     peak_Nm: NewtonMetres = Field(description="largest among the samples, magnitude", examples=[62000.0])
@@ -229,7 +229,7 @@ class BendingMoment(Model):
 class MainBearings(Model):
     """Loads of the main bearings from all rows, rotating masses and counterweights."""
 
-    angle_deg: Angles
+    angle_deg: ShaftAngles
     shaft: Literal["simple_spans", "continuous"] = Field(
         description="how the shaft was taken to lie on its bearings", examples=["simple_spans"]
     )

@@ -13,6 +13,7 @@ from optimizer.figures.machine_limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, physical
 from optimizer.optimize import finite_or_null, optimize
 from optimizer.outputs import prepare
+from optimizer.own_solver import own_solver
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
 from optimizer.program.edge import Unreachable
@@ -39,15 +40,13 @@ from schemas.requests import OptimizeRequest
 _STRAIGHT = 1e-4
 _WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
 
-# compiled programs of this process; they are lent to one thread at a time
-_SOLVER = Solver()
 
-
-def pareto(request: ParetoRequest, solver: Solver = _SOLVER) -> ParetoAnswer:
+def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer:
     """The certified fronts of peak force and peak moment, one for each budget of the total mass.
 
     Every figure is evaluated by the mechanics from the returned masses and angles.
     """
+    solver = solver or own_solver()
     start = time.perf_counter()
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
     solving = time.perf_counter()

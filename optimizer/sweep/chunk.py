@@ -6,14 +6,11 @@ from functools import lru_cache
 import numpy as np
 import pyarrow as pa
 
-from optimizer.program.reference.solver import Solver
+from optimizer.own_solver import own_solver
 from optimizer.sweep.plan import block_rows
 from optimizer.sweep.rows import rows
 from optimizer.sweep.table import result_schema, result_table
 from schemas.sweep import SweepRequest
-
-# compiled programs of this process; they are lent to one thread at a time
-_SOLVER = Solver()
 
 
 def run_chunk(request_json: bytes, start: int, stop: int) -> pa.Table:
@@ -33,7 +30,7 @@ def run_chunk(request_json: bytes, start: int, stop: int) -> pa.Table:
     request, schema = _prepared(request_json)
     if not 0 <= start <= stop <= request.total:
         raise ValueError(f"the sweep has the designs 0 to {request.total}, not {start} to {stop}")
-    return result_table(rows(request, start, stop, _SOLVER), schema)
+    return result_table(rows(request, start, stop, own_solver()), schema)
 
 
 def blocks(request_json: bytes, start: int, stop: int) -> Iterator[tuple[int, int]]:
