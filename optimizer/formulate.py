@@ -9,52 +9,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Real, Reals
-from optimizer.mechanics.angles import direction
+from optimizer.arrays import SMALLEST, Reals
+from optimizer.limits import limits
 from optimizer.mechanics.inertia import Wrench, first_order_responses
 from optimizer.mechanics.layout import Layout, stacked
-from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Response
 from schemas.answers import CeilingField, MachineLimit
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Objective
-
-#: a larger limit is none, kg
-_NO_LIMIT = 1e30
-
-
-def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
-    """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
-    webs, budget = machine.webs, machine.max_total_mass_kg
-    free, centre, half_angle = sectors(machine)
-    edge, shape = direction(half_angle), (*leading, len(webs))
-    return Limits(
-        radius=np.broadcast_to(stacked([web.counterweight_radius_m for web in webs]), shape),
-        max_mass=np.broadcast_to(
-            _no_limit(stacked([np.inf if web.max_mass_kg is None else web.max_mass_kg for web in webs])), shape
-        ),
-        free=np.broadcast_to(free, shape),
-        centre=np.broadcast_to(direction(centre), shape),
-        half_angle_cos=np.broadcast_to(edge.real, shape),
-        half_angle_sin=np.broadcast_to(edge.imag, shape),
-        max_total_mass=np.broadcast_to(np.asarray(np.inf if budget is None else budget, dtype=float), leading),
-    )
-
-
-def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
-    """Which webs have no sector (K,); centres and half-angles [deg] (..., K), 0 and 90 where there is none."""
-    webs = machine.webs
-    return (
-        np.array([web.sector is None for web in webs], dtype=bool),
-        stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs]),
-        stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs]),
-    )
-
-
-def _no_limit(mass: Real) -> Real:
-    """Largest masses, inf where they are none: null, or more than can be multiplied."""
-    return np.where(mass > _NO_LIMIT, np.inf, mass)
 
 
 def span(machine: Machine) -> Reals:

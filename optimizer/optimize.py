@@ -9,10 +9,10 @@ from optimizer.arrays import Real, mapped
 from optimizer.certified import Certified, certified
 from optimizer.figures.counterweights import counterweights
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
-from optimizer.figures.machine_limits import touched_limits
+from optimizer.figures.limits import shadow_prices as priced
+from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
-from optimizer.figures.shadow_prices import shadow_prices as priced
-from optimizer.formulate import RESPONSES, ceilings, smallest_peak, weights
+from optimizer.formulate import RESPONSES, ceilings, smallest_peak
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
@@ -81,7 +81,7 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict
     machine, goal = request.machine, request.objective
     fitted, u = counterweights(machine, best.mass_kg[0], best.angle_deg[0]), best.unbalance[0]
     mass = float(np.sum(best.mass_kg[0]))
-    touched = touched_limits(machine, goal, scene.responses, u, mass, scene.omega_squared)
+    touched = touched_limits(machine, goal, scene.responses, best.mass_kg[0], u, scene.omega_squared)
     (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
     figures = {name: column[0] for name, column in best.certificate.items()}
     return {
@@ -111,7 +111,6 @@ def _prices(
     return priced(
         request.machine,
         request.objective,
-        {name: float(weight) for name, weight in weights(request.machine, request.objective).items()},
         mapped(prices, lambda array: array[0]),
         fitted,
         touched,

@@ -18,7 +18,10 @@ from schemas.quantities import (
     Newtons,
 )
 
-WebLimit = Literal["max_mass", "sector"]
+WebLimit = Literal[
+    "max_mass",
+    "sector",
+]
 CeilingField = Literal["force_ceiling_N", "moment_ceiling_Nm"]
 MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
 PriceUnit = Literal[

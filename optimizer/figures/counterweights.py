@@ -3,17 +3,13 @@
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.formulate import sectors
+from optimizer.limits import WEB_LIMITS, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from schemas.answers import Counterweight, WebLimit
 from schemas.machine import Machine, Web
 from schemas.requests import AnalyzeRequest
-
-#: a limit counts as touched when the counterweight is nearer than this share of it; optima may differ by
-#: 1e-6 of the objective, which is more than that of a mass
-_TOUCHED = 1e-4
 
 
 def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
@@ -54,13 +50,14 @@ def as_given(request: AnalyzeRequest) -> tuple[Real, Real]:
 
 def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[Counterweight, ...]:
     """The counterweights of a machine, one for each web."""
+    touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
     return tuple(
-        _counterweight(web, float(mass), float(angle))
-        for web, mass, angle in zip(machine.webs, mass_kg, angles_deg, strict=True)
+        _counterweight(web, mass, angle, tuple(name for name, webs in touched.items() if webs[k]))
+        for k, (web, mass, angle) in enumerate(zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), strict=True))
     )
 
 
-def _counterweight(web: Web, mass: float, angle: float) -> Counterweight:
+def _counterweight(web: Web, mass: float, angle: float, touched: tuple[WebLimit, ...]) -> Counterweight:
     vector = complex(unbalance(np.asarray(mass), np.asarray(angle), np.asarray(web.counterweight_radius_m)))
     return Counterweight(
         web=web.name,
@@ -69,16 +66,5 @@ def _counterweight(web: Web, mass: float, angle: float) -> Counterweight:
         mass_radius_kg_m=mass * web.counterweight_radius_m,
         x_kg_m=vector.real,
         y_kg_m=vector.imag,
-        active_limits=tuple(_touched(web, mass, angle)),
+        active_limits=touched,
     )
-
-
-def _touched(web: Web, mass: float, angle: float) -> list[WebLimit]:
-    touched: list[WebLimit] = []
-    if web.max_mass_kg is not None and mass >= web.max_mass_kg * (1.0 - _TOUCHED):
-        touched.append("max_mass")
-    if web.sector is not None and mass > 0:
-        off = abs((angle - web.sector.centre_deg + 180.0) % 360.0 - 180.0)
-        if off >= web.sector.half_angle_deg * (1.0 - _TOUCHED):
-            touched.append("sector")
-    return touched

@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real, Reals, mapped
-from optimizer.formulate import limits
+from optimizer.limits import limits
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven
 from optimizer.program.optima import Optima
 from optimizer.program.statement import Statement

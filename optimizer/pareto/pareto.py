@@ -9,7 +9,7 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, floor
-from optimizer.figures.machine_limits import touched_limits
+from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, physical
 from optimizer.optimize import finite_or_null, optimize
 from optimizer.outputs import prepare
@@ -170,7 +170,7 @@ def _point(
         weighted_moment_peak_Nm=float(weighted[1]),
         total_mass_kg=mass,
         counterweights=fitted,
-        active_limits=touched_limits(machine, request.objective, scene.responses, u, mass, square),
+        active_limits=touched_limits(machine, request.objective, scene.responses, masses, u, square),
         certificate=CornerCertificate(
             force_N=finite_or_null(proven[0]),
             moment_Nm=finite_or_null(proven[1]),

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.formulate import ceilings, limits
+from optimizer.formulate import ceilings
+from optimizer.limits import limits
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Norms, Statement, combined, statement, weighted_peak
 from optimizer.response import Response

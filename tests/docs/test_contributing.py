@@ -102,7 +102,42 @@ with TestClient(create_app(Settings(data_dir=Path(sys.argv[1])), warm_up=lambda:
     listed = Path("docs/api.md").read_text()
     assert "`POST " + path + "`" in listed
 """
-_ADDED = ("An effect", "An output", "A computation")
+_LIMITED = """
+import json
+from math import pi
+
+from optimizer.sweep import run_chunk
+from schemas.sweep import SweepRequest
+from service.app import create_app
+from service.settings import Settings
+from starlette.testclient import TestClient
+
+throw = {"position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 30, "rotating_mass_kg": 10, "rows": []}
+web = {"name": "w", "position_m": 0, "counterweight_radius_m": 0.2, "max_mass_kg": 20, "max_centrifugal_force_N": 1500}
+machine = {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": [web]}
+body, square = {"machine": machine}, (20 * pi) ** 2
+with TestClient(create_app(Settings(), warm_up=lambda: None)) as client:
+    answer = client.post("/v1/optimize", json=body).json()
+    (fitted,), (price,) = answer["counterweights"], answer["shadow_prices"]
+    # analytic: the rotating mass pulls with 1 kg m, and the counterweight takes 1500 N of that
+    assert answer["status"] == "optimal", answer
+    assert abs(answer["certificate"]["objective"] - (square - 1500)) < 1.1e-6 * square, answer
+    assert fitted["active_limits"] == ["max_centrifugal_force"], fitted
+    assert (price["limit"], price["web"], price["unit"]) == ("max_centrifugal_force", "w", "N/N"), price
+    assert abs(price["value"] - 1) < 1e-6, price
+    refused = client.post("/v1/optimize", json={"machine": machine | {"webs": [web | {"max_centrifugal_force_N": -1}]}})
+    assert (refused.status_code, refused.json()["errors"][0]["pointer"]) == (
+        422, "/machine/webs/0/max_centrifugal_force_N",
+    )
+    page = client.post("/v1/report", json=body, headers={"Accept": "text/html"})
+    assert page.status_code == 200 and "largest centrifugal force" in page.text
+
+axis = {"path": "/machine/webs/0/max_centrifugal_force_N", "values": [500, 1000, 2000]}
+request = SweepRequest.model_validate({"task": "optimize", "base": body, "axes": [axis]})
+for row in run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist():
+    assert abs(row["objective"] - (square - row[axis["path"]])) < 1.1e-6 * square, row
+"""
+_ADDED = ("An effect", "An output", "A computation", "A limit")
 
 
 @pytest.fixture(scope="module")
@@ -178,6 +213,10 @@ def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
     shown = _run(copy, "-m", "service", "piston-speed", str(body))
     # analytic: two strokes in a turn
     assert re.search(r"mean, m/s\W+4\.6", shown)
+
+
+def test_the_limit_is_kept_touched_priced_and_swept(copy: Path) -> None:
+    _run(copy, "-c", _LIMITED)
 
 
 def test_all_is_written_as_the_linter_wants_it(copy: Path) -> None:

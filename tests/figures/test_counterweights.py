@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.figures.counterweights import masses_and_angles, unbalance
-from optimizer.formulate import limits
+from optimizer.limits import limits
 from schemas.machine import ReciprocatingMachine
 from tests.hard.cases.case import machine, throw, web
 

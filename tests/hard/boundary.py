@@ -17,7 +17,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.formulate import formulate, limits
+from optimizer.formulate import formulate
+from optimizer.limits import limits
 from optimizer.optimize import optimize
 from optimizer.outputs import prepare
 from optimizer.program.reference.solver import Solver

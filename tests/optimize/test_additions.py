@@ -12,14 +12,15 @@ import pytest
 
 import optimizer
 from optimizer.formulate import RESPONSES, Weighable, ceilings, formulate, smallest_peak
-from optimizer.mechanics.inertia import Wrench
+from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.outputs import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
-from optimizer.response import Response
+from optimizer.response import Phasors, Response
 from optimizer.scene import Prepared
 from optimizer.sweep.counterweights import optimal
 from schemas.requests import OptimizeRequest
@@ -140,6 +141,37 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
     if limit is not None:
         assert peaks[2] * scene.omega_squared == pytest.approx(limit, rel=1e-6)
         assert found.objective > free.objective
+
+
+def _backwards(layout: Layout, baseline: Wrench) -> Response:
+    """Second order of the force, which unbalances on a shaft that turns backwards at twice the speed can change.
+
+    The vector that turns with that shaft is the one against the crank; (2 omega)^2 is 4 omega^2.
+    """
+    force = reciprocating(layout, 2).force
+    return Response("second", "N", Phasors(force.counter, force.co), 4.0 * np.ones(3), order=2, sense=-1)
+
+
+def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Independent: force of the rows along their axes, and of the unbalances at -2 theta, sampled over the turn."""
+    second = Weighable("second", "N", _backwards, lambda *_: 1.0, lambda _: None, "force_ceiling_N", "force_ceiling")
+    monkeypatch.setattr("optimizer.formulate.RESPONSES", {"second": second})
+    throws = [
+        {**each, "rows": [{**row, "connecting_rod": {"length_m": 0.4}} for row in each["rows"]]}
+        for each in MACHINE["throws"]
+    ]
+    scene, program, found = _solved(OptimizeRequest.model_validate({"machine": {**MACHINE, "throws": throws}}))
+    assert found.gap <= 1e-6 * float(program.at_rest)
+    turned = np.linspace(0.0, 2.0 * np.pi, 3_601)
+    rows = scene.layout.reciprocating
+    axis, own = np.deg2rad([90.0, 60.0]), np.deg2rad([0.0 - 90.0, 110.0 - 60.0])
+    size = rows.mass * rows.crank_radius * acceleration_harmonic(2, rows.rod_ratio)
+    pushed = np.sum(size * np.exp(1j * axis) * np.cos(2.0 * (turned[:, None] + own)), axis=-1)
+    force = pushed + 4.0 * np.sum(found.unbalance) * np.exp(-2j * turned)
+    np.testing.assert_allclose(scene.responses[0].over_turn(found.unbalance, turned), force, atol=1e-12)
+    assert np.max(np.abs(force)) == pytest.approx(found.objective, rel=1e-5)
+    # analytic: what turns with the crank at twice its speed is left
+    assert found.objective == pytest.approx(abs(reciprocating(scene.layout, 2).force.co), abs=2e-6 * program.at_rest)
 
 
 def test_a_sweep_knows_the_response_as_well(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -1,0 +1,112 @@
+"""Limits that counterweights touch, and what each costs, in the units of a designer: newtons per kilogram."""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import NamedTuple, get_args
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.formulate import RESPONSES, Weighable, ceilings, weights
+from optimizer.limits import MACHINE_LIMITS, TOUCHED, WEB_LIMITS
+from optimizer.program.sensitivity import ShadowPrices
+from optimizer.response import Response
+from schemas.answers import Counterweight, MachineLimit, PriceUnit, ShadowPrice, WebLimit
+from schemas.machine import Machine
+from schemas.requests import Objective
+
+#: optima may differ by this share of the objective without counterweights: what is worth less holds nothing up
+_WORTH = 1e-6
+_UNITS: Mapping[str, PriceUnit] = {unit: unit for unit in get_args(PriceUnit)}
+
+
+class Priced(NamedTuple):
+    """A limit, and what it costs."""
+
+    limit: WebLimit | MachineLimit
+    web: str | None
+    price: float  # objective per unit of the limit
+    size: float  # of the limit
+    unit: str
+
+
+def touched_limits(
+    machine: Machine,
+    objective: Objective,
+    responses: Sequence[Response],
+    mass_kg: Real,
+    unbalance: Complex,
+    omega_squared: float,
+) -> tuple[MachineLimit, ...]:
+    """Limits of the whole machine, and ceilings, that are touched, in the order of the answer.
+
+    Parameters
+    ----------
+    mass_kg, unbalance : (K,) kg and kg m, of the counterweights.
+    """
+    nowhere = np.zeros_like(mass_kg)  # the angles of counterweights are no matter of the machine
+    touched = [name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere)]
+    peaks = {each.name: each.to(unbalance).peak * omega_squared for each in responses}
+    return (
+        *touched,
+        *(each.limit for each, allowed in _given(objective) if peaks[each.name] >= allowed * (1.0 - TOUCHED)),
+    )
+
+
+def shadow_prices(
+    machine: Machine,
+    objective: Objective,
+    prices: ShadowPrices,
+    counterweights: Sequence[Counterweight],
+    touched: Collection[MachineLimit],
+    omega_squared: float,
+    gap: float,
+    at_rest: float,
+) -> tuple[ShadowPrice, ...]:
+    """Prices of the limits that are touched, and of those that are not but hold the objective up.
+
+    Parameters
+    ----------
+    prices : of one program, in objective over omega^2; ceilings force first.
+    touched : limits of the machine that the counterweights touch.
+    gap, at_rest : certified gap, and objective without counterweights, over omega^2.
+    """
+    wanted = weights(machine, objective)
+    weight, quantity = next((wanted[each.name], each.unit) for each in RESPONSES.values() if wanted[each.name] > 0)
+    active = {each.web: each.active_limits for each in counterweights}
+    return tuple(
+        ShadowPrice(
+            limit=each.limit,
+            web=each.web,
+            # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has a price
+            value=each.price * omega_squared / weight if each.size == 0.0 or each.price * each.size > gap else 0.0,
+            unit=_UNITS[f"{quantity}/{each.unit}"],
+        )
+        for each in priced(machine, objective, prices, omega_squared)
+        if each.limit in (touched if each.web is None else active[each.web])
+        or each.price * each.size > _WORTH * at_rest
+    )
+
+
+def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_squared: float) -> Iterator[Priced]:
+    """What every limit costs that is given, web by web, then of the machine."""
+    of_webs = {
+        name: (limit.unit, limit.size(machine).tolist(), limit.price(machine, prices).tolist())
+        for name, limit in WEB_LIMITS.items()
+    }
+    for k, web in enumerate(machine.webs):
+        for name, (unit, size, price) in of_webs.items():
+            if size[k] < np.inf:
+                yield Priced(name, web.name, price[k], size[k], unit)
+    for limit_name, limit in MACHINE_LIMITS.items():
+        if limit.size(machine) < np.inf:
+            yield Priced(limit_name, None, float(limit.price(machine, prices)), float(limit.size(machine)), limit.unit)
+    for (each, allowed), price in zip(_given(objective), prices.ceiling.tolist(), strict=True):
+        unit = f"({each.unit})" if " " in each.unit else each.unit
+        # an objective over omega^2 per ceiling over omega^2
+        yield Priced(each.limit, None, price / omega_squared, allowed, unit)
+
+
+def _given(objective: Objective) -> list[tuple[Weighable, float]]:
+    """Responses with a ceiling, and the largest peaks allowed."""
+    allowed = ceilings(objective)
+    return [(each, allowed[each.name]) for each in RESPONSES.values() if each.name in allowed]
