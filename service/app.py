@@ -25,6 +25,7 @@ from service.http.openapi import Documented
 from service.http.pacing import Pacing
 from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
+from service.jobs.events import Watch
 from service.routes import computations, effects, examples, health, portal, sweeps
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
@@ -100,8 +101,10 @@ def create_app(
         chosen.solve_memory_mb,
         chosen.data_dir,
     )
+    threads = Threads()
     readiness = Readiness(
-        {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)}
+        {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)},
+        threads,
     )
     metrics = Metrics(pool, desk.counts, desk.faults)
     traces = tracing(chosen)
@@ -112,6 +115,7 @@ def create_app(
             tasks.start_soon(readiness.warm, warm_up or pool.open)
             desk.open()
             tasks.start_soon(readiness.watch)
+            tasks.start_soon(app.state.watch.run)
             yield
             # not on the loop: events that are still open may need it to end
             await to_thread.run_sync(desk.close)
@@ -139,14 +143,13 @@ def create_app(
         version=package_version(),
         description=_DESCRIPTION,
         lifespan=lifespan,
-        docs_url=None,
-        redoc_url=None,
         redirect_slashes=False,
     )
     app.state.readiness = readiness
     app.state.desk = desk
     app.state.pool = pool
-    app.state.threads = Threads()
+    app.state.threads = threads
+    app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
     errors.install(app)

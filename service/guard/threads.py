@@ -1,7 +1,7 @@
 """Threads for what takes time though it computes nothing, so many for each client."""
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable, Iterator
 from functools import wraps
 from typing import Any, TypeVar
 
@@ -16,7 +16,8 @@ _EACH = 4
 
 
 class Threads:
-    """Some threads, apart from those that all else shares; who uses as many as it may waits for its own to end."""
+    """Threads for all that clients ask, none of them those that libraries share; who uses as many as it may waits for
+    its own to end."""
 
     def __init__(self, altogether: int = _ALTOGETHER, each: int = _EACH) -> None:
         self._each = each
@@ -24,17 +25,22 @@ class Threads:
         self._own: dict[str, CapacityLimiter] = {}
         self._using: Counter[str] = Counter()
 
-    async def run(self, who: str, work: Callable[[], Result]) -> Result:
-        """The result of some work of a client."""
+    async def run(self, who: str, work: Callable[[], Result], abandon: bool = False) -> Result:
+        """The result of some work of a client; ``abandon`` it if it is still at work when nobody waits any more."""
         own = self._own.setdefault(who, CapacityLimiter(self._each))
         self._using[who] += 1
         try:
             async with own:
-                return await to_thread.run_sync(work, limiter=self._all)
+                return await to_thread.run_sync(work, limiter=self._all, abandon_on_cancel=abandon)
         finally:
             self._using[who] -= 1
             if not self._using[who]:
                 del self._using[who], self._own[who]
+
+    async def pieces(self, who: str, content: Iterator[bytes]) -> AsyncIterator[bytes]:
+        """What an iterator of a client yields; it goes on when it is asked for more."""
+        while (piece := await self.run(who, lambda: next(content, None))) is not None:
+            yield piece
 
 
 def in_threads(work: Callable[..., Result]) -> Callable[..., Any]:
@@ -42,7 +48,12 @@ def in_threads(work: Callable[..., Result]) -> Callable[..., Any]:
 
     @wraps(work)
     async def endpoint(*, request: Request, **given: Any) -> Result:
-        threads: Threads = request.app.state.threads
-        return await threads.run(holding(request).who, lambda: work(request=request, **given))
+        return await threads_of(request).run(holding(request).who, lambda: work(request=request, **given))
 
     return endpoint
+
+
+def threads_of(request: Request) -> Threads:
+    """The threads of the application."""
+    found: Threads = request.app.state.threads
+    return found

@@ -14,6 +14,7 @@ from schemas.base import Model
 from service.computations import Computation, Form
 from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
+from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, liked
 from service.http.request_body import read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
@@ -99,7 +100,7 @@ class Computing:
             return accepted(request, *desk_of(request).later(asked_for.name, question, idempotency_key(request)))
 
         if asked_for.later and prefers_later(request):
-            return await to_thread.run_sync(accept)
+            return await threads_of(request).run(holding(request).who, accept)
 
         task = Task(asked_for, form, body, self.limits)
         with self._tracing.span(asked_for.name):

@@ -4,10 +4,13 @@ Bodies are read by :mod:`service.http.computing` and errors are written by :mod:
 schemas are added here.
 """
 
+import json
 from typing import Any
 
 from fastapi import FastAPI
 from pydantic.json_schema import models_json_schema
+from starlette.requests import Request
+from starlette.responses import Response
 
 from schemas.base import Model
 from schemas.problem import Problem
@@ -86,6 +89,19 @@ class Documented(FastAPI):
                 for operation in operations.values():
                     _needs_key(path, operation)
         return document
+
+    def setup(self) -> None:
+        """Answer with the document as it was written once for a prefix: it is hundreds of kilobytes."""
+        written: dict[str, bytes] = {}
+
+        async def answer(request: Request) -> Response:
+            prefix = request.scope.get("root_path", "")
+            if prefix not in written:
+                servers = {"servers": [{"url": prefix}]} if prefix else {}
+                written[prefix] = json.dumps({**self.openapi(), **servers}, ensure_ascii=False).encode()
+            return Response(written[prefix], media_type="application/json")
+
+        self.add_route("/openapi.json", answer, include_in_schema=False)
 
 
 def _ref(model: type[Model]) -> dict[str, str]:

@@ -1,13 +1,14 @@
 """Progress as server-sent events: the last state first, then every change, and at last the end."""
 
 import time
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from dataclasses import dataclass, field
 
-from anyio import sleep, to_thread
+from anyio import CapacityLimiter, Event, sleep, to_thread
 
-from schemas.sweep import SweepState
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.job import Job
+from service.jobs.owner_jobs import OwnerJobs
 from service.jobs.rows import UnknownJob
 
 _POLL_S = 0.5
@@ -15,41 +16,111 @@ _POLL_S = 0.5
 _HEARTBEAT_S = 15.0
 
 
+@dataclass(frozen=True)
+class News:
+    """A job as it is now, and the event that tells of it."""
+
+    job: Job
+    event: bytes
+
+
+def news(jobs: OwnerJobs, job: Job, prefix: str) -> News:
+    """What is told of a job; ``prefix`` is the path that a proxy strips."""
+    name = "progress" if job.active else "end"
+    state = jobs.state(job, prefix).model_dump_json()
+    return News(job, f"id: {job.version}\nevent: {name}\ndata: {state}\n\n".encode())
+
+
+@dataclass
+class _Look:
+    """A look at some jobs, each with the prefix of who watches it, that is yet to be taken, or has been."""
+
+    wanted: set[tuple[str, str]] = field(default_factory=set)
+    asked: Event = field(default_factory=Event)
+    taken: Event = field(default_factory=Event)
+    found: Mapping[tuple[str, str], News] = field(default_factory=dict)
+    failure: Exception | None = None
+
+
+class Watch:
+    """Looks at all jobs that are watched at once, in one thread: another stream of the same job costs no look."""
+
+    def __init__(self, jobs: OwnerJobs) -> None:
+        self._jobs = jobs
+        self._next = _Look()
+        self._thread = CapacityLimiter(1)
+
+    async def run(self) -> None:
+        """Look again and again while anybody watches, until cancelled."""
+        known: Mapping[tuple[str, str], News] = {}
+        while True:
+            await self._next.asked.wait()
+            await sleep(_POLL_S)
+            look, self._next = self._next, _Look()
+            try:
+                known = look.found = await to_thread.run_sync(self._seen, look.wanted, known, limiter=self._thread)
+            except Exception as error:
+                # for the streams to judge; the next look may succeed
+                look.failure = error
+            look.taken.set()
+
+    async def next(self, job: str, prefix: str) -> News:
+        """What is known of a job after the next look.
+
+        Raises
+        ------
+        UnknownJob, DatabaseUnavailable
+        """
+        look = self._next
+        look.wanted.add((job, prefix))
+        look.asked.set()
+        await look.taken.wait()
+        if look.failure is not None:
+            raise look.failure
+        if (job, prefix) not in look.found:
+            raise UnknownJob(job)
+        return look.found[job, prefix]
+
+    def _seen(
+        self, wanted: set[tuple[str, str]], known: Mapping[tuple[str, str], News]
+    ) -> Mapping[tuple[str, str], News]:
+        there = {job.id: job for job in self._jobs.those({job for job, _ in wanted})}
+        found = {}
+        for name, prefix in wanted:
+            job, old = there.get(name), known.get((name, prefix))
+            if job is not None:
+                unchanged = old is not None and old.job.version == job.version
+                found[name, prefix] = old if old is not None and unchanged else news(self._jobs, job, prefix)
+        return found
+
+
 async def events(
-    read: Callable[[], Job], state: Callable[[Job], SweepState], last: int | None, closing: Callable[[], bool]
+    first: News, look: Callable[[], Awaitable[News]], last: int | None, closing: Callable[[], bool]
 ) -> AsyncIterator[bytes]:
     """The states of a job as it changes, until it has ended.
 
     Parameters
     ----------
-    read : the job as it is now.
-    state : what is told about it.
+    first : the job as it is now.
+    look : waits for what is known of it next.
     last : id of the last event that the client has seen; it is not told again.
     closing : whether the service is about to stop.
     """
     yield b"retry: 2000\n\n"
-    told, heard = last, time.monotonic()
-
-    def look() -> tuple[Job, SweepState | None]:
-        job = read()
-        return job, None if job.version == told else state(job)
-
+    now, told, heard = first, last, time.monotonic()
     while not closing():
+        if now.job.version != told:
+            yield now.event
+            told, heard = now.job.version, time.monotonic()
+        elif time.monotonic() - heard > _HEARTBEAT_S:
+            yield b": nothing new\n\n"
+            heard = time.monotonic()
+        if not now.job.active:
+            return
         try:
-            job, news = await to_thread.run_sync(look)
+            now = await look()
         except UnknownJob:
             return
         except DatabaseUnavailable:
             yield b": the job database does not answer\n\n"
             await sleep(_HEARTBEAT_S / 5)
-            continue
-        if news is not None:
-            name = "progress" if job.active else "end"
-            yield f"id: {job.version}\nevent: {name}\ndata: {news.model_dump_json()}\n\n".encode()
-            told, heard = job.version, time.monotonic()
-        elif time.monotonic() - heard > _HEARTBEAT_S:
-            yield b": nothing new\n\n"
-            heard = time.monotonic()
-        if not job.active:
-            return
-        await sleep(_POLL_S)

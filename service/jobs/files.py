@@ -5,9 +5,10 @@ import os
 import shutil
 import uuid
 from collections.abc import Container, Iterable
-from contextlib import suppress
+from contextlib import ExitStack, suppress
 from errno import EIO
 from pathlib import Path
+from typing import BinaryIO
 
 from service.jobs.job import Record
 
@@ -33,24 +34,28 @@ def digest(content: bytes) -> str:
     return hashlib.sha256(content).hexdigest()
 
 
-def verified(path: Path, record: Record) -> bytes:
-    """The content of a file, if it is what was written.
+def verified(path: Path, record: Record) -> BinaryIO:
+    """A file from its beginning, if it is what was written; it need not be held in memory whole.
 
     Raises
     ------
     Damaged, FilesUnavailable
     """
-    try:
-        content = path.read_bytes()
-    except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-        raise Damaged(record, "missing") from None
-    except OSError as error:
-        if error.errno == EIO:
-            raise Damaged(record, "unreadable") from None
-        raise FilesUnavailable(f"the files of the sweeps cannot be read: {error.strerror}") from error
-    if record.digest is not None and digest(content) != record.digest:
-        raise Damaged(record, "damaged")
-    return content
+    with ExitStack() as refused:
+        try:
+            file = refused.enter_context(path.open("rb"))
+            found = hashlib.file_digest(file, "sha256").hexdigest()
+            file.seek(0)
+        except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
+            raise Damaged(record, "missing") from None
+        except OSError as error:
+            if error.errno == EIO:
+                raise Damaged(record, "unreadable") from None
+            raise FilesUnavailable(f"the files of the sweeps cannot be read: {error.strerror}") from error
+        if record.digest is not None and found != record.digest:
+            raise Damaged(record, "damaged")
+        refused.pop_all()
+    return file
 
 
 class JobFiles:
@@ -78,8 +83,8 @@ class JobFiles:
         name = f"{record.start:09d}-{record.stop:09d}"
         return self.folder(job) / (name if record.digest is None else f"{name}-{record.digest[:16]}")
 
-    def read(self, job: str, record: Record) -> bytes:
-        """The content of a file, verified.
+    def opened(self, job: str, record: Record) -> BinaryIO:
+        """A file, verified.
 
         Raises
         ------
@@ -113,7 +118,8 @@ class JobFiles:
         ------
         Damaged, FilesUnavailable, OSError
         """
-        content = self.read(job, record)
+        with self.opened(job, record) as file:
+            content = file.read()
         named = Record(record.start, record.stop, digest(content), len(content))
         self.piece(job, record).replace(self.piece(job, named))
         _sync(self.folder(job))

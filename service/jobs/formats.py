@@ -16,6 +16,8 @@ Batches = Iterable[pa.RecordBatch]
 
 #: a spreadsheet takes a cell that begins like this for a formula
 _FORMULA = r"^[=+\-@\t\r]"
+#: of rows that are written together, before they are compressed
+_GROUP_BYTES = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -56,10 +58,22 @@ class _Outbox(io.RawIOBase):
 def _parquet(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
     out = _Outbox()
     with pq.ParquetWriter(out, schema, compression="zstd") as writer:
-        for batch in batches:
-            writer.write_batch(batch)
+        for group in _groups(batches):
+            writer.write_table(pa.Table.from_batches(group, schema))
             yield out.take()
     yield out.take()
+
+
+def _groups(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
+    """Batches that are written together: what is said of each group of rows takes room in a file."""
+    group: list[pa.RecordBatch] = []
+    for batch in batches:
+        group.append(batch)
+        if sum(each.nbytes for each in group) > _GROUP_BYTES:
+            yield group
+            group = []
+    if group:
+        yield group
 
 
 def _arrow_stream(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:

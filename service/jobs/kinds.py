@@ -14,6 +14,7 @@ Proceed = Callable[[], None]
 
 #: rows with these statuses do not count as failed
 _ANSWERED = ("optimal", "analyzed")
+_GROUP_CELLS = 250_000
 
 
 @dataclass(frozen=True)
@@ -74,7 +75,9 @@ def table_bytes(table: "pa.Table") -> bytes:
     # numbers are hardly ever equal but of similar size, so byte by byte they compress; texts are few
     numbers, texts = ([field.name for field in schema if field.type == kind] for kind in (pa.float64(), pa.string()))
     how = {"compression": "zstd", "use_dictionary": texts, "use_byte_stream_split": numbers, "store_schema": False}
-    pq.write_table(table, out, **how)
+    # a group of rows is what must be held to read some of them
+    rows = max(1, _GROUP_CELLS // max(1, len(schema)))
+    pq.write_table(table, out, row_group_size=rows, **how)
     return bytes(out.getvalue().to_pybytes())
 
 

@@ -2,11 +2,13 @@
 
 import json
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime
+from functools import partial
 from threading import Event
+from typing import BinaryIO
 
 import pyarrow as pa
 
@@ -132,6 +134,15 @@ class OwnerJobs:
             raise UnknownJob(job)
         return self._judged(found)
 
+    def those(self, ids: Collection[str]) -> list[Job]:
+        """Those of some jobs that there are, of whoever they may be.
+
+        Raises
+        ------
+        DatabaseUnavailable
+        """
+        return [self._judged(job) for job in self._parts.store.those(ids)]
+
     def page(self, limit: int, before: str | None) -> list[Job]:
         """Sweeps, newest first, after the one of id ``before``.
 
@@ -217,8 +228,8 @@ class OwnerJobs:
 
     # ---- results
 
-    def answer(self, job: Job) -> bytes:
-        """The answer of a job that computes one.
+    def answer(self, job: Job) -> Callable[[], BinaryIO]:
+        """What opens the file that holds the answer of a job that computes one; it may find damaged rows then.
 
         Raises
         ------
@@ -229,7 +240,7 @@ class OwnerJobs:
         pieces = self._parts.store.pieces(job.id)
         if not pieces:
             raise NotFinished("The answer is computed again.", retry=True)
-        return self._reader(job)(pieces[0])
+        return partial(self._opener(job), pieces[0])
 
     def schema(self, job: Job) -> pa.Schema:
         """Columns of a sweep, with its request, versions and seed as metadata."""
@@ -249,7 +260,7 @@ class OwnerJobs:
         wanted = results.within(pieces, first, last)
         self._require(job, wanted)
         complete = job.state == "done" and sum(piece.rows for piece in pieces) == job.total
-        return Rows(results.batches(wanted, self._reader(job), schema, first, last), job.total, complete)
+        return Rows(results.batches(wanted, self._opener(job), schema, first, last), job.total, complete)
 
     def kept(self, job: Job, schema: pa.Schema, first: int = 0, last: int | None = None) -> Rows:
         """The rows that ``top`` or ``pareto`` of the request keep, of those that were there when they were selected.
@@ -265,9 +276,8 @@ class OwnerJobs:
             if job.selected == job.total:
                 raise NotFinished(f"There is no selection: {job.error}.", retry=False)
             return Rows(iter(()), 0, complete=False)
-        content = self._reader(job)(record)
         complete = job.state == "done" and job.selected == job.total
-        return Rows(results.rows_of(content, schema, first, last), job.kept, complete)
+        return Rows(results.rows_of(partial(self._opener(job), record), schema, first, last), job.kept, complete)
 
     def _require(self, job: Job, pieces: list[Record]) -> None:
         absent = self._parts.files.absent(job.id, pieces)
@@ -276,17 +286,17 @@ class OwnerJobs:
         if absent:
             raise RowsDamaged(_said(absent[0], "missing"))
 
-    def _reader(self, job: Job) -> Callable[[Record], bytes]:
-        def read(record: Record) -> bytes:
+    def _opener(self, job: Job) -> Callable[[Record], BinaryIO]:
+        def opened(record: Record) -> BinaryIO:
             try:
                 if record.digest is None:
                     record = self._adopted(job, record)
-                return self._parts.files.read(job.id, record)
+                return self._parts.files.opened(job.id, record)
             except Damaged as damage:
                 self._parts.coordinator.repair(job.id, damage)
                 raise RowsDamaged(_said(damage.record, damage.reason)) from damage
 
-        return read
+        return opened
 
     def _adopted(self, job: Job, record: Record) -> Record:
         try:

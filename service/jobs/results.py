@@ -2,7 +2,8 @@
 
 import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from typing import Any
+from functools import partial
+from typing import Any, BinaryIO
 
 import pyarrow as pa
 import pyarrow.parquet as pq
@@ -10,7 +11,9 @@ import pyarrow.parquet as pq
 from optimizer.sweep.table import REQUEST, SEED, VERSIONS
 from service.jobs.job import Record
 
-_BATCH_ROWS = 10_000
+#: of a batch as text, of a number in it, and of a text, roughly [bytes]
+_BATCH_BYTES = 1_000_000
+_NUMBER_BYTES, _TEXT_BYTES = 24, 100
 
 
 class UnknownColumn(ValueError):
@@ -37,7 +40,7 @@ def chosen(schema: pa.Schema, asked: Sequence[str]) -> pa.Schema:
 
 def batches(
     pieces: Iterable[Record],
-    read: Callable[[Record], bytes],
+    opened: Callable[[Record], BinaryIO],
     schema: pa.Schema,
     first: int = 0,
     last: int | None = None,
@@ -47,10 +50,11 @@ def batches(
     Parameters
     ----------
     pieces : files of the chunks that are done, in order.
-    read : the content of a file.
+    opened : opens the file of a piece, which is closed here.
     """
     for piece in within(pieces, first, last):
-        yield from rows_of(read(piece), schema, first - piece.start, None if last is None else last - piece.start)
+        end = None if last is None else last - piece.start
+        yield from rows_of(partial(opened, piece), schema, first - piece.start, end)
 
 
 def within(pieces: Iterable[Record], first: int, last: int | None) -> list[Record]:
@@ -58,12 +62,20 @@ def within(pieces: Iterable[Record], first: int, last: int | None) -> list[Recor
     return [piece for piece in pieces if piece.stop > first and (last is None or piece.start < last)]
 
 
-def rows_of(content: bytes, schema: pa.Schema, first: int = 0, last: int | None = None) -> Iterator[pa.RecordBatch]:
-    """Rows first <= position < last of a file, as ``schema`` says."""
+def batch_rows(schema: pa.Schema) -> int:
+    """How many rows are read at a time: what is held of a stream is bounded, however many columns it has."""
+    sizes = (_TEXT_BYTES if pa.types.is_string(field.type) else _NUMBER_BYTES for field in schema)
+    return max(1, _BATCH_BYTES // sum(len(field.name) + size for field, size in zip(schema, sizes, strict=True)))
+
+
+def rows_of(
+    opened: Callable[[], BinaryIO], schema: pa.Schema, first: int = 0, last: int | None = None
+) -> Iterator[pa.RecordBatch]:
+    """Rows first <= position < last of a file, as ``schema`` says; it is opened for the first, and closed after all."""
     position = 0
-    with pq.ParquetFile(pa.BufferReader(content)) as file:
+    with opened() as file, pq.ParquetFile(file) as found:
         # without threads: one of Arrow's that lets go of Python's bytes while the interpreter ends aborts the process
-        for batch in file.iter_batches(_BATCH_ROWS, columns=schema.names, use_threads=False):
+        for batch in found.iter_batches(batch_rows(schema), columns=schema.names, use_threads=False):
             begin = max(first - position, 0)
             end = batch.num_rows if last is None else min(last - position, batch.num_rows)
             position += batch.num_rows

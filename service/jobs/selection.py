@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -62,7 +63,7 @@ def select(
     try:
         for path, record in pieces:
             proceed()
-            tool.add(pa.Table.from_batches(rows_of(verified(path, record), narrow), narrow))
+            tool.add(pa.Table.from_batches(rows_of(partial(verified, path, record), narrow), narrow))
         index = tool.table()["index"]
     except TooManyRows:
         raise Unanswerable(f"more than {most} rows would be kept; read all of them, or ask for fewer columns") from None
@@ -70,7 +71,7 @@ def select(
     found = [schema.empty_table()]
     for path, record in _holding(pieces, index.to_numpy()):
         proceed()
-        whole = pa.Table.from_batches(rows_of(verified(path, record), schema), schema)
+        whole = pa.Table.from_batches(rows_of(partial(verified, path, record), schema), schema)
         found.append(whole.filter(pc.is_in(whole["index"], value_set=index)))
     rows = pa.concat_tables(found)
     # in the order of the selection

@@ -4,7 +4,7 @@ import hashlib
 import json
 import time
 import uuid
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 
 from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
 from sqlalchemy.exc import IntegrityError
@@ -131,6 +131,12 @@ class Store:
         """
         with self._database.read() as connection:
             return rows.get(connection, job)
+
+    def those(self, ids: Collection[str]) -> list[Job]:
+        """Those of some jobs that there are."""
+        with self._database.read() as connection:
+            wanted = select(*JOB).where(jobs.c.id.in_(ids), jobs.c.state != REMOVED)
+            return [job_from(row) for row in connection.execute(wanted).mappings()]
 
     def request(self, job: str) -> bytes:
         """What was asked for.

@@ -12,6 +12,6 @@ router = APIRouter(tags=["counterweights"])
 @router.get(
     "/v1/effects", operation_id="list_effects", summary="All outputs and the effects behind them", responses=problems()
 )
-def list_effects() -> EffectCatalogue:
+async def list_effects() -> EffectCatalogue:
     """Only the effects that the outputs of a request need are simulated, and only their inputs are asked for."""
     return catalogue()

@@ -12,7 +12,7 @@ router = APIRouter(tags=["examples"])
 
 
 @router.get("/v1/examples", operation_id="list_examples", summary="All examples", responses=problems())
-def list_examples(request: Request) -> Examples:
+async def list_examples(request: Request) -> Examples:
     return catalogue(request.scope.get("root_path", ""))
 
 
@@ -23,6 +23,6 @@ def list_examples(request: Request) -> Examples:
     response_class=Response,
     responses={**example_body(OptimizeRequest), **problems(404)},
 )
-def read_example(name: str) -> Response:
+async def read_example(name: str) -> Response:
     """The very body one can post to `/v1/optimize`."""
     return Response(load(name), media_type="application/json")

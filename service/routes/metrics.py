@@ -1,12 +1,13 @@
 """Metrics for Prometheus."""
 
-from anyio import to_thread
 from fastapi import APIRouter
 from prometheus_client import CONTENT_TYPE_LATEST
 from starlette.requests import Request
 from starlette.responses import Response
 
 from service.guard.access import needs
+from service.guard.shares import holding
+from service.guard.threads import threads_of
 from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])
@@ -22,5 +23,5 @@ router = APIRouter(tags=["health"])
 )
 async def metrics(request: Request) -> Response:
     """Requests, times of computations by method, certified gaps, queue, workers, jobs and their rows."""
-    content = await to_thread.run_sync(request.app.state.metrics.exposition)
+    content = await threads_of(request).run(holding(request).who, request.app.state.metrics.exposition)
     return Response(content, media_type=CONTENT_TYPE_LATEST)

@@ -20,7 +20,7 @@ _FOR_EVER = "public, max-age=31536000, immutable"
 
 
 @router.get("/")
-def home(request: Request) -> Response:
+async def home(request: Request) -> Response:
     """One page that asks the service what everyone can ask."""
     tag = f'"{release()}"'
     headers = {"Cache-Control": "no-cache", "Content-Security-Policy": _POLICY, "ETag": tag}
@@ -30,7 +30,7 @@ def home(request: Request) -> Response:
 
 
 @router.get("/portal/{of}/{name:path}")
-def file(request: Request, of: str, name: str) -> Response:
+async def file(request: Request, of: str, name: str) -> Response:
     """A file of the page. A page of another release gets the files of this one, but may not keep them."""
     try:
         found = asset(name)

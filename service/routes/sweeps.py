@@ -1,10 +1,9 @@
 """Sweeps, and the other jobs that are answered later."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, BinaryIO, Literal
 
-from anyio import to_thread
 from fastapi import APIRouter, Depends, Query
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
@@ -14,12 +13,12 @@ from schemas.sweep import SweepEstimate, SweepRequest, SweepState
 from service.guard.access import needs
 from service.guard.keys import still_admitted
 from service.guard.shares import holding
-from service.guard.threads import Threads, in_threads
+from service.guard.threads import in_threads, threads_of
 from service.http.accept import liked
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefix
-from service.jobs.events import events
+from service.jobs.events import News, Watch, events, news
 from service.jobs.formats import FORMATS, Name
 from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs, Rows
@@ -39,6 +38,7 @@ Jobs = Annotated[OwnerJobs, Depends(_jobs)]
 _SEES = [needs("sweeps", "read", "compute")]
 _ENDS = [needs("sweeps", "compute")]
 _STARTS = [needs("sweeps")]
+_BLOCK_BYTES = 262_144
 _NO_STORE = {"Cache-Control": "no-store"}
 _LOCATION = {"Location": {"description": "where the sweep is", "schema": {"type": "string"}}}
 _BY_MEDIA_TYPE: Mapping[str, Name] = {known.media_type.split(";")[0]: name for name, known in FORMATS.items()}
@@ -70,8 +70,7 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
             return Response(plan(asked).estimate.model_dump_json(), 200, _NO_STORE, "application/json")
         return accepted(request, *desk.sweep(asked, key))
 
-    threads: Threads = request.app.state.threads
-    return await threads.run(holding(request).who, work)
+    return await threads_of(request).run(holding(request).who, work)
 
 
 @router.get(
@@ -178,7 +177,7 @@ def read_results(
     """Of a sweep that runs, the rows that are finished so far: `Sweep-Complete` says whether these are all."""
     job = desk.get(id)
     if job.kind != "sweep":
-        return Response(desk.answer(job), media_type="application/json", headers=_NO_STORE)
+        return _streamed(request, _blocks(desk.answer(job)), "application/json", _NO_STORE)
     # who likes none of them is not refused
     name = format or liked(request, _BY_MEDIA_TYPE) or "ndjson"
     schema = chosen(desk.schema(job), columns or ())
@@ -202,13 +201,24 @@ def _stream(request: Request, job: Job, name: Name, rows: Rows, content: Iterato
         "Sweep-State": job.state,
         "Vary": "Accept",
     }
-    media_type = FORMATS[name].media_type
+    return _streamed(request, content, FORMATS[name].media_type, headers)
+
+
+def _streamed(request: Request, content: Iterator[bytes], media_type: str, headers: Mapping[str, str]) -> Response:
+    """What is read as fast as its client reads it."""
     if request.scope.get("head"):
         return _head(headers, media_type)
     holding(request).take("rows")
     # what goes wrong at once is answered with a status
     first = next(content, b"")
-    return StreamingResponse(chain((first,), content), headers=headers, media_type=media_type)
+    pieces = threads_of(request).pieces(holding(request).who, chain((first,), content))
+    return StreamingResponse(pieces, headers=headers, media_type=media_type)
+
+
+def _blocks(opened: Callable[[], BinaryIO]) -> Iterator[bytes]:
+    with opened() as file:
+        while block := file.read(_BLOCK_BYTES):
+            yield block
 
 
 @router.get(
@@ -224,7 +234,13 @@ def _stream(request: Request, job: Job, name: Name, rows: Rows, content: Iterato
 )
 async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """The data of an event is the state of the sweep; after `Last-Event-ID` only what is new is told."""
-    job = await to_thread.run_sync(desk.get, id)
+    where = prefix(request)
+
+    def look() -> News:
+        return news(desk, desk.get(id), where)
+
+    first = await threads_of(request).run(holding(request).who, look)
+    job = first.job
     seen = request.headers.get("last-event-id", "")
     last = int(seen) if seen.isascii() and seen.isdecimal() and len(seen) < 19 else None
     if not job.active and last == job.version:
@@ -235,12 +251,12 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     if request.scope.get("head"):
         return _head(headers, "text/event-stream")
     holding(request).take("events")
-    where = prefix(request)
+    watch: Watch = request.app.state.watch
 
     def ending() -> bool:
         return desk.closing.is_set() or not still_admitted(request)
 
-    told = events(lambda: desk.get(id), lambda job: desk.state(job, where), last, ending)
+    told = events(first, lambda: watch.next(job.id, where), last, ending)
     return StreamingResponse(told, headers=headers, media_type="text/event-stream")
 
 

@@ -13,5 +13,5 @@ class Version(Answer):
 
 
 @router.get("/v1/version", operation_id="read_version", summary="Which version answers?", responses=problems())
-def read_version() -> Version:
+async def read_version() -> Version:
     return Version()

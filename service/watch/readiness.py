@@ -10,6 +10,8 @@ from typing import Literal
 
 from anyio import fail_after, sleep, to_thread
 
+from service.guard.threads import Threads
+
 State = Literal["warming", "ready", "failed"]
 _LOOK_S = 3.0
 #: longer than a database that is locked for a while may take
@@ -31,11 +33,13 @@ class Readiness:
     Parameters
     ----------
     checks : by name; each raises :class:`NotReady` where something is missing.
+    threads : those that routes run in, in which it is looked; that there is one is looked at too.
     """
 
-    def __init__(self, checks: Mapping[str, Callable[[], None]]) -> None:
+    def __init__(self, checks: Mapping[str, Callable[[], None]], threads: Threads) -> None:
         self.state: State = "warming"
         self._checks = checks
+        self._threads = threads
         self._missing: dict[str, NotReady] = {}
 
     async def warm(self, warm_up: Callable[[], None]) -> None:
@@ -63,9 +67,8 @@ class Readiness:
 
     async def _looked(self, check: Callable[[], None]) -> NotReady | None:
         try:
-            # in a thread of those that all share: that there is one is looked at too
             with fail_after(_PATIENCE_S):
-                await to_thread.run_sync(check, abandon_on_cancel=True)
+                await self._threads.run("readiness", check, abandon=True)
         except NotReady as missing:
             return missing
         except TimeoutError:

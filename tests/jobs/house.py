@@ -16,7 +16,7 @@ from service.jobs.database import Database
 from service.jobs.engines import Engine
 from service.jobs.files import JobFiles
 from service.jobs.housekeeping import Housekeeping
-from service.jobs.job import Job, Order
+from service.jobs.job import Job, Order, Record
 from service.jobs.leases import Leases
 from service.jobs.piece import Run
 from service.jobs.retention import Retention
@@ -73,9 +73,13 @@ class House:
             assert time.monotonic() < deadline
             time.sleep(0.01)
 
+    def read(self, job: str, record: Record) -> bytes:
+        with self.files.opened(job, record) as file:
+            return file.read()
+
     def rows_told(self, job: str) -> int:
         """Rows of the files that the database knows, all of which can be read."""
-        return sum(piece.rows for piece in self.store.pieces(job) if self.files.read(job, piece))
+        return sum(piece.rows for piece in self.store.pieces(job) if self.read(job, piece))
 
     def wait_until_tidy(self, job: str) -> None:
         """Until the folder of a job holds its files and nothing else."""
@@ -89,7 +93,7 @@ class House:
         # no threads of Arrow (read_table has some): one that still holds Python's bytes when the interpreter ends
         # aborts the process
         pieces = [
-            pq.ParquetFile(io.BytesIO(self.files.read(job, piece))).read(use_threads=False)
+            pq.ParquetFile(io.BytesIO(self.read(job, piece))).read(use_threads=False)
             for piece in self.store.pieces(job)
         ]
         return pa.concat_tables(pieces) if pieces else synthetic.SCHEMA.empty_table()

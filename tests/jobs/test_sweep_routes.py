@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import anyio.to_thread
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
@@ -316,3 +317,37 @@ def test_a_database_that_cannot_be_reached(tmp_path: Path) -> None:
         ):
             assert (answer.status_code, answer.json()["title"]) == (503, "Database unavailable")
             assert "retry-after" in answer.headers
+
+
+def test_no_route_waits_for_the_threads_that_all_libraries_share(
+    client: TestClient, sweep: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # what fills them, in a library or by accident, must not reach those who ask for health
+    own, shared = anyio.to_thread.run_sync, list[object]()
+
+    async def watched(work: Any, *given: Any, limiter: Any = None, **more: Any) -> Any:
+        if limiter is None:
+            shared.append(work)
+        return await own(work, *given, limiter=limiter, **more)
+
+    done = client.post("/v1/optimize", json=optimisations()["base"], headers={"Prefer": "respond-async"})
+    ended(client, done.headers["location"])
+    monkeypatch.setattr(anyio.to_thread, "run_sync", watched)
+    document = client.get("/openapi.json").json()["paths"]
+    asked = {
+        (method, path.replace("{id}", sweep.rpartition("/")[2]).replace("{name}", "2d12"))
+        for path, operations in document.items()
+        for method in operations
+        if method != "delete"
+    }
+    assert len(asked) > 15
+    pages = ("/", "/docs", "/docs/assets/swagger-ui.css", "/docs/assets/nothing", "/portal/x/main.js", "/nowhere")
+    asked |= {("get", path) for path in (*pages, f"{done.headers['location']}/results", f"{sweep}/results?select=all")}
+    for method, path in sorted(asked):
+        body = (
+            {"json": optimisations() if path == "/v1/sweeps" else optimisations()["base"]} if method == "post" else {}
+        )
+        answer = client.request(method, path, headers={"Prefer": "respond-async"}, **body)  # type: ignore[arg-type]
+        assert answer.status_code < 500, (method, path, answer.text)
+    client.delete(sweep)
+    assert shared == []
