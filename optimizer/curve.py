@@ -19,8 +19,10 @@ from optimizer.arrays import Complex, Real
 from optimizer.circle import Circle, smallest_circle
 from optimizer.pieces import Bracket, Index, Pieces
 
-#: nodes at which a curve is first looked at for its smallest circle, and points added to them at most
-_NODES, _MOST_POINTS = 72, 50
+#: points added to those of the pieces for the smallest circle around a curve, at most
+_MOST_POINTS = 50
+#: a circle this share of the curve's distance from the origin is a point
+_ROUNDING = 256 * np.finfo(float).eps
 
 
 class Curves(Protocol):
@@ -118,15 +120,33 @@ class Floor(NamedTuple):
     upper: Real  # proven peak about the circle's centre, () : the floor is between the radius and this
 
 
-def floor(response: TurnResponse, tolerance: float) -> Floor:
-    """The smallest circle around a curve, its radius known to a tolerance relative to it."""
-    period = np.deg2rad(response.period_deg)
-    angle = np.arange(_NODES) * (period / _NODES)
-    point = response.at(angle)
+def floors(curves: Curves, tolerance: float, numbers: Sequence[int] | None = None) -> list[Floor]:
+    """The smallest circles around curves, each radius known to a tolerance relative to it.
+
+    Parameters
+    ----------
+    numbers : which curves, by default all.
+    """
+    pieces = curves.pieces
+    number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
+    held = [pieces.half[one] > 0.0 for one in number]
+    angle = [pieces.centre[one][has] for one, has in zip(number, held, strict=True)]
+    point = [pieces.cubic[one][has, 0] for one, has in zip(number, held, strict=True)]
+    rounding = np.array([_ROUNDING * np.max(np.abs(each)) for each in point])
     for _ in range(_MOST_POINTS):
-        circle = smallest_circle(point)
-        peak = response.peak(-circle.centre, 0.5 * tolerance)
-        if peak.upper <= circle.radius * (1.0 + tolerance):
+        circles = [smallest_circle(each) for each in point]
+        peak = pieces.peaks(-np.array([circle.centre for circle in circles]), 0.5 * tolerance, number)
+        beyond = peak.upper > np.array([circle.radius for circle in circles]) * (1.0 + tolerance) + rounding
+        if not np.any(beyond):
             break
-        angle, point = np.append(angle, peak.angle), np.append(point, peak.value)
-    return Floor(circle, angle[circle.support], point[circle.support], peak.upper)
+        for k in np.flatnonzero(beyond):
+            angle[k], point[k] = np.append(angle[k], peak.angle[k]), np.append(point[k], peak.value[k])
+    return [
+        Floor(circle, angle[k][circle.support], point[k][circle.support], peak.upper[k])
+        for k, circle in enumerate(circles)
+    ]
+
+
+def floor(response: TurnResponse, tolerance: float) -> Floor:
+    """The smallest circle around the curve of a response."""
+    return floors(response.curves, tolerance, [response.number])[0]

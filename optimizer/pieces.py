@@ -15,7 +15,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cache
 from math import comb
-from typing import NamedTuple, Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -72,16 +72,28 @@ class Pieces:
 
         Parameters
         ----------
-        offset : (m,) in the unit of the curves.
+        offset : (m,) in the unit of the curves; where it is nan there is no peak.
         tolerance : of upper - lower, relative to lower; rounding sets a limit to it.
         curve : (m,) which curve each is asked of, by default all in turn.
         """
-        return _bracketed(self, np.asarray(offset, dtype=complex), curve, tolerance, _SQUARE)
+        known = np.isfinite(offset)
+        of_peak = np.arange(offset.size) if curve is None else curve
+        found = _bracketed(self, offset[known], of_peak[known], tolerance, _SQUARE)
+        if np.all(known):
+            return found
+
+        def everywhere(values: Any) -> Any:
+            whole = np.full(offset.shape, np.nan, dtype=values.dtype)
+            whole[known] = values
+            return whole
+
+        return Bracket(*(everywhere(each) for each in found))
 
     def largest(self, sign: float, tolerance: float) -> Bracket:
         """Largest values (J,) of scalars times a sign: 1 for their maxima, -1 for their minima, negated."""
         measure = _Measure(lambda cubic: sign * cubic.real, lambda value: value)
-        return _bracketed(self, np.zeros(self.half.shape[0], dtype=complex), None, tolerance, measure)
+        count = self.half.shape[0]
+        return _bracketed(self, np.zeros(count, dtype=complex), np.arange(count), tolerance, measure)
 
 
 class _Measure(NamedTuple):
@@ -120,15 +132,14 @@ class _Parts:
         )
 
 
-def _bracketed(pieces: Pieces, offset: Complex, curve: Index | None, tolerance: float, measure: _Measure) -> Bracket:
+def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: float, measure: _Measure) -> Bracket:
     """Brackets (m,): what is below the best found by less than the tolerance is let go, the rest looked at closer."""
-    of_peak = np.arange(offset.size) if curve is None else np.asarray(curve)
     parts = _all_parts(pieces, of_peak, offset)
     scale = np.zeros(offset.size)
     np.maximum.at(scale, parts.peak, np.sum(np.abs(parts.cubic), axis=-1) + parts.rest)
     scale += np.abs(offset)
     angle, piece = np.zeros(offset.size), np.zeros(offset.size, dtype=np.intp)
-    lower, upper = np.full(offset.size, -np.inf), np.full(offset.size, -np.inf)
+    lower, upper = np.full(offset.size, np.nan), np.full(offset.size, -np.inf)
     for cuts in range(_MOST_CUTS):
         bernstein = _bernstein(measure.polynomial(parts.cubic))
         most = measure.size(np.max(bernstein, axis=-1)) + parts.rest
@@ -191,7 +202,7 @@ def _keep_best(best: tuple[Real, Real, Index], peak: Index, found: tuple[Real, R
     order = np.argsort(found[0], kind="stable")
     largest = np.full(best[0].size, -1, dtype=np.intp)
     largest[peak[order]] = order  # of several for one peak the last counts
-    better = np.flatnonzero((largest >= 0) & (found[0][largest] > best[0]))
+    better = np.flatnonzero((largest >= 0) & ~(found[0][largest] <= best[0]))
     for kept, new in zip(best, found, strict=True):
         kept[better] = new[largest[better]]
 

@@ -29,6 +29,20 @@ ShaftAngles = Annotated[
 ]
 
 
+ForceBracket = Annotated[
+    tuple[Newtons, Newtons],
+    Field(
+        description="the same as a bracket, at least and at most, whatever the samples", examples=[[1e5, 1.0000001e5]]
+    ),
+]
+MomentBracket = Annotated[
+    tuple[NewtonMetres, NewtonMetres],
+    Field(
+        description="the same as a bracket, at least and at most, whatever the samples", examples=[[1e5, 1.0000001e5]]
+    ),
+]
+
+
 class RowSeries(Model):
     """Which row a series belongs to."""
 
@@ -93,8 +107,10 @@ class RowPistonForce(RowSeries):
     inertia_N: tuple[Newtons, ...] = Field(description="inertia force of the row", examples=[[139833.0]])
     friction_N: tuple[Newtons, ...] = Field(description="friction of the row", examples=[[0.0]])
     total_N: tuple[Newtons, ...] = Field(description="their sum", examples=[[-98175.0]])
-    peak_tension_N: Newtons = Field(description="largest sum among the samples", examples=[180000.0])
-    peak_compression_N: Newtons = Field(description="smallest sum among the samples", examples=[-200000.0])
+    peak_tension_N: Newtons = Field(description="largest sum over the whole turn", examples=[180000.0])
+    peak_tension_bracket_N: ForceBracket
+    peak_compression_N: Newtons = Field(description="smallest sum over the whole turn", examples=[-200000.0])
+    peak_compression_bracket_N: ForceBracket
 
 
 class PistonForce(Model):
@@ -105,14 +121,16 @@ class PistonForce(Model):
 
 
 class LoadCase(Model):
-    """Extremes of the rod force of one row in one load case, among the samples."""
+    """Extremes of the rod force of one row in one load case, over the whole turn."""
 
     case: Literal["running", "no_load", "sudden_stop"] = Field(
         description="running; no_load: no gas; sudden_stop: gas alone, the machine standing still", examples=["running"]
     )
     tension_N: Newtons = Field(description="largest rod force, 0 if there is no tension", examples=[250000.0])
+    tension_bracket_N: ForceBracket
     tension_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[180.0])
     compression_N: Newtons = Field(description="smallest rod force, 0 if there is no compression", examples=[-240000.0])
+    compression_bracket_N: ForceBracket
     compression_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[0.0])
 
 
@@ -123,6 +141,10 @@ class RowRodLoads(RowSeries):
     side_N: tuple[Newtons, ...] = Field(description="force on the crosshead guide", examples=[[0.0]])
     tangential_N: tuple[Newtons, ...] = Field(description="tangential force on the crank pin", examples=[[0.0]])
     radial_N: tuple[Newtons, ...] = Field(description="radial force on the crank pin, outward", examples=[[-98175.0]])
+    peak_side_N: Newtons = Field(
+        description="largest force on the crosshead guide over the whole turn, magnitude", examples=[41000.0]
+    )
+    peak_side_bracket_N: ForceBracket
     cases: tuple[LoadCase, ...] = Field(description="load cases", examples=[[{"case": "running"}]])
     governing_case: Literal["running", "no_load", "sudden_stop"] = Field(
         description="load case with the largest rod force", examples=["sudden_stop"]
@@ -155,6 +177,9 @@ class Torque(Model):
     tangential_N: tuple[Newtons, ...] | None = Field(
         description="the same as tangential force at the crank radius; null if the radii differ", examples=[[3112.0]]
     )
+    peak_Nm: NewtonMetres = Field(description="largest over the whole turn, magnitude", examples=[62000.0])
+    peak_bracket_Nm: MomentBracket
+    peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])
     mean_torque_Nm: NewtonMetres = Field(description="mean over the turn, whatever the samples", examples=[24692.8])
     mean_torque_error_Nm: NewtonMetres = Field(description="estimate of its error", examples=[1e-9])
     indicated_power_W: Watts = Field(description="power put into the gas", examples=[1216873.9])
@@ -193,7 +218,9 @@ class Overturning(Model):
     angle_deg: ShaftAngles
     rows: tuple[RowOverturning, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     couple_Nm: tuple[NewtonMetres, ...] = Field(description="all rows", examples=[[0.0]])
-    peak_Nm: NewtonMetres = Field(description="largest among the samples, magnitude", examples=[62000.0])
+    peak_Nm: NewtonMetres = Field(description="largest over the whole turn, magnitude", examples=[62000.0])
+    peak_bracket_Nm: MomentBracket
+    peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])
 
 
 class BearingLoad(Model):
@@ -201,8 +228,17 @@ class BearingLoad(Model):
 
     force_x_N: tuple[Newtons, ...] = Field(description="x component", examples=[[120000.0]])
     force_y_N: tuple[Newtons, ...] = Field(description="y component", examples=[[0.0]])
-    peak_N: Newtons = Field(description="largest magnitude among the samples", examples=[120000.0])
-    peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[0.0])
+    peak_N: Newtons = Field(description="largest magnitude over the whole turn", examples=[120000.0])
+    peak_bracket_N: ForceBracket
+    peak_angle_deg: Degrees = Field(
+        description="shaft angle at which it occurs; at a jump the load is that on its larger side", examples=[0.0]
+    )
+    rms_N: Newtons = Field(description="root of the mean square over the turn", examples=[61000.0])
+    floor_N: Newtons = Field(
+        description="what the peak comes to at least, whatever counterweights turn with the shaft: the radius of the "
+        "smallest circle around the load as the shaft sees it",
+        examples=[38000.0],
+    )
 
 
 class MainBearing(Model):
@@ -223,6 +259,14 @@ class BendingMoment(Model):
     before_Nm: tuple[NewtonMetres, ...] = Field(description="without counterweights", examples=[[0.0, 9000.0, 0.0]])
     after_Nm: tuple[NewtonMetres, ...] | None = Field(
         description="with the counterweights; null if infeasible", examples=[[0.0, 8800.0, 0.0]]
+    )
+    peak_Nm: NewtonMetres = Field(
+        description="largest of all planes, with the counterweights where there are any", examples=[8800.0]
+    )
+    peak_bracket_Nm: MomentBracket
+    peak_position_m: Metres = Field(description="plane in which it occurs", examples=[0.0])
+    floor_Nm: NewtonMetres = Field(
+        description="what it comes to at least, whatever counterweights turn with the shaft", examples=[2100.0]
     )
 
 

@@ -180,13 +180,11 @@ class Column(NamedTuple):
 OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
     "residual": (),
     "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
-    "piston_force": (
-        Column("peak_piston_force_N", "number", "N", "largest piston force among the samples, magnitude"),
-    ),
+    "piston_force": (Column("peak_piston_force_N", "number", "N", "largest piston force over the turn, magnitude"),),
     "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),
     "torque": (
         Column("mean_torque_Nm", "number", "N m", "mean torque over the turn, whatever the samples"),
-        Column("peak_torque_Nm", "number", "N m", "largest torque among the samples, magnitude"),
+        Column("peak_torque_Nm", "number", "N m", "largest torque over the turn, magnitude"),
         Column("fluctuation_energy_J", "number", "J", "energy that a flywheel takes up and gives back"),
         Column("shaft_power_W", "number", "W", "mean torque times angular speed"),
         Column("indicated_power_W", "number", "W", "power put into the gas"),
@@ -197,7 +195,7 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
         Column("inertia_J_kg_m2", "number", "kg m2", "polar moment of inertia of all that turns"),
     ),
     "overturning": (
-        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple among the samples, magnitude"),
+        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple over the turn, magnitude"),
     ),
     "main_bearings": (
         Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),

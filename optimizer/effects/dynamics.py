@@ -19,8 +19,9 @@ from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
+from optimizer.mechanics.row_series import row_data
 from optimizer.mechanics.turn import fluctuation, mean, panels
-from optimizer.mechanics.whole_turn import break_angles
+from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.rules import Rule
@@ -283,6 +284,17 @@ def _shaft_loads(context: Context) -> tuple[Real, Complex]:
     return shaft_loads(context.given["piston_force"].total, context.given["kinematics"], context.layout, context.angle)
 
 
+def _whole_turn(context: Context) -> WholeTurn:
+    given = context.given
+    rows = row_data(
+        context.layout,
+        context.fidelity.kinematics == "exact",
+        given["friction"].magnitude if "friction" in given else None,
+        given["gas"].chambers if "gas" in given else None,
+    )
+    return whole_turn(rows, _breaks(context))
+
+
 DYNAMICS = (
     Effect("kinematics", "motion of the rows", _kinematics, inputs=RODS, problems=_motion_problems),
     Effect(
@@ -323,6 +335,12 @@ DYNAMICS = (
         "forces on rod, guide and crank pin",
         _rod_forces,
         needs=("kinematics", "piston_force"),
+    ),
+    Effect(
+        "whole_turn",
+        "forces of the rows between the angles at which something jumps, for exact peaks",
+        _whole_turn,
+        needs=("gas", "friction"),
     ),
     Effect("torque", "torque of rows and shaft against rotation", _torque, needs=("rod_forces", "friction")),
     Effect(

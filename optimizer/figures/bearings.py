@@ -1,52 +1,41 @@
 """Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
 
-from typing import NamedTuple
-
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.figures.output import Columns, Output, largest
+from optimizer.curve import floors
+from optimizer.figures.output import Columns, Output
+from optimizer.figures.peaks import (
+    FLOOR_TOLERANCE,
+    bearing_and_bending_curves,
+    bearing_curves,
+    bearing_influence,
+    bearing_places,
+    bracket,
+    of_shaft,
+)
 from optimizer.mechanics.angles import turned
-from optimizer.mechanics.bearings import bending_moment, continuous_beam, simple_spans
-from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.shaft_curves import ShaftCurves, planes
+from optimizer.pieces import Bracket
 from optimizer.scene import Prepared
 from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.machine import ReciprocatingMachine
-
-
-class _Carried(NamedTuple):
-    """What the shaft carries to its bearings."""
-
-    places: Real  # (..., B) m
-    planes: Real  # (..., L) m
-    loads: Complex  # (..., L, T) N
-    reactions: Complex  # (..., B, T) N
-
-    def bent(self, stations: Real) -> Real:
-        """Largest bending moment over the turn at stations (..., S) m: (..., S) N m."""
-        return largest(bending_moment(self.places, self.reactions, self.planes, self.loads, stations), 1)
-
-
-def _carried(scene: Prepared, unbalance: Complex | None) -> _Carried:
-    """Bearing loads of rows, rotating masses and counterweights (..., webs) kg m, if given."""
-    machine, layout = scene.machine, scene.layout
-    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    planes, loads = scene.results["shaft_loads"]
-    if unbalance is not None:
-        turn = turned(layout.sense, np.deg2rad(scene.angle_deg))
-        iron = (unbalance * layout.omega[..., None] ** 2)[..., None] * turn[..., None, :]
-        planes, loads = np.concatenate([planes, layout.webs.position], axis=-1), np.concatenate([loads, iron], axis=-2)
-    model = simple_spans if scene.request.fidelity.shaft == "simple_spans" else continuous_beam
-    places = stacked([bearing.position_m for bearing in machine.bearings])
-    return _Carried(places, planes, loads, model(places, planes, loads))
 
 
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    before, after = _carried(scene, None), None if unbalance is None else _carried(scene, unbalance)
-    stations = np.unique(np.concatenate([before.places, before.planes, scene.layout.webs.position]))
+    stations = _stations(scene)
+    found = bearing_and_bending_curves(scene, stations)
+    floor = np.array([each.circle.radius for each in floors(found.curves, FLOOR_TOLERANCE)]) * scene.omega_squared
+    before = of_shaft(scene, found, None)
+    after = None if unbalance is None else of_shaft(scene, found, unbalance)
+    loads = _loads(scene, found, before, floor, None)
+    fitted = None if after is None else _loads(scene, found, after, floor, unbalance)
+    count = len(machine.bearings)
+    shown = before if after is None else after
+    worst = int(np.argmax(shown.lower[count:]))
     return MainBearings(
         angle_deg=scene.angles,
         shaft=scene.request.fidelity.shaft,
@@ -54,37 +43,61 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
             MainBearing(
                 name=bearing.name,
                 position_m=bearing.position_m,
-                before=_load(before.reactions[k], scene.angle_deg),
-                after=None if after is None else _load(after.reactions[k], scene.angle_deg),
+                before=loads[k],
+                after=None if fitted is None else fitted[k],
             )
             for k, bearing in enumerate(machine.bearings)
         ),
         bending=BendingMoment(
             position_m=tuple(stations.tolist()),
-            before_Nm=tuple(before.bent(stations).tolist()),
-            after_Nm=None if after is None else tuple(after.bent(stations).tolist()),
+            before_Nm=tuple(before.lower[count:].tolist()),
+            after_Nm=None if after is None else tuple(after.lower[count:].tolist()),
+            peak_Nm=float(shown.lower[count + worst]),
+            peak_bracket_Nm=(float(shown.lower[count + worst]), float(np.max(shown.upper[count:]))),
+            peak_position_m=float(stations[worst]),
+            floor_Nm=float(np.max(floor[count:])),
         ),
     )
 
 
-def _load(force: Complex, angle_deg: Real) -> BearingLoad:
-    worst = int(np.argmax(np.abs(force)))
-    return BearingLoad(
-        force_x_N=tuple(force.real.tolist()),
-        force_y_N=tuple(force.imag.tolist()),
-        peak_N=float(np.abs(force[worst])),
-        peak_angle_deg=float(angle_deg[worst]),
+def _stations(scene: Prepared) -> Real:
+    """Planes in which the bending moment along the shaft has a corner, and so its maximum."""
+    return np.unique(np.concatenate([planes(scene.layout), bearing_places(scene)]))
+
+
+def _loads(
+    scene: Prepared, found: ShaftCurves, peak: Bracket, floor: Real, unbalance: Complex | None
+) -> tuple[BearingLoad, ...]:
+    """Loads of the bearings of one machine without or with counterweights (webs,) kg m."""
+    square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
+    offset = np.zeros(len(floor), dtype=complex) if unbalance is None else found.offsets(unbalance)
+    _, loads = scene.results["shaft_loads"]
+    # the webs come last
+    samples = bearing_influence(scene)[:, : len(loads)] @ loads
+    samples = samples + offset[: len(samples), None] * turned(scene.layout.sense, turn) * square
+    rms = np.sqrt(found.curves.variance + np.abs(found.curves.mean + offset) ** 2) * square
+    return tuple(
+        BearingLoad(
+            force_x_N=tuple(one.real.tolist()),
+            force_y_N=tuple(one.imag.tolist()),
+            peak_N=float(peak.lower[k]),
+            peak_bracket_N=bracket(peak, k),
+            peak_angle_deg=float(np.rad2deg(peak.angle[k])),
+            rms_N=float(rms[k]),
+            floor_N=float(floor[k]),
+        )
+        for k, one in enumerate(samples)
     )
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
-    return {"peak_bearing_load_N": largest(_carried(scene, unbalance).reactions)}
+    return {"peak_bearing_load_N": np.max(of_shaft(scene, bearing_curves(scene), unbalance).lower, axis=-1)}
 
 
 MAIN_BEARINGS = Output(
     "main_bearings",
     "main-bearing loads and bending of the shaft",
-    ("shaft_loads",),
+    ("shaft_loads", "whole_turn"),
     main_bearings,
-    Columns(_columns, sampled=True),
+    Columns(_columns),
 )

@@ -6,7 +6,9 @@ from typing import Any, Literal
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.figures.output import Columns, Output, largest
+from optimizer.figures.output import Columns, Output
+from optimizer.figures.peaks import Extremes, bracket, of_rows, of_torque
+from optimizer.mechanics.whole_turn import Reading
 from optimizer.scene import Prepared
 from schemas.dynamics import (
     Chamber,
@@ -89,7 +91,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
 
 def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce:
     """Gas, inertia and friction on every piston."""
-    found = scene.results["piston_force"]
+    found, peaks = scene.results["piston_force"], of_rows(scene, "piston")
     return PistonForce(
         angle_deg=scene.angles,
         rows=tuple(
@@ -99,39 +101,39 @@ def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce
                 inertia_N=_series(found.inertia[k]),
                 friction_N=_series(found.friction[k]),
                 total_N=_series(found.total[k]),
-                peak_tension_N=float(np.max(found.total[k])),
-                peak_compression_N=float(np.min(found.total[k])),
+                peak_tension_N=float(peaks.high.lower[k]),
+                peak_tension_bracket_N=bracket(peaks.high, k),
+                peak_compression_N=-float(peaks.low.lower[k]),
+                peak_compression_bracket_N=_negated(bracket(peaks.low, k)),
             )
             for k, labels in _rows(scene)
         ),
     )
 
 
-def _load_cases(scene: Prepared) -> dict[Case, Real]:
-    """Rod forces (..., rows, T) N of every load case (seed 004 section 2.5)."""
-    pistons, cosine = scene.results["piston_force"], scene.results["kinematics"].rod_angle_cosine
-    return {
-        "running": scene.results["rod_forces"].rod,
-        "no_load": (pistons.inertia + pistons.friction) / cosine,
-        "sudden_stop": pistons.gas / cosine,
-    }
+#: rod force of every load case (seed 004 section 2.5)
+_CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "sudden_stop": "rod_at_rest"}
 
 
 def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     """Forces in the mechanism, and the load cases of every rod."""
-    found, forces = scene.results["rod_forces"], _load_cases(scene)
-    side, tangential, radial = found.side, found.tangential, found.radial
+    found = scene.results["rod_forces"]
+    rod, side, tangential, radial = found.rod, found.side, found.tangential, found.radial
+    by_case = {case: of_rows(scene, reading) for case, reading in _CASES.items()}
+    on_guide = of_rows(scene, "side").magnitude
     rows = []
     for k, labels in _rows(scene):
-        cases = tuple(_case(case, force[k], scene.angle_deg) for case, force in forces.items())
+        cases = tuple(_case(case, peaks, k) for case, peaks in by_case.items())
         worst = max(cases, key=_largest)
         rows.append(
             RowRodLoads(
                 **labels,
-                rod_N=_series(forces["running"][k]),
+                rod_N=_series(rod[k]),
                 side_N=_series(side[k]),
                 tangential_N=_series(tangential[k]),
                 radial_N=_series(radial[k]),
+                peak_side_N=float(on_guide.lower[k]),
+                peak_side_bracket_N=bracket(on_guide, k),
                 cases=cases,
                 governing_case=worst.case,
                 governing_load_N=_largest(worst),
@@ -153,6 +155,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
     """Torque over the turn and its integrals."""
     found, integrals = scene.results["torque"], scene.results["torque_integrals"]
     errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
+    peak = of_torque(scene, found.rotating_friction)
     radius = scene.layout.reciprocating.crank_radius
     one_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
     return Torque(
@@ -164,6 +167,9 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
         rotating_friction_Nm=float(found.rotating_friction),
         torque_Nm=_series(found.total),
         tangential_N=_series(found.total / radius[0]) if one_radius else None,
+        peak_Nm=float(peak.lower),
+        peak_bracket_Nm=bracket(peak),
+        peak_angle_deg=float(np.rad2deg(peak.angle)),
         mean_torque_Nm=float(integrals.mean),
         mean_torque_error_Nm=float(errors.mean),
         indicated_power_W=float(integrals.indicated_power),
@@ -185,21 +191,17 @@ def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
     )
 
 
-def _couple(rows: Real) -> Real:
-    """Couple of all rows (..., T) from that of each (..., rows, T)."""
-    couple: Real = np.sum(rows, axis=-2)
-    return couple
-
-
 def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     """Overturning couple on the frame."""
     rows = scene.results["rod_forces"].overturning
-    total = _couple(rows)
+    total, peak = np.sum(rows, axis=-2), of_torque(scene)
     return Overturning(
         angle_deg=scene.angles,
         rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in _rows(scene)),
         couple_Nm=_series(total),
-        peak_Nm=float(largest(total, 1)),
+        peak_Nm=float(peak.lower),
+        peak_bracket_Nm=bracket(peak),
+        peak_angle_deg=float(np.rad2deg(peak.angle)),
     )
 
 
@@ -216,15 +218,26 @@ def _series(values: Real) -> tuple[float, ...]:
     return tuple(values.tolist())
 
 
-def _case(case: Case, force: Real, angle_deg: Real) -> LoadCase:
-    high, low = int(np.argmax(force)), int(np.argmin(force))
+def _case(case: Case, peaks: Extremes, k: int) -> LoadCase:
     return LoadCase(
         case=case,
-        tension_N=max(float(force[high]), 0.0),
-        tension_deg=float(angle_deg[high]),
-        compression_N=min(float(force[low]), 0.0),
-        compression_deg=float(angle_deg[low]),
+        tension_N=max(float(peaks.high.lower[k]), 0.0),
+        tension_bracket_N=_pull(bracket(peaks.high, k)),
+        tension_deg=float(np.rad2deg(peaks.high.angle[k])),
+        compression_N=0.0 - max(float(peaks.low.lower[k]), 0.0),
+        compression_bracket_N=_negated(_pull(bracket(peaks.low, k))),
+        compression_deg=float(np.rad2deg(peaks.low.angle[k])),
     )
+
+
+def _pull(found: tuple[float, float]) -> tuple[float, float]:
+    """0 where there is none."""
+    return max(found[0], 0.0), max(found[1], 0.0)
+
+
+def _negated(found: tuple[float, float]) -> tuple[float, float]:
+    # no -0.0
+    return 0.0 - found[1], 0.0 - found[0]
 
 
 def _largest(case: LoadCase) -> float:
@@ -236,18 +249,24 @@ def _gas_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _piston_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_piston_force_N": largest(scene.results["piston_force"].total)}
+    return {"peak_piston_force_N": _most(of_rows(scene, "piston"))}
 
 
 def _rod_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_rod_load_N": np.max([largest(force) for force in _load_cases(scene).values()], axis=0)}
+    return {"peak_rod_load_N": np.max([_most(of_rows(scene, reading)) for reading in _CASES.values()], axis=0)}
+
+
+def _most(found: Extremes) -> Real:
+    """Largest magnitude of all rows (...); 0 without rows."""
+    most: Real = np.max(found.magnitude.lower, axis=-1, initial=0.0)
+    return most
 
 
 def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    integrals = scene.results["torque_integrals"]
+    integrals, friction = scene.results["torque_integrals"], scene.results.get("friction")
     return {
         "mean_torque_Nm": integrals.mean,
-        "peak_torque_Nm": largest(scene.results["torque"].total, 1),
+        "peak_torque_Nm": of_torque(scene, 0.0 if friction is None else friction.torque).lower,
         "fluctuation_energy_J": integrals.fluctuation,
         "shaft_power_W": _shaft_power(scene),
         "indicated_power_W": integrals.indicated_power,
@@ -261,7 +280,7 @@ def _flywheel_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _overturning_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_overturning_Nm": largest(_couple(scene.results["rod_forces"].overturning), 1)}
+    return {"peak_overturning_Nm": of_torque(scene).lower}
 
 
 OVER_THE_TURN = (
@@ -276,23 +295,23 @@ OVER_THE_TURN = (
     Output(
         "piston_force",
         "gas, inertia and friction on every piston",
-        ("piston_force",),
+        ("piston_force", "whole_turn"),
         piston_force,
-        Columns(_piston_columns, sampled=True),
+        Columns(_piston_columns, needs=("whole_turn",)),
     ),
     Output(
         "rod_loads",
         "forces on rod, guide and crank pin; load cases",
-        ("kinematics", "piston_force", "rod_forces"),
+        ("rod_forces", "whole_turn"),
         rod_loads,
-        Columns(_rod_columns, sampled=True),
+        Columns(_rod_columns, needs=("whole_turn",)),
     ),
     Output(
         "torque",
         "torque over the turn, its mean, powers, fluctuation energy",
-        ("torque", "torque_integrals", "torque_errors"),
+        ("torque", "torque_integrals", "torque_errors", "whole_turn"),
         torque,
-        Columns(_torque_columns, sampled=True, needs=("torque", "torque_integrals")),
+        Columns(_torque_columns, needs=("friction", "torque_integrals", "whole_turn")),
     ),
     Output(
         "flywheel",
@@ -304,8 +323,8 @@ OVER_THE_TURN = (
     Output(
         "overturning",
         "overturning couple on the frame",
-        ("rod_forces",),
+        ("rod_forces", "whole_turn"),
         overturning,
-        Columns(_overturning_columns, sampled=True),
+        Columns(_overturning_columns, needs=("whole_turn",)),
     ),
 )

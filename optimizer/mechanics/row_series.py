@@ -62,10 +62,10 @@ def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chamb
     """
     rows = layout.reciprocating
     leading = layout.omega.shape
-    count = rows.mass.shape[-1]
+    designs, count = int(np.prod(leading)), rows.mass.shape[-1]
 
     def flat(value: Real, *own: int) -> Real:
-        return np.ascontiguousarray(np.broadcast_to(value, (*leading, *own))).reshape(-1, *own)
+        return np.ascontiguousarray(np.broadcast_to(value, (*leading, *own))).reshape(designs, *own)
 
     gas: dict[str, Any] = {"area": None}
     if chambers is not None:

@@ -7,17 +7,38 @@ finitely many responses, and no error. Everything is over omega^2.
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.arrays import Complex, Real
 from optimizer.curve import TurnResponse
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 
-#: bearing loads for unit loads: (B,) and (L,) m to (B, L)
+#: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
 Influence = Callable[[Real, Real], Real]
+
+
+@dataclass(frozen=True)
+class ShaftCurves:
+    """C curves of each of N designs: loads of bearings, kg m, or bending moments, kg m^2.
+
+    curves : N C curves without counterweights, designs first.
+    webs : (..., C, K) what one kg m on each web adds.
+    """
+
+    curves: TurnCurves
+    webs: Real
+
+    def offsets(self, unbalance: Complex) -> Complex:
+        """What counterweights (..., K) kg m add to the curves, (N C,)."""
+        return np.sum(self.webs * unbalance[..., None, :], axis=-1).reshape(-1)
+
+    def responses(self, names: Sequence[str], unit: str) -> tuple[TurnResponse, ...]:
+        """The curves of one machine as responses."""
+        return tuple(TurnResponse(name, unit, self.webs[n], self.curves, n) for n, name in enumerate(names))
 
 
 def bearing_loads(
@@ -31,7 +52,7 @@ def bearing_loads(
     places : (B,) m.
     influence : of the shaft, :func:`bearings.simple_spans_influence` or :func:`bearings.continuous_beam_influence`.
     """
-    return _responses(turn, layout, names, "N", influence(places, _planes(layout)))
+    return shaft_curves(turn, layout, influence(places, planes(layout))).responses(names, "N")
 
 
 def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: Influence) -> tuple[TurnResponse, ...]:
@@ -40,28 +61,41 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
 
     Parameters as for :func:`bearing_loads`.
     """
-    planes = _planes(layout)
-    stations = np.unique(np.concatenate([planes, places]))
-    unit = np.eye(planes.size, dtype=complex)
-    reaction = influence(places, planes).astype(complex)
-    moment = bending_moment(places, reaction, planes, unit, stations).real
+    stations = np.unique(np.concatenate([planes(layout), places]))
+    moment = bending_influence(layout, places, influence, stations)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
     names = [f"bending at {station!r} m" for station in stations[some].tolist()]
-    return _responses(turn, layout, names, "N m", moment[some])
+    return shaft_curves(turn, layout, moment[some]).responses(names, "N m")
 
 
-def _planes(layout: Layout) -> Real:
-    """Planes of rows, rotating masses and webs (L,) m."""
-    return np.concatenate([layout.reciprocating.position, layout.rotating.position, layout.webs.position])
+def bending_influence(layout: Layout, places: Real, influence: Influence, stations: Real) -> Real:
+    """Bending moments at stations (..., S) m for one unit of load in every plane, (..., S, L) m."""
+    loaded = planes(layout)
+    reaction = influence(places, loaded).astype(complex)
+    unit = np.broadcast_to(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
+    return bending_moment(places, reaction, loaded, unit, stations).real
 
 
-def _responses(
-    turn: WholeTurn, layout: Layout, names: Sequence[str], unit: str, influence: Real
-) -> tuple[TurnResponse, ...]:
-    """Responses by their influence (C, L) of unit loads."""
-    rows, masses = layout.reciprocating, layout.rotating
-    of_rows, of_masses, of_webs = np.split(influence, np.cumsum([rows.position.size, masses.position.size]), axis=-1)
-    still = of_masses @ (masses.mass * masses.radius * masses.direction)
-    weights = of_rows * rows.crank_direction / layout.omega**2
-    curves = turn.curves("on_shaft", weights[None], still[None])
-    return tuple(TurnResponse(name, unit, of_webs[n], curves, n) for n, name in enumerate(names))
+def planes(layout: Layout) -> Real:
+    """Planes of rows, rotating masses and webs (..., L) m."""
+    parts = (layout.reciprocating.position, layout.rotating.position, layout.webs.position)
+    leading = np.broadcast_shapes(*(part.shape[:-1] for part in parts))
+    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
+
+
+def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real) -> ShaftCurves:
+    """Curves by their influences (..., C, L) of unit loads in the planes."""
+    rows, masses, designs = layout.reciprocating, layout.rotating, layout.omega.shape
+    row_count, mass_count, count = rows.mass.shape[-1], masses.mass.shape[-1], influence.shape[-2]
+    of_rows, of_masses, of_webs = np.split(influence, [row_count, row_count + mass_count], axis=-1)
+    weights = of_rows * (rows.crank_direction / layout.omega[..., None] ** 2)[..., None, :]
+    still = np.sum(of_masses * (masses.mass * masses.radius * masses.direction)[..., None, :], axis=-1)
+    total = len(turn.centre)
+    return ShaftCurves(
+        turn.curves(
+            "on_shaft",
+            np.broadcast_to(weights, (*designs, count, row_count)).reshape(total, count, row_count),
+            np.broadcast_to(still, (*designs, count)).reshape(total, count),
+        ),
+        of_webs,
+    )

@@ -58,7 +58,7 @@ class WholeTurn:
     centre: Real
     half: Real
 
-    def curves(self, reading: Reading, weights: Complex, constant: Complex | float = 0.0) -> "TurnCurves":
+    def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
         return TurnCurves(self, reading, weights, np.broadcast_to(constant, weights.shape[:2]))
 
@@ -76,11 +76,11 @@ class WholeTurn:
 def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one."""
     turn = panels(breaks, _WIDEST)
-    half = 0.5 * turn.width.reshape(-1, turn.width.shape[-1])
+    count, pieces = len(rows.crank_radius), turn.width.shape[-1]
+    half = 0.5 * turn.width.reshape(-1, pieces)
     centre = turn.start.reshape(half.shape) + half
-    count = len(rows.crank_radius)
     half = np.where(half > 0.5 * _SLIVER, half, 0.0)
-    return WholeTurn(rows, *(np.broadcast_to(each, (count, half.shape[-1])) for each in (centre, half)))
+    return WholeTurn(rows, *(np.broadcast_to(each, (count, pieces)) for each in (centre, half)))
 
 
 @dataclass(frozen=True)
@@ -94,8 +94,8 @@ class TurnCurves:
 
     whole: WholeTurn
     reading: Reading
-    weights: Complex
-    constant: Complex
+    weights: Complex | Real
+    constant: Complex | Real
     period_deg: float = 360.0
 
     @cached_property
@@ -158,8 +158,9 @@ class TurnCurves:
         return _sums(getattr(rows, self.reading), weights, constant)[:, 0, 0]
 
 
-def _sums(series: Taylor, weights: Complex, constant: Complex) -> Complex:
+def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:
     """From the series (k, N, R, P) of the rows to coefficients (N, C, P, k) of the curves."""
-    found = np.moveaxis(weights @ series.middle, 0, -1)
+    of_curves: Complex = np.matmul(weights, series.middle)
+    found = np.moveaxis(of_curves, 0, -1)
     found[..., 0] += constant[..., None]
     return found

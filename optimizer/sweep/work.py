@@ -15,4 +15,6 @@ def work_per_design(request: OptimizeRequest | AnalyzeRequest) -> int:
     samples = request.angles.count if needs_samples(request) else 1
     # a row brings at most 6 breaks, and the halved panels of 10 degrees have 12 nodes each
     nodes = 24 * (36 + 6 * rows) if "torque_integrals" in effects else 1
-    return max(rows, 1) * max(samples, nodes)
+    # and the pieces of 5 degrees have ten coefficients each
+    pieces = 10 * (72 + 6 * rows) if "whole_turn" in effects else 1
+    return max(rows, 1) * max(samples, nodes, pieces)

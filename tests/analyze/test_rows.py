@@ -42,12 +42,28 @@ def test_a_machine_is_the_sum_of_its_rows(seed: int, style: str) -> None:
     np.testing.assert_allclose(whole.overturning.couple_Nm, whole.torque.torque_Nm, atol=1e-11 * scale)
     assert whole.torque.mean_torque_Nm == pytest.approx(add(lambda one: one.torque.mean_torque_Nm), rel=1e-9)
     assert whole.gas.indicated_power_W == pytest.approx(add(lambda one: one.gas.indicated_power_W), rel=1e-12)
-    assert whole.rod_loads.governing_load_N == max(one.rod_loads.governing_load_N for one in parts)
+    governing = max(one.rod_loads.governing_load_N for one in parts)
+    assert whole.rod_loads.governing_load_N == pytest.approx(governing, rel=1e-8)
     for k, bearing in enumerate(whole.main_bearings.bearings):
         for axis in ("force_x_N", "force_y_N"):
             load = add(lambda one, k=k, axis=axis: getattr(one.main_bearings.bearings[k].before, axis))
             scale = bearing.before.peak_N + 1.0
             np.testing.assert_allclose(getattr(bearing.before, axis), load, atol=1e-10 * scale, **near)
+
+
+def assert_alike(mine: Any, own: Any, of: str = "") -> None:
+    """Series are the same; peaks are, within their brackets, and where there are several, one of them is found."""
+    if isinstance(mine, dict):
+        for name, value in mine.items():
+            assert_alike(value, own[name], name)
+    elif of == "cases":
+        for one, other in zip(mine, own, strict=True):
+            assert_alike(one, other)
+    elif of.startswith(("peak_", "tension_", "compression_", "governing_load")):
+        if not of.endswith("_deg"):
+            np.testing.assert_allclose(mine, own, rtol=1e-8)
+    else:
+        assert mine == own, of
 
 
 @pytest.mark.parametrize("style", STYLES)
@@ -62,7 +78,7 @@ def test_every_row_is_what_it_is_alone(seed: int, style: str) -> None:
         for output in outputs:
             mine, own = getattr(whole, output).rows[k], getattr(alone, output).rows[0]
             assert (mine.throw, mine.row) == labels[k]
-            assert mine.model_dump(exclude={"throw", "row"}) == own.model_dump(exclude={"throw", "row"})
+            assert_alike(mine.model_dump(exclude={"throw", "row"}), own.model_dump(exclude={"throw", "row"}))
 
 
 @pytest.mark.parametrize("rotation", ["ccw", "cw"])
@@ -109,9 +125,10 @@ def test_series_stand_over_the_sampled_angles() -> None:
         np.testing.assert_allclose(row.velocity_m_s, moving.velocity[k], rtol=1e-12, atol=1e-12)
         total = np.array(force.gas_N) + force.inertia_N + force.friction_N
         np.testing.assert_allclose(force.total_N, total, rtol=1e-13)
-        assert force.peak_tension_N == max(force.total_N)
-        assert force.peak_compression_N == min(force.total_N)
-    assert found.overturning.peak_Nm == max(abs(one) for one in found.overturning.couple_Nm)
+        # the extremes of the turn, not of the samples
+        assert max(force.total_N) <= force.peak_tension_bracket_N[1]
+        assert min(force.total_N) >= force.peak_compression_bracket_N[0]
+    assert max(abs(one) for one in found.overturning.couple_Nm) <= found.overturning.peak_bracket_Nm[1]
 
 
 def test_load_cases() -> None:
@@ -126,10 +143,17 @@ def test_load_cases() -> None:
         expected = {"running": rod, "no_load": idle, "sudden_stop": np.array(piston.gas_N) / cosine}
         assert {case.case for case in row.cases} == set(expected)
         for case in row.cases:
-            assert case.tension_N == pytest.approx(max(expected[case.case].max(), 0.0), rel=1e-10)
-            assert case.compression_N == pytest.approx(min(expected[case.case].min(), 0.0), rel=1e-10)
+            # independent: samples at 1 degree miss little of a peak, and nothing is above it
+            size = np.abs(expected[case.case]).max()
+            for found_N, (low, high), sampled in (
+                (case.tension_N, case.tension_bracket_N, max(expected[case.case].max(), 0.0)),
+                (-case.compression_N, tuple(-one for one in case.compression_bracket_N[::-1]),
+                 max(-expected[case.case].min(), 0.0)),
+            ):  # fmt: skip
+                assert low <= found_N <= high <= low + 1e-8 * size
+                assert sampled <= high <= sampled + 0.02 * size
         largest = {name: np.abs(force).max() for name, force in expected.items()}
-        assert row.governing_load_N == pytest.approx(max(largest.values()), rel=1e-10)
+        assert row.governing_load_N == pytest.approx(max(largest.values()), rel=0.02)
         assert row.governing_case == max(largest, key=lambda name: largest[name])
 
 

@@ -25,7 +25,7 @@ SHOWN = {
         " 330 │",
     ),
     "flywheel": ("irregularity", "moment of inertia J", "MD2 = 4 J, kg m2"),
-    "overturning": ("Overturning couple", "machine", "largest couple among the samples, N m"),
+    "overturning": ("Overturning couple", "machine", "largest couple over the turn, N m"),
     "main_bearings": ("every span simply supported", "peak without", "peak with", "Largest bending moment"),
 }
 

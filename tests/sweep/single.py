@@ -4,7 +4,6 @@ import json
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pyarrow as pa
 
 from optimizer.analyze import analyze
@@ -150,12 +149,15 @@ def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
     if answer.gas is not None:
         yield "indicated_power_W", answer.gas.indicated_power_W
     if answer.piston_force is not None:
-        yield "peak_piston_force_N", max(np.max(np.abs(row.total_N)) for row in answer.piston_force.rows)
+        yield (
+            "peak_piston_force_N",
+            max(max(abs(row.peak_tension_N), abs(row.peak_compression_N)) for row in answer.piston_force.rows),
+        )
     if answer.rod_loads is not None:
         yield "peak_rod_load_N", answer.rod_loads.governing_load_N
     if answer.torque is not None:
         yield "mean_torque_Nm", answer.torque.mean_torque_Nm
-        yield "peak_torque_Nm", float(np.max(np.abs(answer.torque.torque_Nm)))
+        yield "peak_torque_Nm", answer.torque.peak_Nm
         yield "fluctuation_energy_J", answer.torque.fluctuation_energy_J
         yield "shaft_power_W", answer.torque.shaft_power_W
         yield "indicated_power_W", answer.torque.indicated_power_W

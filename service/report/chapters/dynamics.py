@@ -165,7 +165,7 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
         "Rod loads",
         (
             facts("", [("largest rod force of the machine, N", found.governing_load_N)]),
-            table("Rod force by load case, at shaft angles among the samples", heads, cases),
+            table("Rod force by load case", heads, cases),
             extremes("Forces on guide and crank pin, N", found.angle_deg, others),
             *(figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}") for title, caption, lines in series),
         ),
@@ -190,8 +190,7 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
                     ("mean torque, N m", found.mean_torque_Nm),
                     ("estimate of its error, N m", found.mean_torque_error_Nm),
                     ("rotating friction, N m", found.rotating_friction_Nm),
-                    ("largest torque among the samples, N m", max(found.torque_Nm)),
-                    ("smallest torque among the samples, N m", min(found.torque_Nm)),
+                    ("largest torque over the turn, N m", found.peak_Nm),
                     ("indicated power, W", found.indicated_power_W),
                     ("friction power, W", found.friction_power_W),
                     ("shaft power, W", found.shaft_power_W),
@@ -224,7 +223,7 @@ def _overturning(machine: Machine, found: Overturning) -> Chapter:
         "Overturning couple",
         (
             Paragraph(words),
-            facts("", [("largest couple among the samples, N m", found.peak_Nm)]),
+            facts("", [("largest couple over the turn, N m", found.peak_Nm)]),
             extremes(f"{_EXTREMES}, N m", found.angle_deg, [*rows, Line("machine", found.couple_Nm)]),
             figure("overturning couple", "N m", found.angle_deg, lines, "Overturning couple on the frame."),
         ),
@@ -247,6 +246,11 @@ def _main_bearings(_machine: Machine, found: MainBearings) -> Chapter:
         "bearing", "#plane z, m", "#peak without counterweights, N", "#at, deg", "#peak with counterweights, N",
         "#at, deg",
     ]  # fmt: skip
+    smooth = [
+        (one.name, one.before.rms_N, one.after.rms_N if one.after else None, one.before.floor_N)
+        for one in found.bearings
+    ]
+    smooth_heads = ["bearing", "#rms without, N", "#rms with, N", "#floor of the peak, N"]
     shaft = {"simple_spans": "every span simply supported", "continuous": "a continuous shaft on rigid bearings"}
     lines = [Line(f"{one.name}", _magnitude(one.after or one.before)) for one in found.bearings]
     which = "with counterweights" if any(one.after for one in found.bearings) else "without counterweights"
@@ -258,7 +262,8 @@ def _main_bearings(_machine: Machine, found: MainBearings) -> Chapter:
     drawn = chart("bending moment", "N m", "plane along the shaft z, m", found.bending.position_m, bending)
     blocks: list[Block] = [
         Paragraph(f"Taken as {shaft[found.shaft]}; loads from rows, rotating masses and counterweights."),
-        table("Peaks among the samples", heads, rows),
+        table("Peaks over the turn", heads, rows),
+        table("Root mean square, and what counterweights cannot go below", smooth_heads, smooth),
         table("Largest bending moment", ["", "#moment, N m", "#in the plane z, m"], largest),
         figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
         Figure((drawn,), "Largest bending moment inside the shaft over the turn, plane by plane."),

@@ -1,0 +1,111 @@
+"""Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans_influence
+from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.shaft_curves import Influence, ShaftCurves, bending_influence, planes, shaft_curves
+from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
+from optimizer.pieces import Bracket
+from optimizer.scene import Prepared
+from schemas.machine import ReciprocatingMachine
+
+#: of a bracket, relative to the peak; and of a floor
+TOLERANCE, FLOOR_TOLERANCE = 1e-9, 1e-7
+
+
+class Extremes(NamedTuple):
+    """Largest and smallest values of curves over the turn, (..., C)."""
+
+    high: Bracket
+    low: Bracket  # of the values negated
+
+    @property
+    def magnitude(self) -> Bracket:
+        """Largest magnitude."""
+        first = self.high.lower >= self.low.lower
+        return Bracket(
+            np.where(first, self.high.angle, self.low.angle),
+            np.where(first, self.high.value, self.low.value),
+            np.maximum(self.high.lower, self.low.lower),
+            np.maximum(self.high.upper, self.low.upper),
+        )
+
+
+def bracket(found: Bracket, *index: int) -> tuple[float, float]:
+    """One bracket as an answer holds it: at least and at most."""
+    return float(found.lower[index]), float(found.upper[index])
+
+
+def of_rows(scene: Prepared, reading: Reading) -> Extremes:
+    """Of a force of every row, (..., rows)."""
+    count = scene.layout.reciprocating.mass.shape[-1]
+    whole: WholeTurn = scene.results["whole_turn"]
+    return _extremes(scene, whole.curves(reading, np.broadcast_to(np.eye(count), (len(whole.centre), count, count))))
+
+
+def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
+    """Largest torque of all rows with a constant (...), N m, magnitude: (...)."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    found = _extremes(
+        scene,
+        whole.curves("tangential", whole.rows.crank_radius[:, None, :], np.reshape(constant, (-1, 1))),
+    )
+    angle, value, lower, upper = found.magnitude
+    return Bracket(angle[..., 0], value[..., 0], lower[..., 0], upper[..., 0])
+
+
+def bearing_influence(scene: Prepared) -> Real:
+    """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
+    return _model(scene)(bearing_places(scene), planes(scene.layout))
+
+
+def bearing_curves(scene: Prepared) -> ShaftCurves:
+    """Loads of the main bearings, over omega^2."""
+    return shaft_curves(scene.results["whole_turn"], scene.layout, bearing_influence(scene))
+
+
+def bearing_and_bending_curves(scene: Prepared, stations: Real) -> ShaftCurves:
+    """Loads of the B main bearings and bending moments at stations (S,), over omega^2: B + S curves, found together."""
+    moments = bending_influence(scene.layout, bearing_places(scene), _model(scene), stations)
+    both = np.concatenate([bearing_influence(scene), moments], axis=-2)
+    return shaft_curves(scene.results["whole_turn"], scene.layout, both)
+
+
+def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None) -> Bracket:
+    """Peaks of loads [N] or moments [N m] without or with counterweights (..., webs) kg m: (..., C)."""
+    pieces = found.curves.pieces
+    offset = np.zeros(len(pieces.half), dtype=complex) if unbalance is None else found.offsets(unbalance)
+    over_square = _reshaped(scene, pieces.peaks(offset, TOLERANCE))
+    square = scene.layout.omega[..., None] ** 2
+    angle, value, lower, upper = over_square
+    return Bracket(angle, value * square, lower * square, upper * square)
+
+
+def bearing_places(scene: Prepared) -> Real:
+    """(..., B) m."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    return stacked([bearing.position_m for bearing in machine.bearings])
+
+
+def _model(scene: Prepared) -> Influence:
+    return simple_spans_influence if scene.request.fidelity.shaft == "simple_spans" else continuous_beam_influence
+
+
+def _extremes(scene: Prepared, curves: TurnCurves) -> Extremes:
+    return Extremes(*(_reshaped(scene, curves.pieces.largest(sign, TOLERANCE)) for sign in (1.0, -1.0)))
+
+
+def _reshaped(scene: Prepared, found: Bracket) -> Bracket:
+    """With the leading axes of the scene, and angles within the turn."""
+    leading = scene.layout.omega.shape
+    count = found.angle.size // max(int(np.prod(leading)), 1)
+    shape = (*leading, count)
+    angle = np.mod(found.angle, 2.0 * np.pi)
+    return Bracket(
+        angle.reshape(shape), found.value.reshape(shape), found.lower.reshape(shape), found.upper.reshape(shape)
+    )
