@@ -6,7 +6,6 @@ A key holds 256 random bits, so that no dictionary helps against a hash and a fa
 import hashlib
 import hmac
 import logging
-import os
 import re
 import secrets
 import time
@@ -21,6 +20,7 @@ from starlette.requests import Request
 
 from schemas.base import Model
 from service.guard.addresses import is_loopback
+from service.replacing import replaced
 from service.settings import Settings
 
 #: compute: the computing routes; sweeps: start, resume and delete jobs; read: see the jobs of the same owner;
@@ -153,12 +153,8 @@ def write(file: Path, records: list[KeyRecord]) -> None:
     ------
     OSError
     """
-    fresh = file.with_name(f".{file.name}.{os.getpid()}")
-    with open(os.open(fresh, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w", encoding="utf-8") as out:
-        out.writelines(record.model_dump_json(exclude_none=True) + "\n" for record in records)
-        out.flush()
-        os.fsync(out.fileno())
-    fresh.replace(file)
+    with replaced(file, 0o600) as out:
+        out.writelines(record.model_dump_json(exclude_none=True).encode() + b"\n" for record in records)
 
 
 class Keys:

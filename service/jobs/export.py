@@ -1,7 +1,6 @@
 """The rows of a sweep as a file, complete or absent."""
 
 import json
-import os
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import pyarrow as pa
 
 from service.jobs.formats import ARROW_FILE, FORMATS, Format
 from service.jobs.results import description
+from service.replacing import replaced
 
 #: formats by the end of the name
 WRITERS: Mapping[str, Format] = {
@@ -35,13 +35,6 @@ def export(path: Path, schema: pa.Schema, batches: Iterable[pa.RecordBatch]) -> 
 
 
 def _write(path: Path, pieces: Callable[[], Iterator[bytes]]) -> None:
-    temporary = path.with_name(f".{path.name}.{os.getpid()}")
-    try:
-        with temporary.open("wb") as file:
-            for piece in pieces():
-                file.write(piece)
-            file.flush()
-            os.fsync(file.fileno())
-        temporary.replace(path)
-    finally:
-        temporary.unlink(missing_ok=True)
+    with replaced(path) as file:
+        for piece in pieces():
+            file.write(piece)

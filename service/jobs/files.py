@@ -3,7 +3,6 @@
 import hashlib
 import os
 import shutil
-import uuid
 from collections.abc import Container, Iterable
 from contextlib import ExitStack, suppress
 from errno import EIO
@@ -11,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from service.jobs.job import Record
+from service.replacing import replaced, synchronise
 
 _FLAG = "stop"
 _MARK = ".database"
@@ -122,24 +122,13 @@ class JobFiles:
             content = file.read()
         named = Record(record.start, record.stop, digest(content), len(content))
         self.piece(job, record).replace(self.piece(job, named))
-        _sync(self.folder(job))
+        synchronise(self.folder(job))
         return named
 
     def _write(self, path: Path, content: bytes) -> None:
         _make(path.parent)
-        # a name of its own: two services, or threads, may write the same chunk
-        temporary = path.with_name(f".{path.name}.{uuid.uuid4().hex}")
-        try:
-            with temporary.open("wb") as file:
-                file.write(content)
-                file.flush()
-                os.fsync(file.fileno())
-            temporary.replace(path)
-        except BaseException:
-            # on a full disk this makes the room that the database needs to say so
-            temporary.unlink(missing_ok=True)
-            raise
-        _sync(path.parent)
+        with replaced(path) as file:
+            file.write(content)
 
     def stop(self, job: str) -> None:
         """Tell the workers of a job to stop."""
@@ -208,12 +197,4 @@ def _make(folder: Path) -> None:
     if not folder.exists():
         _make(folder.parent)
         folder.mkdir(exist_ok=True)
-        _sync(folder.parent)
-
-
-def _sync(folder: Path) -> None:
-    handle = os.open(folder, os.O_RDONLY)
-    try:
-        os.fsync(handle)
-    finally:
-        os.close(handle)
+        synchronise(folder.parent)
