@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
-from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, NoSuchModuleError
+from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, NoSuchModuleError, ProgrammingError
 from sqlalchemy.exc import TimeoutError as PoolTimeout
 
 from service.jobs.schema import prepare
@@ -57,7 +57,7 @@ class Database:
         ------
         DatabaseUnavailable, WrongSchema
         """
-        with _unavailable():
+        with self._unavailable():
             self._make_tables()
             with self._engine.begin() as connection:
                 yield connection
@@ -70,7 +70,7 @@ class Database:
         ------
         DatabaseUnavailable, WrongSchema
         """
-        with _unavailable():
+        with self._unavailable():
             self._make_tables()
             with self._writer.begin() as connection:
                 yield connection
@@ -96,23 +96,31 @@ class Database:
                 prepare(connection)
             self._made = True
 
+    @contextmanager
+    def _unavailable(self) -> Iterator[None]:
+        try:
+            yield
+        except DBAPIError as error:
+            # integrity errors are for the store to read, the rest is the database's own trouble
+            if isinstance(error, IntegrityError):
+                raise
+            if _knows_other_tables(error):
+                # somebody has changed them since: whoever asks next is told what is wrong
+                self._made = False
+            full = getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL
+            raise DatabaseUnavailable(f"the job database does not answer: {error.orig}", full) from error
+        except (sqlite3.Error, PoolTimeout, OSError) as error:
+            raise DatabaseUnavailable(f"the job database does not answer: {error}") from error
+
     def close(self) -> None:
         """Close every connection."""
         self._engine.dispose()
 
 
-@contextmanager
-def _unavailable() -> Iterator[None]:
-    try:
-        yield
-    except DBAPIError as error:
-        # integrity errors are for the store to read, the rest is the database's own trouble
-        if isinstance(error, IntegrityError):
-            raise
-        full = getattr(error.orig, "sqlite_errorcode", None) == sqlite3.SQLITE_FULL
-        raise DatabaseUnavailable(f"the job database does not answer: {error.orig}", full) from error
-    except (sqlite3.Error, PoolTimeout, OSError) as error:
-        raise DatabaseUnavailable(f"the job database does not answer: {error}") from error
+def _knows_other_tables(error: DBAPIError) -> bool:
+    """Whether a statement made no sense to the database, which is neither locked nor away."""
+    code = getattr(error.orig, "sqlite_errorcode", None)
+    return isinstance(error, ProgrammingError) or code == sqlite3.SQLITE_ERROR
 
 
 def _engine(url: URL, busy_s: float) -> Engine:

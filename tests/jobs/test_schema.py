@@ -15,7 +15,7 @@ from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.cli import app
 from service.jobs.coordinator import Pace
-from service.jobs.database import Database
+from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.desk import Desk
 from service.jobs.kinds import table_bytes
 from service.jobs.schema import NUMBER, WrongSchema
@@ -133,6 +133,23 @@ def test_another_schema_refuses_to_start(settings: Settings, change: str, said: 
     engine.dispose()
     with pytest.raises(ValueError, match=said):
         Desk(settings)
+
+
+def test_tables_that_are_changed_while_it_runs(settings: Settings) -> None:
+    desk = Desk(settings)
+    desk.of().page(1, None)
+    assert desk.counts() == {}
+    engine = engine_of(settings)
+    with engine.begin() as connection:
+        connection.execute(text("ALTER TABLE jobs DROP COLUMN repaired"))
+    engine.dispose()
+    with pytest.raises(DatabaseUnavailable, match="repaired"):
+        desk.of().page(1, None)
+    # from then on everybody is told, and the service is not ready
+    with pytest.raises(WrongSchema, match="the table jobs of the job database lacks repaired"):
+        desk.of().page(1, None)
+    assert desk.counts() is None
+    desk.close()
 
 
 def test_tables_of_somebody_else(tmp_path: Path) -> None:
