@@ -64,11 +64,20 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
 def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     """First-order force of counterweights: co-rotating only.
 
+    Couples are summed about the reference plane, with the arms of :func:`first_order_responses`: what the program
+    cancels is cancelled here, however large the counterweights are.
+
     Parameters
     ----------
     unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
     """
-    return _wrench(layout, unbalance, np.zeros_like(unbalance), layout.webs.position)
+    couple, nothing = total(web_arms(layout) * unbalance), np.zeros_like(total(unbalance))
+    return Wrench(Phasors(total(unbalance), nothing), Phasors(couple, nothing))
+
+
+def web_arms(layout: Layout) -> Real:
+    """Distance of the webs from the reference plane (..., webs) m."""
+    return layout.webs.position - layout.reference_plane[..., None]
 
 
 def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, Response]:
@@ -81,7 +90,7 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
     ----------
     baseline : first-order force and moment without counterweights.
     """
-    arm = layout.webs.position - layout.reference_plane[..., None]
+    arm = web_arms(layout)
     return (
         Response("force", "N", baseline.force, np.ones_like(arm)),
         Response("moment", "N m", baseline.moment, arm),
