@@ -1,6 +1,5 @@
-"""The base of every model, and cross-field errors that point at one field."""
+"""The base of every model, and what is wrong with a field."""
 
-from collections.abc import Iterable
 from typing import NamedTuple
 
 from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
@@ -60,19 +59,3 @@ class FieldProblem(NamedTuple):
 
     path: tuple[str | int, ...]
     message: str
-
-
-def raise_problems(problems: Iterable[FieldProblem]) -> None:
-    """Raise one error that carries every problem found by a cross-field check.
-
-    pydantic places an error raised by a model validator at the model; the paths in the context
-    let the door (``service.http.errors``, the command line) point at the very field.
-
-    Raises
-    ------
-    PydanticCustomError
-        if ``problems`` is not empty; type ``cross_field``, context ``{"problems": [...]}``.
-    """
-    found = list(problems)
-    if found:
-        raise PydanticCustomError("cross_field", "{summary}", {"summary": found[0].message, "problems": found})

@@ -9,8 +9,9 @@ from collections.abc import Iterable, Iterator
 from typing import Any, NamedTuple, Self
 
 from pydantic import model_validator
+from pydantic_core import PydanticCustomError
 
-from schemas.base import FieldProblem, Model, raise_problems
+from schemas.base import FieldProblem, Model
 
 Path = tuple[str | int, ...]
 
@@ -28,7 +29,19 @@ class Ruled(Model):
 
     @model_validator(mode="after")
     def _keep_rules(self) -> Self:
-        raise_problems(FieldProblem(path, message) for broken, path, message in self.rules() if broken)
+        """Raise one error that carries every rule that is broken.
+
+        pydantic places an error raised by a model validator at the model; the paths in the context let the door
+        (``service.validation``) point at the very field.
+
+        Raises
+        ------
+        PydanticCustomError
+            type ``cross_field``, context ``{"problems": [...]}``.
+        """
+        found = [FieldProblem(path, message) for broken, path, message in self.rules() if broken]
+        if found:
+            raise PydanticCustomError("cross_field", "{summary}", {"summary": found[0].message, "problems": found})
         return self
 
     def rules(self) -> Iterator[Rule]:

@@ -4,13 +4,13 @@ from collections.abc import Iterator
 from itertools import combinations
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
-from schemas.base import FieldProblem, Model, NotEmpty, raise_problems
+from schemas.base import FieldProblem, Model, NotEmpty
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Count, Flag
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.rules import Path
+from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
 from schemas.sweep.target import BadPointer, Target, find_target
@@ -30,7 +30,7 @@ class TopFilter(Model):
     largest: Flag = Field(False, description="keep the largest values instead of the smallest", examples=[False])
 
 
-class SweepRequest(Model):
+class SweepRequest(Ruled):
     """Thousands to millions of designs of one machine."""
 
     task: Literal["optimize", "analyze"] = Field(
@@ -95,13 +95,13 @@ class SweepRequest(Model):
             value = value.model_dump()
         return model.model_validate(value)
 
-    @model_validator(mode="after")
-    def _check(self) -> "SweepRequest":
-        raise_problems(self._output_problems())
-        raise_problems(self._axis_problems())
-        raise_problems(self._design_problems())
-        raise_problems(self._column_problems())
-        return self
+    def rules(self) -> Iterator[Rule]:
+        # each looks at what the ones before have found right
+        for part in (self._output_problems, self._axis_problems, self._design_problems, self._column_problems):
+            found = list(part())
+            yield from (Rule(True, path, message) for path, message in found)
+            if found:
+                return
 
     @property
     def targets(self) -> tuple[Target, ...]:
