@@ -5,9 +5,24 @@ from collections.abc import Iterable
 from schemas.base import FieldProblem
 
 
-class MissingInput(ValueError):
-    """A requested output needs data that the machine does not give; sending them helps."""
+class NotComputable(ValueError):
+    """The request cannot be computed; ``problems`` name fields by paths from its root."""
 
     def __init__(self, problems: Iterable[FieldProblem]) -> None:
         self.problems = list(problems)
         super().__init__("; ".join(problem.message for problem in self.problems))
+
+
+class MissingInput(NotComputable):
+    """A requested output needs data that the machine does not give; sending them helps."""
+
+
+class OutOfRange(NotComputable):
+    """The inputs do not go together: no cylinder can do this; other ones help."""
+
+
+def refuse(problems: Iterable[FieldProblem]) -> None:
+    """Raise :class:`OutOfRange` if there are any problems."""
+    found = list(problems)
+    if found:
+        raise OutOfRange(found)

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from optimizer.errors import refuse
 from optimizer.rating.design import StageDesign, delivery
-from optimizer.rating.errors import refuse
 from optimizer.rating.losses import DISCHARGE, SUCTION, corrected_loss, mean_piston_speed, pressures_in_cylinder
 from optimizer.rating.ratios import stage_state
 from optimizer.rating.sizes import nominal_bore, pressure_correction

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from optimizer.errors import refuse
 from optimizer.rating.delivery import (
     coefficients,
     expansion_exponent,
@@ -10,7 +11,6 @@ from optimizer.rating.delivery import (
     pressure_coefficient,
     volumetric_coefficient,
 )
-from optimizer.rating.errors import refuse
 from optimizer.rating.power import at_suction
 from optimizer.rating.ratios import split, stage_state
 from optimizer.rating.sizes import Piston, stage_flow, swept_volume

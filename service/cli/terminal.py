@@ -52,12 +52,11 @@ def _read(file: str) -> bytes:
 
 
 def answer(compute: "Callable[[Question], Answer]", question: "Question") -> "Answer":
-    from optimizer.errors import MissingInput
-    from optimizer.rating.errors import OutOfRange
+    from optimizer.errors import NotComputable
 
     try:
         return compute(question)
-    except (MissingInput, OutOfRange) as error:
+    except NotComputable as error:
         fail_fields(error.problems)
 
 

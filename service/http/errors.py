@@ -12,8 +12,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect, Request
 from starlette.responses import Response
 
-from optimizer.errors import MissingInput
-from optimizer.rating.errors import OutOfRange
+from optimizer.errors import MissingInput, NotComputable, OutOfRange
 from schemas.base import FieldProblem
 from schemas.problem import FieldError, Problem
 from service.documents.examples import UnknownExample
@@ -64,7 +63,7 @@ def _invalid(error: InvalidRequest) -> Fault:
     return _fields("Invalid request", error.problems, error.more)
 
 
-def _not_computable(title: str) -> Callable[[MissingInput | OutOfRange], Fault]:
+def _not_computable(title: str) -> Callable[[NotComputable], Fault]:
     return lambda error: _fields(title, error.problems[:MAX_ERRORS], len(error.problems) > MAX_ERRORS)
 
 

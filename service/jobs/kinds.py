@@ -91,12 +91,12 @@ def _piece(table: "pa.Table") -> Piece:
 
 def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Piece]:
     def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
-        from optimizer.errors import MissingInput
+        from optimizer.errors import NotComputable
         from service.validation import check, pointer, read_json
 
         try:
             found = asked_for.function(check(asked_for.asks, read_json(request)))
-        except MissingInput as error:
+        except NotComputable as error:
             raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
         return Piece(json_bytes(found), 0)
 

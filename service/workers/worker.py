@@ -18,8 +18,7 @@ from pkgutil import resolve_name
 from tempfile import TemporaryFile
 from typing import BinaryIO
 
-from optimizer.errors import MissingInput
-from optimizer.rating.errors import OutOfRange
+from optimizer.errors import NotComputable
 from service.computations import Computation, Form
 from service.faults import kept
 from service.guard.sizes import SizeLimits
@@ -30,7 +29,7 @@ _NICENESS = 5
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
 #: faults of the request; anything else is a fault of the service
-REFUSALS = (UnreadableJson, InvalidRequest, MissingInput, OutOfRange)
+REFUSALS = (UnreadableJson, InvalidRequest, NotComputable)
 
 
 class OutOfMemory(Exception):

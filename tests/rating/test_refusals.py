@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from optimizer.rating.errors import OutOfRange
+from optimizer.errors import OutOfRange
 from optimizer.rating.rate import rate
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingAnswer
