@@ -87,6 +87,17 @@ def test_things_are_added_and_removed(portal: Portal) -> None:
     assert portal.page.locator("#answer .sector").count() == 1
 
 
+def test_a_limit_that_is_left_empty_is_none(portal: Portal) -> None:
+    portal.open()
+    portal.unfold("/machine", "/machine/webs", "/machine/webs/0")
+    most = portal.input("/machine/webs/0/max_mass_kg")
+    most.fill("")
+    assert most.get_attribute("placeholder") == "no limit"
+    assert "empty is no limit" in portal.page.locator(f"[id='{most.get_attribute('id')}-hint']").inner_text()
+    portal.optimise()
+    assert portal.bodies("/v1/optimize")[-1]["machine"]["webs"][0]["max_mass_kg"] is None
+
+
 def test_rows_are_added_to_a_throw(portal: Portal) -> None:
     portal.open("v60")
     rows = f"{THROW}/rows"

@@ -24,11 +24,11 @@ export function field(name, pointer, description, value, required, change) {
   const text = description.text ? ` A number${description.unit ? ` in ${description.unit}` : ""}, or with its unit.` : "";
   input.id = id;
   input.setAttribute("aria-describedby", `${id}-hint ${id}-error`);
-  if (required) input.setAttribute("aria-required", "true");
+  if (required && !description.nullable) input.setAttribute("aria-required", "true");
   return h("div", { class: `field is-${description.kind}`, dataset: { pointer } },
     h("label", { for: id }, label(name), description.unit && h("span", { class: "unit" }, ` ${description.unit}`)),
     input,
-    h("p", { class: "hint", id: `${id}-hint` }, `${description.about}.${text}`),
+    h("p", { class: "hint", id: `${id}-hint` }, `${description.about.replace("null is", "empty is")}.${text}`),
     h("p", { class: "error", id: `${id}-error` }));
 }
 
@@ -38,17 +38,22 @@ function make(description, value, required, change) {
   if (kind === "boolean") return boolean(description, value, change);
   if (kind === "numbers") return numbers(value, change);
   const long = kind === "text" && description.longest > 200;
-  const placeholder = required ? undefined : shown(description.fallback) || "none";
+  const mandatory = required && !description.nullable;
+  const placeholder = mandatory ? undefined : shown(description.fallback) || meaning(description);
   const given = () => (kind === "text" ? input.value : read(input.value));
   const input = h(long ? "textarea" : "input", {
     value: shown(value), placeholder, autocomplete: "off", spellcheck: "false",
     ...(long ? { rows: 3 } : { type: "text" }),
     // a letter may follow a number here: its unit
     ...(kind === "number" && !description.text ? { inputmode: "decimal" } : {}),
-    input: () => change(input.value.trim() === "" ? undefined : given()),
+    // what must be given may be given as nothing
+    input: () => change(input.value.trim() ? given() : required && description.nullable ? null : undefined),
   });
   return input;
 }
+
+// What an empty field stands for.
+const meaning = ({ about }) => /null is ([^;,.]+)/.exec(about)?.[1] ?? "none";
 
 function choice({ options, fallback }, value, _required, change) {
   const select = h("select", { change: () => change(select.value) },
