@@ -193,7 +193,10 @@ def main() -> None:
     parser.add_argument("--points", type=int, default=1_000_000)
     began, asked = time.monotonic(), parser.parse_args()
     try:
-        tried, of, lost, orphans = crashes(asked.points)
+        with tempfile.TemporaryDirectory(dir=_MEMORY) as folder:
+            # messages that services left elsewhere are none of theirs, and looking for them takes more or fewer calls
+            tempfile.tempdir = folder
+            tried, of, lost, orphans = crashes(asked.points)
     except Missing as missing:
         print(missing, file=sys.stderr)
         sys.exit(2)
