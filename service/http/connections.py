@@ -10,11 +10,13 @@ from starlette.types import Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.guard.access import own_path
+from service.guard.addresses import client_network
 from service.guard.doors import Doors
 from service.guard.keys import PROBES
 from service.guard.refusals import TooManyConnections
 from service.http.errors import PROBLEM_JSON, Fault, answered, fault, problem
 from service.http.joined import Joined
+from service.http.rounds import Rounds
 from service.settings import Settings
 
 #: what may wait to be read by a client, and what is read of it at a time [bytes]
@@ -29,6 +31,7 @@ def connections(settings: Settings, most: int | None = None) -> type[asyncio.Pro
 
     class Limited(Connection):
         doors = Doors(altogether, settings.max_connections_each, settings.trusted_proxies)
+        rounds = Rounds(lambda work: asyncio.get_running_loop().call_soon(work))
         headers_timeout_s = settings.headers_timeout_s
         write_timeout_s = settings.write_timeout_s
 
@@ -40,6 +43,7 @@ class Connection(H11Protocol):
     long."""
 
     doors: Doors
+    rounds: Rounds
     headers_timeout_s: float
     write_timeout_s: float
 
@@ -49,6 +53,7 @@ class Connection(H11Protocol):
         self._write_timer: asyncio.TimerHandle | None = None
         self._unread = 0
         self._counted = False
+        self._waits = self._lost = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(Joined(transport, self.loop))  # type: ignore[arg-type]
@@ -73,6 +78,7 @@ class Connection(H11Protocol):
         return self.client[0] if self.client else ""
 
     def connection_lost(self, exc: Exception | None) -> None:
+        self._lost = True
         _stop(self._headers_timer)
         _stop(self._write_timer)
         if self._counted:
@@ -82,6 +88,17 @@ class Connection(H11Protocol):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
+        # it is not idle while it waits
+        self._unset_keepalive_if_required()
+        self._waits = True
+        if not self.rounds.ask(client_network(self._address), lambda: self._look_at(data)):
+            self.transport.hold_back()  # type: ignore[attr-defined]
+
+    def _look_at(self, data: bytes) -> None:
+        self._waits = False
+        if self._lost:
+            return
+        self.transport.go_on()  # type: ignore[attr-defined]
         super().data_received(data)
         self._watch_headers()
 
@@ -99,6 +116,10 @@ class Connection(H11Protocol):
 
     def _headers_late(self) -> None:
         self._headers_timer = None
+        if self._waits:
+            # it is not for the client that nobody has looked
+            self._watch_headers()
+            return
         if self.transport.is_closing() or not self._owes_headers():
             return
         if self.conn.their_state is h11.SEND_BODY:

@@ -1,4 +1,4 @@
-"""A transport that puts the head and the body of an answer into one segment."""
+"""A transport that puts the head and the body of an answer into one segment, and reads no more than is looked at."""
 
 import asyncio
 from typing import Any
@@ -14,6 +14,7 @@ class Joined:
         self._transport = transport
         self._loop = loop
         self._held = bytearray()
+        self._full = self._held_back = False
 
     def __getattr__(self, name: str) -> Any:
         return getattr(self._transport, name)
@@ -32,6 +33,28 @@ class Joined:
         if self._held:
             held, self._held = self._held, bytearray()
             self._transport.write(held)
+
+    def pause_reading(self) -> None:
+        self._full = True
+        self._transport.pause_reading()
+
+    def resume_reading(self) -> None:
+        self._full = False
+        self._read_on()
+
+    def hold_back(self) -> None:
+        """Read no more until what has been read was looked at."""
+        self._held_back = True
+        self._transport.pause_reading()
+
+    def go_on(self) -> None:
+        """What has been read was looked at."""
+        self._held_back = False
+        self._read_on()
+
+    def _read_on(self) -> None:
+        if not (self._full or self._held_back):
+            self._transport.resume_reading()
 
     def get_write_buffer_size(self) -> int:
         return len(self._held) + self._transport.get_write_buffer_size()

@@ -23,6 +23,8 @@ _TO_ANSWER_S = 1.0
 _OTHER_FILES = 128
 _NO_FILES = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _SAY_AGAIN_S = 60.0
+#: a thread that computes gives way to the event loop after so long; five times as long by default
+_SWITCH_S = 0.001
 
 
 def listen(settings: Settings) -> socket.socket:
@@ -49,6 +51,7 @@ def url(listening: socket.socket) -> str:
 
 def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     """Serve until SIGINT or SIGTERM; open requests get time to end."""
+    sys.setswitchinterval(_SWITCH_S)
     most = max(1, _files() - _OTHER_FILES)
     if most < settings.max_connections:
         _LOG.warning("the system allows %d open connections, not %d", most, settings.max_connections)

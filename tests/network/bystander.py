@@ -3,17 +3,22 @@
 ``python -m tests.network.bystander`` prints, for each kind of traffic, what became of the bystander's requests and how
 much memory the service took above rest; it fails if one of his was refused or the memory is over its limit. All clients
 are on this machine: the bystander has an address of his own (127.0.0.2), those who press the service share another.
+Those are a process of their own, of low priority: what they compute is not what the service costs, and other machines
+would compute it.
 """
 
 import argparse
 import asyncio
 import json
+import multiprocessing
+import os
 import sys
 import time
 from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
+from multiprocessing.synchronize import Event
 from random import Random
 from typing import Any
 
@@ -26,6 +31,8 @@ from tests.network.serving import Service, read, request, service
 #: most that all processes of the service may hold above rest [MB]; computations apart, which have a limit of their own
 CEILING_MB = 150.0
 _PRESSING, _BYSTANDER = "127.0.0.3", "127.0.0.2"
+#: of those who press
+_NICENESS = 10
 _MB = 1e6
 MACHINES = bodies()
 ORDINARY = (
@@ -37,12 +44,20 @@ ORDINARY = (
 )
 
 
+@dataclass(frozen=True)
+class Aim:
+    """Whom to press: the port of a service, and the path of a sweep that runs there."""
+
+    port: int
+    sweep: str
+
+
 @dataclass
 class Outcome:
-    """What became of the bystander, and what the service held above rest [MB]."""
+    """What became of the bystander, by path [s], and what the service held above rest [MB]."""
 
     statuses: Counter[int] = field(default_factory=Counter)
-    seconds: list[float] = field(default_factory=list)
+    seconds: dict[str, list[float]] = field(default_factory=dict)
     held_mb: float = 0.0
 
     @property
@@ -52,7 +67,9 @@ class Outcome:
 
 
 @asynccontextmanager
-async def connected(target: Service, address: str) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
+async def connected(
+    target: Aim | Service, address: str
+) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
     """A connection from an address of this machine."""
     reader, writer = await asyncio.open_connection("127.0.0.1", target.port, local_addr=(address, 0))
     try:
@@ -74,32 +91,32 @@ def largest(throws: int) -> bytes:
     return json.dumps(body).encode()
 
 
-Press = Callable[[Service, int], Awaitable[None]]
+Press = Callable[[Aim, int], Awaitable[None]]
 
 
-async def stalled_body(target: Service, _: int) -> None:
+async def stalled_body(target: Aim, _: int) -> None:
     """Announces a body, sends all of it but the end, and waits."""
-    async with connected(target, _PRESSING) as (reader, writer):
+    async with connected(target.port, _PRESSING) as (reader, writer):
         writer.write(request("POST", "/v1/optimize", headers={"Content-Length": "1000000"}) + b" " * 999_000)
         with suppress(ConnectionError):
             await writer.drain()
         await read(reader)
 
 
-async def stopped_reader(target: Service, number: int) -> None:
+async def stopped_reader(target: Aim, number: int) -> None:
     """Asks for answers of megabytes, again and again on one connection, and reads nothing."""
     wanted = json.dumps({"machine": MACHINES["2d12"]["machine"], "outputs": ["torque"], "angles": {"step_deg": 0.05}})
     asked = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", wanted.encode())
-    async with connected(target, _PRESSING) as (reader, writer):
+    async with connected(target.port, _PRESSING) as (reader, writer):
         reader._transport.pause_reading()  # type: ignore[attr-defined]
         writer.write(asked.replace(b"Connection: close", b"Connection: keep-alive") * 5)
         await asyncio.sleep(600)
 
 
-async def largest_machine(target: Service, _: int) -> None:
+async def largest_machine(target: Aim, _: int) -> None:
     """Asks for the optimum of a machine of hundreds of webs, again and again."""
     while True:
-        async with connected(target, _PRESSING) as (reader, writer):
+        async with connected(target.port, _PRESSING) as (reader, writer):
             writer.write(request("POST", "/v1/optimize", largest(300)))
             with suppress(ConnectionError):
                 await writer.drain()
@@ -107,27 +124,27 @@ async def largest_machine(target: Service, _: int) -> None:
         await asyncio.sleep(0.2)
 
 
-async def stream(target: Service, _: int) -> None:
+async def stream(target: Aim, _: int) -> None:
     """Watches a sweep."""
-    async with connected(target, _PRESSING) as (reader, writer):
-        writer.write(request("GET", f"{target.sweep}/events"))  # type: ignore[attr-defined]
+    async with connected(target.port, _PRESSING) as (reader, writer):
+        writer.write(request("GET", f"{target.sweep}/events"))
         while await reader.read(1000):
             pass
 
 
-async def silent(target: Service, _: int) -> None:
+async def silent(target: Aim, _: int) -> None:
     """Says nothing."""
     while True:
-        async with connected(target, _PRESSING) as (reader, _):
+        async with connected(target.port, _PRESSING) as (reader, _):
             await reader.read()
         await asyncio.sleep(0.2)
 
 
-async def state(target: Service, _: int) -> None:
+async def state(target: Aim, _: int) -> None:
     """Asks for the state of a sweep, again and again."""
     while True:
-        async with connected(target, _PRESSING) as (reader, writer):
-            writer.write(request("GET", target.sweep))  # type: ignore[attr-defined]
+        async with connected(target.port, _PRESSING) as (reader, writer):
+            writer.write(request("GET", target.sweep))
             await read(reader)
 
 
@@ -141,7 +158,7 @@ PRESSES: dict[str, Press] = {
 }
 
 
-async def mixed(target: Service, number: int) -> None:
+async def mixed(target: Aim, number: int) -> None:
     """One of all, by chance."""
     await Random(number).choice(list(PRESSES.values()))(target, number)
 
@@ -156,34 +173,52 @@ async def beside(target: Service, press: Press, clients: int, seconds: float) ->
     outcome = Outcome()
     rest = held_mb(target)
 
-    async def pressing(number: int) -> None:
-        while True:
-            with suppress(OSError):
-                await press(target, number)
-            await asyncio.sleep(0.5)
-
     async def watching() -> None:
         while True:
             outcome.held_mb = max(outcome.held_mb, await asyncio.to_thread(held_mb, target) - rest)
             await asyncio.sleep(0.1)
 
-    pressed = [asyncio.create_task(watching()), *(asyncio.create_task(pressing(number)) for number in range(clients))]
+    watch = asyncio.create_task(watching())
+    aim = Aim(target.port, target.sweep)  # type: ignore[attr-defined]
+    spawn = multiprocessing.get_context("spawn")
+    begun = spawn.Event()
+    pressed = spawn.Process(target=_pressing, args=(aim, press, clients, begun), daemon=True)
+    pressed.start()
     try:
+        assert await asyncio.to_thread(begun.wait, 120)
         await asyncio.sleep(min(2.0, seconds / 2))
         end = time.monotonic() + seconds
         while time.monotonic() < end or not outcome.statuses:
             for asked in ORDINARY:
-                begun = time.perf_counter()
-                async with asyncio.timeout(60), connected(target, _BYSTANDER) as (reader, writer):
+                asked_at = time.perf_counter()
+                async with asyncio.timeout(60), connected(target.port, _BYSTANDER) as (reader, writer):
                     writer.write(asked)
                     outcome.statuses[(await read(reader)).status] += 1
-                outcome.seconds.append(time.perf_counter() - begun)
+                outcome.seconds.setdefault(asked.split(b" ", 2)[1].decode(), []).append(time.perf_counter() - asked_at)
             await asyncio.sleep(0.05)
     finally:
-        for task in pressed:
-            task.cancel()
-        await asyncio.gather(*pressed, return_exceptions=True)
+        pressed.kill()
+        pressed.join()
+        watch.cancel()
+        await asyncio.gather(watch, return_exceptions=True)
     return outcome
+
+
+def _pressing(target: Aim, press: Press, clients: int, begun: Event) -> None:
+    """So many clients, until they are killed."""
+    os.nice(_NICENESS)
+    begun.set()
+
+    async def client(number: int) -> None:
+        while True:
+            with suppress(OSError):
+                await press(target, number)
+            await asyncio.sleep(0.5)
+
+    async def all_of_them() -> None:
+        await asyncio.gather(*(client(number) for number in range(clients)))
+
+    asyncio.run(all_of_them())
 
 
 def quantile_ms(seconds: list[float], share: float) -> float:
@@ -198,7 +233,7 @@ def main() -> int:
     parser.add_argument("--clients", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=60.0)
     given = parser.parse_args()
-    failures = 0
+    failures, quiet = 0, 0.0
     presses: dict[str, tuple[Press, int]] = {
         "nobody": (silent, 0),
         **{name: (press, min(300, given.clients)) for name, press in PRESSES.items()},
@@ -209,12 +244,17 @@ def main() -> int:
         print(f"at rest: {held_mb(target):.0f} MB")
         for name, (press, clients) in presses.items():
             outcome = asyncio.run(beside(target, press, clients, given.seconds))
-            p50, p99 = (quantile_ms(outcome.seconds, share) for share in (0.5, 0.99))
+            together = [each for times in outcome.seconds.values() for each in times]
+            p50, p99 = (quantile_ms(together, share) for share in (0.5, 0.99))
+            quiet = quiet or p99
             print(
                 f"{name:<20}{clients:>5} clients  bystander: {outcome.statuses.total():>5} requests, {outcome.refused} "
-                f"refused, p50 {p50:6.1f} ms, p99 {p99:7.1f} ms  above rest: {outcome.held_mb:5.0f} MB",
+                f"refused, p50 {p50:6.1f} ms, p99 {p99:7.1f} ms, {p99 / quiet:5.1f} of quiet  above rest: "
+                f"{outcome.held_mb:5.0f} MB",
                 flush=True,
             )
+            each = (f"{path} {quantile_ms(times, 0.99):.0f}" for path, times in outcome.seconds.items())
+            print(f"    p99 [ms]: {', '.join(each)}", flush=True)
             failures += outcome.refused + (outcome.held_mb > CEILING_MB)
         faults = target.log().count('"level": "ERROR"')
         asyncio.run(target.ask("DELETE", target.sweep))  # type: ignore[attr-defined]

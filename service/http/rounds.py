@@ -1,0 +1,44 @@
+"""Whose bytes are looked at next: client by client, so that one who sends on hundreds of connections delays nobody."""
+
+from collections import OrderedDict, deque
+from collections.abc import Callable
+
+Work = Callable[[], None]
+
+
+class Rounds:
+    """One piece of work in each turn of an event loop, of one client after the other.
+
+    What is alone is done at once, so that it costs nothing where there is no haste.
+
+    Parameters
+    ----------
+    call_soon : has something done in the next turn of the loop.
+    """
+
+    def __init__(self, call_soon: Callable[[Work], object]) -> None:
+        self._call_soon = call_soon
+        self._waiting: OrderedDict[str, deque[Work]] = OrderedDict()
+        self._taken = False
+
+    def ask(self, client: str, work: Work) -> bool:
+        """Have some work done, in the order in which its client asks; whether it has been done already."""
+        if self._taken:
+            self._waiting.setdefault(client, deque()).append(work)
+            return False
+        self._taken = True
+        self._call_soon(self._next)
+        work()
+        return True
+
+    def _next(self) -> None:
+        if not self._waiting:
+            self._taken = False
+            return
+        client, own = self._waiting.popitem(last=False)
+        work = own.popleft()
+        if own:
+            # behind all others
+            self._waiting[client] = own
+        self._call_soon(self._next)
+        work()
