@@ -4,20 +4,27 @@ Every array has the leading axes (...) of the layout: none for one machine, one 
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import RODS, rod_problems
+from optimizer.effects.results import (
+    FlywheelFigures,
+    FrictionForces,
+    GasCycle,
+    PistonForces,
+    TorqueErrors,
+    TorqueIntegrals,
+    TorqueSeries,
+)
 from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, without_gas
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
-from optimizer.mechanics.gas import Chambers, GasForces, gas_forces, indicated_work, switching_angles
+from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import Motion, motion
-from optimizer.mechanics.layout import Layout, stacked
 from optimizer.mechanics.layout import layout as layout_of
+from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.row_series import row_data
 from optimizer.mechanics.turn import fluctuation, mean, panels
@@ -29,85 +36,6 @@ from schemas.rules import Rule
 _WIDEST_PANEL = np.deg2rad(10.0)
 #: rows times angles that are worked on at once, which bounds the memory
 _AT_ONCE = 500_000
-
-
-@dataclass(frozen=True)
-class GasCycle:
-    """Gas of all rows: forces over the samples, and what the chambers do whatever the samples."""
-
-    chambers: Chambers
-    layout: Layout
-    forces: GasForces
-
-    @cached_property
-    def opens(self) -> tuple[Real, Real]:
-        """Own crank angles at which suction and discharge open, (..., rows, 2) rad each."""
-        return switching_angles(self.chambers, self.layout)
-
-    @cached_property
-    def work(self) -> Real:
-        """(..., rows, 2) J, indicated."""
-        return indicated_work(self.chambers, self.layout)
-
-    @cached_property
-    def power(self) -> Real:
-        """(..., rows) W, indicated."""
-        return np.sum(self.work, axis=-1) * self.layout.omega[..., None] / (2.0 * np.pi)
-
-
-@dataclass(frozen=True)
-class FrictionForces:
-    """Friction of all rows over the samples, and of the shaft."""
-
-    magnitude: Real  # (..., rows) N
-    force: Real  # (..., rows, T) N
-    torque: Real  # (...) N m
-
-
-@dataclass(frozen=True)
-class PistonForces:
-    """What acts on the pistons, (..., rows, T) N."""
-
-    gas: Real
-    inertia: Real
-    friction: Real
-    total: Real
-
-
-@dataclass(frozen=True)
-class TorqueSeries:
-    """Torque over the samples, N m."""
-
-    rows: Real  # (..., rows, T)
-    total: Real  # (..., T)
-    rotating_friction: Real  # (...)
-
-
-@dataclass(frozen=True)
-class TorqueIntegrals:
-    """Means and ranges over the turn, whatever the samples."""
-
-    row_mean: Real  # (..., rows) N m
-    mean: Real  # (...) N m
-    fluctuation: Real  # (...) J
-    indicated_power: Real  # (...) W
-    friction_power: Real  # (...) W
-
-
-@dataclass(frozen=True)
-class TorqueErrors:
-    """By how much the integrals differ from those over panels twice as wide (...)."""
-
-    mean: Real  # N m
-    fluctuation: Real  # J
-
-
-@dataclass(frozen=True)
-class FlywheelFigures:
-    """Irregularity and inertia that belong to each other (...)."""
-
-    irregularity: Real
-    inertia: Real  # kg m^2
 
 
 def _reciprocating(machine: Machine) -> ReciprocatingMachine:

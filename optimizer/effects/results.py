@@ -1,0 +1,89 @@
+"""What the effects over the turn come to, with the leading axes (...) of the layout."""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.mechanics.gas import Chambers, GasForces, indicated_work, switching_angles
+from optimizer.mechanics.layout import Layout
+
+
+@dataclass(frozen=True)
+class GasCycle:
+    """Gas of all rows: forces over the samples, and what the chambers do whatever the samples."""
+
+    chambers: Chambers
+    layout: Layout
+    forces: GasForces
+
+    @cached_property
+    def opens(self) -> tuple[Real, Real]:
+        """Own crank angles at which suction and discharge open, (..., rows, 2) rad each."""
+        return switching_angles(self.chambers, self.layout)
+
+    @cached_property
+    def work(self) -> Real:
+        """(..., rows, 2) J, indicated."""
+        return indicated_work(self.chambers, self.layout)
+
+    @cached_property
+    def power(self) -> Real:
+        """(..., rows) W, indicated."""
+        return np.sum(self.work, axis=-1) * self.layout.omega[..., None] / (2.0 * np.pi)
+
+
+@dataclass(frozen=True)
+class FrictionForces:
+    """Friction of all rows over the samples, and of the shaft."""
+
+    magnitude: Real  # (..., rows) N
+    force: Real  # (..., rows, T) N
+    torque: Real  # (...) N m
+
+
+@dataclass(frozen=True)
+class PistonForces:
+    """What acts on the pistons, (..., rows, T) N."""
+
+    gas: Real
+    inertia: Real
+    friction: Real
+    total: Real
+
+
+@dataclass(frozen=True)
+class TorqueSeries:
+    """Torque over the samples, N m."""
+
+    rows: Real  # (..., rows, T)
+    total: Real  # (..., T)
+    rotating_friction: Real  # (...)
+
+
+@dataclass(frozen=True)
+class TorqueIntegrals:
+    """Means and ranges over the turn, whatever the samples."""
+
+    row_mean: Real  # (..., rows) N m
+    mean: Real  # (...) N m
+    fluctuation: Real  # (...) J
+    indicated_power: Real  # (...) W
+    friction_power: Real  # (...) W
+
+
+@dataclass(frozen=True)
+class TorqueErrors:
+    """By how much the integrals differ from those over panels twice as wide (...)."""
+
+    mean: Real  # N m
+    fluctuation: Real  # J
+
+
+@dataclass(frozen=True)
+class FlywheelFigures:
+    """Irregularity and inertia that belong to each other (...)."""
+
+    irregularity: Real
+    inertia: Real  # kg m^2
