@@ -6,7 +6,9 @@ from typing import Any
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
 from optimizer.errors import MissingInput
+from optimizer.figures.balance_rate import balance_rate
 from optimizer.figures.bearings import MAIN_BEARINGS
+from optimizer.figures.cautions import cautions
 from optimizer.figures.dynamics import OVER_THE_TURN
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
 from optimizer.figures.orders import ORDERS
@@ -66,6 +68,8 @@ def fields(scene: Prepared, unbalance: Complex | None, always: tuple[str, ...] =
     found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         found["floor"] = floor(scene.first_order())
+    found["balance_rate"] = balance_rate(scene.machine, unbalance)
+    found["warnings"] = cautions(scene, unbalance, found)
     return found
 
 

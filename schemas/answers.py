@@ -5,7 +5,8 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.base import Answer, Model
-from schemas.outputs import OutputFields
+from schemas.caution import Caution
+from schemas.outputs import Order, OutputFields
 from schemas.proof import InfeasibilityMultipliers, Multipliers
 from schemas.quantities import (
     Degrees,
@@ -85,13 +86,41 @@ class FirstOrder(Model):
     )
 
 
+class ResidualOrders(Model):
+    """Orders 1 and 2 without and with counterweights, which change the first alone; closed forms."""
+
+    before: tuple[Order, Order | None] = Field(
+        description="without counterweights; the second is null where a row has no rod", examples=[[{"order": 1}, None]]
+    )
+    after: tuple[Order, Order | None] | None = Field(
+        description="with the counterweights; null where there are none to show (infeasible)",
+        examples=[[{"order": 1}, None]],
+    )
+
+
 class Residual(Model):
-    """First order without and with counterweights."""
+    """First order without and with counterweights, and the second that they cannot change."""
 
     before: FirstOrder = Field(description="without counterweights", examples=[{"force": {"peak_N": 9994.7}}])
     after: FirstOrder | None = Field(
         description="with the counterweights; null where there are none to show (infeasible)",
         examples=[{"force": {"peak_N": 4997.4}}],
+    )
+    orders: ResidualOrders = Field(description="orders 1 and 2 as phasors", examples=[{"before": [{"order": 1}, None]}])
+
+
+class BalanceRate(Model):
+    """How much of the rotating unbalance of a throw its own webs balance; a web belongs to the nearest throw."""
+
+    throw: int = Field(description="number of the throw in the machine, from 0", examples=[0])
+    name: str | None = Field(description="name of the throw", examples=["1"])
+    rate: float | None = Field(
+        description="share that is opposite the crank: 1 is the customary crank, 0 a bare one; null where the throw "
+        "has no rotating mass",
+        examples=[0.82],
+    )
+    sideways: float | None = Field(
+        description="share across the crank, a quarter of a turn counter-clockwise from opposite it", examples=[0.0]
     )
 
 
@@ -256,6 +285,14 @@ class OptimizeAnswer(OutputFields, Answer):
     infeasibility: Infeasibility | None = Field(
         None, description="which ceilings conflict; only if infeasible", examples=[None]
     )
+    balance_rate: tuple[BalanceRate, ...] = Field(
+        (), description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]
+    )
+    warnings: tuple[Caution, ...] = Field(
+        (),
+        description="what one should know about an answer that is right as it stands",
+        examples=[[{"code": "bare_crank", "message": "", "pointer": "/objective"}]],
+    )
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
     effects: dict[str, EffectUse] = Field(
         description="every effect, whether it was simulated, for which outputs, and its time",
@@ -275,6 +312,14 @@ class AnalyzeAnswer(OutputFields, Answer):
         None,
         description="what no counterweights can remove; null if no output asks for the first order",
         examples=[{"force_N": 2498.7}],
+    )
+    balance_rate: tuple[BalanceRate, ...] = Field(
+        (), description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]
+    )
+    warnings: tuple[Caution, ...] = Field(
+        (),
+        description="what one should know about an answer that is right as it stands",
+        examples=[[{"code": "bare_crank", "message": "", "pointer": "/objective"}]],
     )
     reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
     residual: Residual | None = Field(None, description="first order before and after, if asked for", examples=[None])

@@ -6,11 +6,13 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
-from optimizer.mechanics.inertia import Wrench
+from optimizer.figures.phasors import order_of
+from optimizer.mechanics.inertia import Wrench, reciprocating
+from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
-from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual
-from schemas.outputs import Hodograph, Hodographs
+from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual, ResidualOrders
+from schemas.outputs import Hodograph, Hodographs, Order
 from schemas.proof import BoundMultipliers
 
 FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
@@ -49,9 +51,24 @@ def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMu
 
 
 def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
-    """First order of one machine without and with counterweights."""
-    after = None if unbalance is None else first_order(scene.first_order(unbalance))
-    return Residual(before=first_order(scene.first_order()), after=after)
+    """First order of one machine without and with counterweights, and the second beside it."""
+    before, after = scene.first_order(), None if unbalance is None else scene.first_order(unbalance)
+    second = _second_order(scene)
+    return Residual(
+        before=first_order(before),
+        after=None if after is None else first_order(after),
+        orders=ResidualOrders(
+            before=(order_of(1, before), second), after=None if after is None else (order_of(1, after), second)
+        ),
+    )
+
+
+def _second_order(scene: Prepared) -> Order | None:
+    """Second order of one machine, which counterweights do not change; None where a row has no rod."""
+    if np.any(np.isnan(scene.layout.reciprocating.rod_ratio)):
+        return None
+    harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
+    return order_of(2, reciprocating(scene.layout, 2, harmonic).times(scene.layout.omega**2))
 
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:

@@ -12,6 +12,7 @@ export function showAnswer(place, request, answer, outputs) {
   place.replaceChildren(
     h("h2", { class: `status ${answer.status}` }, headline(answer)),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
+    h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
     comparison(request, answer),
     h("div", { class: "drawings" },
       h("figure", {}, front(request.machine, fitted), h("figcaption", {}, "From the front, shaft angle 0")),

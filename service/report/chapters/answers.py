@@ -11,6 +11,7 @@ from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.pins import pin_loads
+from service.report.chapters.worth_knowing import worth_knowing
 
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
@@ -25,6 +26,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     """Counterweights, what they leave, and the certificate; or why there are none."""
     yield verdict.result(request, answer)
     yield balance.counterweights(answer)
+    yield from worth_knowing(answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     if answer.stages is not None:
@@ -37,6 +39,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     if answer.total_mass_kg > 0:
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
         yield Chapter("Counterweights", (balance.places(answer.counterweights), total))
+    yield from worth_knowing(answer)
     if answer.residual is not None and answer.floor is not None:
         before, after = answer.residual.before, answer.residual.after
         yield balance.first_order(request.machine, before, after, answer.floor, "with counterweights")

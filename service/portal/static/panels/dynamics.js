@@ -5,7 +5,7 @@ import { figure, nameOf, number } from "../format.js";
 import { closed, colours, line, overTurn, plot, series } from "../plots.js";
 
 const CASES = { running: "running", no_load: "no load", sudden_stop: "sudden stop" };
-const RATED = { needs: ["rods", "cylinders"], kind: "reciprocating" };
+const DRIVEN = { needs: ["rods"], kind: "reciprocating" };
 
 // the machine as it stands, with the counterweights that were found
 export function scene({ request, answer }, outputs, step = 2) {
@@ -17,7 +17,7 @@ export function scene({ request, answer }, outputs, step = 2) {
 const rowName = (row) => `throw ${row.throw + 1}, row ${nameOf(row, row.row)}`;
 
 export const torque = {
-  ...RATED, id: "torque", output: "torque", title: "Torque",
+  ...DRIVEN, id: "torque", output: "torque", title: "Torque",
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["torque"]))).torque;
     const node = h("div");
@@ -36,7 +36,7 @@ export const torque = {
 };
 
 export const rodLoads = {
-  ...RATED, id: "rod-loads", output: "rod_loads", title: "Rod loads",
+  ...DRIVEN, id: "rod-loads", output: "rod_loads", title: "Rod loads",
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["rod_loads"]))).rod_loads;
     const nodes = [["rod_N", "rod force, N (tension positive)"], ["side_N", "force on the guide, N"]].map(([name, title]) => ({ name, title, node: h("div") }));
@@ -54,7 +54,7 @@ export const rodLoads = {
 };
 
 export const flywheel = {
-  ...RATED, id: "flywheel", output: "flywheel", title: "Flywheel", needs: ["rods", "cylinders", "flywheel"],
+  ...DRIVEN, id: "flywheel", output: "flywheel", title: "Flywheel", needs: ["rods", "flywheel"],
   async draw(body, context) {
     const answer = await context.ask("v1/analyze", scene(context, ["torque", "flywheel"]));
     const { torque: turned, flywheel: found } = answer;
@@ -77,7 +77,7 @@ export const flywheel = {
 };
 
 export const mainBearings = {
-  ...RATED, id: "main-bearings", output: "main_bearings", title: "Main bearings", needs: ["rods", "cylinders", "bearings"],
+  ...DRIVEN, id: "main-bearings", output: "main_bearings", title: "Main bearings", needs: ["rods", "bearings"],
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["main_bearings"]))).main_bearings;
     const [locus, size, bending] = [h("div"), h("div"), h("div")];

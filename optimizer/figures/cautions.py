@@ -1,0 +1,184 @@
+"""Warnings of an answer: what is right as it stands and may still be taken for something else."""
+
+from collections.abc import Callable, Iterator, Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex
+from optimizer.figures.balance_rate import cranks
+from optimizer.figures.peaks import bearing_and_bending_curves, of_shaft
+from optimizer.formulate import span
+from optimizer.mechanics.cylinders import without_gas
+from optimizer.scene import Prepared
+from schemas.answers import Residual
+from schemas.caution import Caution, CautionCode
+from schemas.dynamics import MainBearings
+from schemas.machine import ReciprocatingMachine
+from schemas.requests import OptimizeRequest
+from schemas.sweep import pointer
+
+#: a share of what the machine shakes with that is worth a word
+_NOTABLE = 1e-3
+#: a throw whose webs balance less than this share of its rotating mass is bare
+_BARE = 0.5
+#: webs that make the span so many times that of the throws decide it
+_FAR = 2.0
+#: loads that differ by less than this share are alike
+_ALIKE = 1e-6
+
+
+class Told(NamedTuple):
+    """What there is to look at."""
+
+    scene: Prepared
+    unbalance: Complex | None  # (webs,) kg m; None where there are none to show
+    fields: Mapping[str, Any]  # of the answer, by name
+
+
+def cautions(scene: Prepared, unbalance: Complex | None, fields: Mapping[str, Any]) -> tuple[Caution, ...]:
+    """All warnings of one machine, in a fixed order.
+
+    Parameters
+    ----------
+    fields : of the answer that has been made so far.
+    """
+    told = Told(scene, unbalance, fields)
+    return tuple(caution for watch in WATCHES for caution in watch(told))
+
+
+def _sizes(scene: Prepared) -> tuple[float, float]:
+    """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
+    masses, rows = scene.layout.rotating, scene.layout.reciprocating
+    unbalance = np.sum(masses.mass * masses.radius) + np.sum(rows.mass * rows.crank_radius)
+    force = float(unbalance) * scene.omega_squared
+    return force, force * float(span(scene.machine))
+
+
+def _no_gas(told: Told) -> Iterator[Caution]:
+    """Rows whose loads were wanted with gas and have none."""
+    machine = told.scene.machine
+    if not isinstance(machine, ReciprocatingMachine) or not told.scene.simulated.uses["piston_force"].simulated:
+        return
+    rows = without_gas(machine)
+    if rows:
+        who = "1 row has no cylinder: its" if len(rows) == 1 else f"{len(rows)} rows have no cylinder: their"
+        yield Caution(
+            code="no_gas",
+            message=f"{who} loads are those of inertia and friction alone.",
+            pointer=pointer(("machine", *rows[0])),
+        )
+
+
+def _second_order(told: Told) -> Iterator[Caution]:
+    """What counterweights on the shaft cannot change, where it is more than what they leave."""
+    residual: Residual | None = told.fields.get("residual")
+    first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
+    if residual is None or first is None or second is None:
+        return
+    force, moment = _sizes(told.scene)
+    for what, left, twice, size, unit in (
+        ("force", first.force.peak_N, second.force.peak_N, force, "N"),
+        ("moment", first.moment.peak_Nm, second.moment.peak_Nm, moment, "N m"),
+    ):
+        if twice > left and twice > _NOTABLE * size:
+            yield Caution(
+                code="second_order_remains",
+                message=f"A {what} of {twice:.4g} {unit} remains at twice the shaft speed, more than the {left:.4g} "
+                f"{unit} at the speed itself: no counterweight on the crank changes it.",
+                pointer="/machine/throws",
+            )
+
+
+def _bare_crank(told: Told) -> Iterator[Caution]:
+    """External balance alone leaves the bearings to carry the rotating masses."""
+    request, machine = told.scene.request, told.scene.machine
+    if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
+        return
+    if told.unbalance is None or not machine.webs:
+        return
+    rates = cranks(machine).rates(told.unbalance).real
+    bare = np.flatnonzero(rates < _BARE)
+    if bare.size:
+        least = int(bare[np.argmin(rates[bare])])
+        name = machine.throws[least].name or str(least + 1)
+        yield Caution(
+            code="bare_crank",
+            message=f"{bare.size} of {len(machine.throws)} throws have less than half of their rotating mass balanced "
+            f"by their own webs (throw {name}: {rates[least] + 0.0:.2f}). What leaves the machine needs no more, but "
+            "its main bearings carry the rest: ask for main_bearings.",
+            pointer="/objective",
+        )
+
+
+def _component_grows(told: Told) -> Iterator[Caution]:
+    """A component across the shaft that counterweights make larger."""
+    residual: Residual | None = told.fields.get("residual")
+    if residual is None or residual.after is None:
+        return
+    was, now, sizes = residual.before, residual.after, _sizes(told.scene)
+    for what, unit, size, pairs in (
+        ("force", "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
+                                          "y": (was.force.peak_y_N, now.force.peak_y_N)}),
+        ("moment", "N m", sizes[1], {"x": (was.moment.peak_x_Nm, now.moment.peak_x_Nm),
+                                               "y": (was.moment.peak_y_Nm, now.moment.peak_y_Nm)}),
+    ):  # fmt: skip
+        for axis, (before, after) in pairs.items():
+            if after > before + _NOTABLE * size:
+                yield Caution(
+                    code="component_grows",
+                    message=f"The {what} along {axis} grows from {before:.4g} to {after:.4g} {unit}: weigh that "
+                    "direction more if it matters.",
+                    pointer=f"/objective/direction_weights/{axis}",
+                )
+
+
+def _far_web(told: Told) -> Iterator[Caution]:
+    """A default weight of the moment that a web far from the throws decides."""
+    request, machine = told.scene.request, told.scene.machine
+    if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
+        return
+    if request.objective.moment_weight is not None or not machine.webs:
+        return
+    planes = [throw.position_m for throw in machine.throws]
+    own, whole = max(planes) - min(planes), float(span(machine))
+    if own > 0.0 and whole > _FAR * own:
+        middle = 0.5 * (max(planes) + min(planes))
+        far = max(range(len(machine.webs)), key=lambda k: abs(machine.webs[k].position_m - middle))
+        yield Caution(
+            code="span_of_a_far_web",
+            message=f"The moment is weighed with the span {whole:.4g} m of throws and webs, which web "
+            f"{machine.webs[far].name} makes {whole / own:.2g} times that of the throws: give moment_weight.",
+            pointer=f"/machine/webs/{far}/position_m",
+        )
+
+
+def _loads_grow(told: Told) -> Iterator[Caution]:
+    """Bearing loads or bending moments above those of the bare or of the customary crank."""
+    scene, machine = told.scene, told.scene.machine
+    shown: MainBearings | None = told.fields.get("main_bearings")
+    if shown is None or told.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
+        return
+    stations, count = np.array(shown.bending.position_m), len(machine.bearings)
+    curves = bearing_and_bending_curves(scene, stations)
+    usual = of_shaft(scene, curves, cranks(machine).customary).lower
+    before = np.array([*(one.before.peak_N for one in shown.bearings), *shown.bending.before_Nm])
+    after = np.array([*(one.after.peak_N for one in shown.bearings if one.after), *(shown.bending.after_Nm or ())])
+    kinds: tuple[tuple[CautionCode, str, str, slice], ...] = (
+        ("bearing_load_grows", "bearing load", "N", slice(0, count)),
+        ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
+    )
+    for code, what, unit, some in kinds:
+        now, bare, customary = (float(np.max(each[some])) for each in (after, before, usual))
+        for than, of in ((bare, "without counterweights"), (customary, "of a crank balanced throw by throw")):
+            if now > than * (1.0 + _ALIKE):
+                yield Caution(
+                    code=code,
+                    message=f"The largest {what} is {now:.4g} {unit}, above the {than:.4g} {unit} {of}.",
+                    pointer="/objective" if isinstance(scene.request, OptimizeRequest) else "/counterweights",
+                )
+
+
+#: what is looked at, in the order of the answer
+Watch = Callable[[Told], Iterator[Caution]]
+WATCHES: tuple[Watch, ...] = (_no_gas, _second_order, _bare_crank, _component_grows, _far_web, _loads_grow)

@@ -1,0 +1,47 @@
+"""The balance rate: which share of the rotating unbalance of each throw its own webs balance.
+
+A web belongs to the nearest throw, and to those equally near in equal shares. Rate and sideways part are the real and
+imaginary part of -e^{-jd} sum u / (m_rot r), d the angle of the crank: 1 is the customary crank, 0 a bare one.
+"""
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+
+#: distances that differ by less than this share of the extent are equal
+_TIE = 1e-9
+
+
+def web_shares(throw: Real, web: Real) -> Real:
+    """Which share of each web belongs to each throw, (..., throws, webs).
+
+    Parameters
+    ----------
+    throw, web : (..., throws) and (..., webs) places on z, m.
+    """
+    distance = np.abs(throw[..., :, None] - web[..., None, :])
+    least = np.min(distance, axis=-2, keepdims=True)
+    extent = np.max(np.abs(throw), axis=-1)[..., None, None] + np.max(distance, axis=(-2, -1), keepdims=True, initial=0)
+    near = distance <= least + _TIE * extent
+    return near / np.sum(near, axis=-2, keepdims=True)
+
+
+def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Complex:
+    """Balance rate (real part) and its sideways part (imaginary) of every throw, (..., throws); nan without unbalance.
+
+    Parameters
+    ----------
+    rotating : (..., throws) rotating unbalance m r e^{jd} of the throws with the shares of their rods, kg m.
+    shares : (..., throws, webs).
+    unbalance : (..., webs) of the counterweights, kg m.
+    """
+    opposed = -np.sum(shares * unbalance[..., None, :], axis=-1)
+    there = rotating != 0.0
+    return np.where(there, opposed / np.where(there, rotating, 1.0), np.nan)
+
+
+def customary(rotating: Complex, shares: Real) -> Complex:
+    """Counterweights (..., webs) kg m that balance the rotating unbalance of every throw, alike on each of its webs."""
+    held = np.sum(shares, axis=-1, keepdims=True)
+    of_webs = shares / np.where(held > 0.0, held, 1.0)
+    return -np.sum(of_webs * rotating[..., None], axis=-2)

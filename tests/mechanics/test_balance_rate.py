@@ -1,0 +1,36 @@
+"""Balance rates: whose webs are whose, and which share of a crank they balance."""
+
+import numpy as np
+import pytest
+
+from optimizer.mechanics.balance_rate import balance_rates, customary, web_shares
+
+
+def test_a_published_crank() -> None:
+    # published: INNIO Jenbacher V16, two counterweights of 17.15 kg at 136.4 mm on every throw
+    rotating = 8.66190878660935 * 0.06 + 2 * 14.45 * 0.0173 + 2 * 11.33 * 0.06
+    opposed = np.full(2, -17.15 * 0.1364 + 0j)
+    rate = balance_rates(np.array([rotating + 0j]), np.ones((1, 2)), opposed)
+    assert rate.real == pytest.approx(1.966355829, rel=1e-9)
+    assert rate.imag == pytest.approx(0.0, abs=1e-15)
+
+
+def test_a_web_belongs_to_the_nearest_throw_and_half_to_each_at_a_tie() -> None:
+    # analytic
+    shares = web_shares(np.array([0.0, 1.0, 2.0]), np.array([-5.0, 0.4, 0.5, 2.0, 1.5]))
+    expected = [[1, 1, 0.5, 0, 0], [0, 0, 0.5, 0, 0.5], [0, 0, 0, 1, 0.5]]
+    assert shares.tolist() == expected
+
+
+def test_the_customary_crank_has_a_rate_of_one_and_the_sideways_part_is_across() -> None:
+    # analytic
+    rotating = np.array([2.0, 3.0]) * np.exp(1j * np.array([0.7, 2.9]))
+    shares = web_shares(np.array([0.0, 1.0]), np.array([-0.1, 0.1, 0.9, 1.1]))
+    alike = customary(rotating, shares)
+    assert balance_rates(rotating, shares, alike) == pytest.approx([1.0, 1.0])
+    assert alike[0] == alike[1]
+    across = balance_rates(rotating, shares, 1j * alike)
+    assert across.real == pytest.approx([0.0, 0.0], abs=1e-15)
+    assert across.imag == pytest.approx([1.0, 1.0])
+    assert np.isnan(balance_rates(np.zeros(1, complex), np.ones((1, 1)), np.ones(1, complex))[0])
+    assert customary(rotating, np.zeros((2, 0))).shape == (0,)
