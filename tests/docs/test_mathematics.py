@@ -4,9 +4,8 @@ import re
 
 import pytest
 
-from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
 from tests.docs.reading import ROOT, agrees, blocks
+from tests.verification.checking import optimized
 
 TEXT = (ROOT / "docs" / "mathematics.md").read_text().split("### Checked by hand\n")[1].split("\n## ")[0]
 
@@ -14,7 +13,7 @@ TEXT = (ROOT / "docs" / "mathematics.md").read_text().split("### Checked by hand
 def test_the_bound_that_is_checked_by_hand_is_that_of_the_answer() -> None:
     """Analytic: the sum that stands there is evaluated, and so is the formula, from request and multipliers alone."""
     request, multipliers = blocks(TEXT)
-    answer = optimize(OptimizeRequest.model_validate(request))
+    answer = optimized(request)
     assert answer.certificate is not None
     agrees(multipliers, answer.certificate.multipliers.objective.model_dump(mode="json"))
     machine = request["machine"]

@@ -5,13 +5,12 @@ All expected numbers are independent: tests/hard/reference.json, computed by tes
 
 import pytest
 
-from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
 from tests.hard import stored
 from tests.hard.battery import run
 from tests.hard.cases import all_cases
 from tests.hard.cases.case import Case, case, machine, v_twin, web
 from tests.hard.reference import reference
+from tests.verification.checking import optimized
 
 _CASES = all_cases()
 _KNOWN = stored.read()
@@ -74,7 +73,7 @@ def test_bounds_hold_where_the_webs_can_hardly_be_told_apart(place: float, limit
     """Slopes that cancel, times a reach of up to 1e12 kg (independent: the 100-digit reference)."""
     webs = [web("a", place, limit), web("b", place + gap, limit)]
     asked = case("webs/far", "slope times reach", machine(v_twin(), webs))
-    found, expected = optimize(OptimizeRequest.model_validate(asked.body)), reference(asked.body)
+    found, expected = optimized(asked.body), reference(asked.body)
     assert found.certificate.lower_bound <= expected.objective <= found.certificate.objective
     assert found.certificate.mass_lower_bound_kg <= expected.mass
     # sharp all the same

@@ -13,7 +13,6 @@ from typing import Any
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, Case
@@ -22,6 +21,7 @@ from tests.hard.judge import MASS_GAP, judge
 from tests.hard.program import goal, machine
 from tests.hard.reference import reference
 from tests.hard.wild import in_other_units, requests
+from tests.verification.checking import optimized
 
 _COUNT = int(os.environ.get("HARD_SEARCH", "0"))
 #: what is not certified says so: that is no fault of a wild machine
@@ -45,7 +45,7 @@ def _found(body: Body, faults: Sequence[str] = ()) -> str:
 
 def _answer(body: Body) -> OptimizeAnswer:
     try:
-        return optimize(OptimizeRequest.model_validate(body))
+        return optimized(body)
     except Exception as error:
         error.add_note(_found(body))
         raise

@@ -2,14 +2,13 @@
 
 import pytest
 
-from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
 from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
 from tests.hard.bodies import tried
 from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
 from tests.sweep.single import sweep
+from tests.verification.checking import optimized
 
 
 def _without_influence(ceiling: float) -> Body:
@@ -22,7 +21,7 @@ def _without_influence(ceiling: float) -> Body:
 @pytest.mark.parametrize(("ceiling", "status"), [(1.0, "infeasible"), (1e9, "optimal"), (0.0, "infeasible")])
 def test_a_web_that_does_nothing_to_what_counts(ceiling: float, status: str) -> None:
     body = _without_influence(ceiling)
-    found = optimize(OptimizeRequest.model_validate(body))
+    found = optimized(body)
     assert found.status == status
     request = sweep(body, {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]]})
     assert run_chunk(request.model_dump_json().encode(), 0, 1).to_pylist()[0]["status"] == status
@@ -33,7 +32,7 @@ def test_a_web_that_does_nothing_to_what_counts(ceiling: float, status: str) -> 
 @pytest.mark.parametrize("combine", ["sum", "max"])
 def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> None:
     goal = {"force_weight": weights[0], "moment_weight": weights[1], "combine": combine}
-    found = optimize(OptimizeRequest.model_validate({"machine": machine(v_twin(), four_webs()), "objective": goal}))
+    found = optimized({"machine": machine(v_twin(), four_webs()), "objective": goal})
     assert found.status == "optimal"
 
 

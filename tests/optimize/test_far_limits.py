@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
 from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.sweep.single import sweep
+from tests.verification.checking import optimized
 
 #: 1 rad/s, so that forces are mass-radius products
 ONE = {"omega": 1.0}
@@ -27,7 +27,7 @@ def issued(far: float | None) -> Body:
 
 @pytest.mark.parametrize("far", [1.0, 1e3, 1e7, 1e12, 1e15, 1e300, None])
 def test_a_budget_beside_a_far_limit(far: float | None) -> None:
-    found = optimize(OptimizeRequest.model_validate(issued(far)))
+    found = optimized(issued(far))
     proof = found.certificate
     assert found.status == "optimal"
     assert proof.objective == pytest.approx(8.68, abs=1.1e-5)  # analytic; optima differ by 1e-6 of 10
@@ -45,7 +45,7 @@ def test_the_same_in_a_sweep_and_as_what_can_be_reached() -> None:
     assert [row["status"] for row in rows] == ["optimal"] * 3
     assert [row["lower_bound"] for row in rows] == pytest.approx([8.68] * 3, rel=1e-9)  # analytic
     infeasible = issued(1e15) | {"objective": {"force_ceiling_N": 8.6}}
-    told = optimize(OptimizeRequest.model_validate(infeasible)).infeasibility
+    told = optimized(infeasible).infeasibility
     assert 8.68 * (1 - 1e-9) <= told.smallest_force_lower_bound_N <= 8.68
     assert told.smallest_force_N == pytest.approx(8.68, rel=1e-9)
 
@@ -86,7 +86,7 @@ def _random(seed: int, sectors: bool, budget: bool, ceiling: bool) -> Body:
     ]
     body = {"machine": machine(throws, webs, max_total_mass_kg=8.0 if budget else None), "objective": {}}
     if ceiling:
-        before = optimize(OptimizeRequest.model_validate(body)).residual
+        before = optimized(body).residual
         body["objective"] = {"force_ceiling_N": 0.5 * (before.before.force.peak_N + before.after.force.peak_N)}
     return body
 
@@ -102,13 +102,13 @@ def _limited(body: Body, most: float) -> Body:
 def test_no_limit_is_any_limit_that_is_large_enough(seed: int) -> None:
     """Independent: the same machine with explicit limits, of which the smallest are the implied ones."""
     body = _random(seed, seed % 2 > 0, seed % 4 > 1, seed % 8 > 3)
-    free = optimize(OptimizeRequest.model_validate(body))
+    free = optimized(body)
     assert free.status == "optimal"
     proof = free.certificate
     unlimited = {one["name"] for one in body["machine"]["webs"] if one["max_mass_kg"] is None}
     assert set(proof.implied_max_mass_kg) == unlimited
     for most in (max(proof.implied_max_mass_kg.values(), default=1.0), 1e5, 1e12, 1e300):
-        found = optimize(OptimizeRequest.model_validate(_limited(body, most)))
+        found = optimized(_limited(body, most))
         size = proof.yardstick
         assert found.status == "optimal"
         assert found.certificate.objective == pytest.approx(proof.objective, abs=2e-6 * size)
@@ -119,7 +119,7 @@ def test_no_limit_is_any_limit_that_is_large_enough(seed: int) -> None:
 
 def test_no_limit_in_a_sweep_and_in_a_front() -> None:
     body = _random(3, True, False, False)
-    free = optimize(OptimizeRequest.model_validate(body))
+    free = optimized(body)
     request = sweep(body, {"path": "/machine/speed_rpm", "values": [body["machine"]["speed_rpm"]]})
     alone = run_chunk(request.model_dump_json().encode(), 0, 1).to_pylist()[0]
     assert alone["status"] == "optimal"

@@ -16,10 +16,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.optimize import optimize
 from schemas.answers import Certificate, OptimizeAnswer
-from schemas.requests import OptimizeRequest
 from tests.optimize.machines import machine, random_machine, row, throw, web
+from tests.verification.checking import optimized
 
 EXAMPLES = {
     path.stem: json.loads(path.read_text())["machine"]
@@ -34,7 +33,7 @@ ROUNDING = 1e-12
 
 
 def answer(body: dict[str, Any], objective: dict[str, Any] | None = None) -> OptimizeAnswer:
-    return optimize(OptimizeRequest.model_validate({"machine": body, "objective": objective or {}}))
+    return optimized({"machine": body, "objective": objective or {}})
 
 
 def proof(found: OptimizeAnswer) -> Certificate:

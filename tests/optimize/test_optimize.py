@@ -230,7 +230,7 @@ def test_active_limits_are_named() -> None:
 
 def test_an_asked_gap_that_cannot_be_certified_is_called_inaccurate() -> None:
     request = {"machine": random_machine(3), "accuracy": {"relative_gap": 1e-12}, "objective": {"combine": "max"}}
-    found = optimize(OptimizeRequest.model_validate(request))
+    found = optimized(request)
     expected = "optimal" if found.certificate.relative_gap <= 1e-12 else "inaccurate"
     assert found.status == expected
 
@@ -238,7 +238,7 @@ def test_an_asked_gap_that_cannot_be_certified_is_called_inaccurate() -> None:
 def test_looser_and_tighter_gaps_are_reported_as_asked() -> None:
     for gap in (1e-3, 1e-6, 1e-8):
         request = {"machine": random_machine(1), "accuracy": {"relative_gap": gap}}
-        found = optimize(OptimizeRequest.model_validate(request))
+        found = optimized(request)
         assert found.status == "optimal"
         assert found.certificate.relative_gap <= gap
 

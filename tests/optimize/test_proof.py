@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.optimize import by_hand
 from tests.optimize.machines import machine, random_machine, row, throw, web
+from tests.verification.checking import optimized
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.json"))
 #: how far the printed bound may lie below the exact one, relative
@@ -31,7 +31,7 @@ OBJECTIVES: dict[str, dict[str, Any]] = {
 def proven(body: dict[str, Any]) -> OptimizeAnswer:
     """The answer to a body, each of its bounds recomputed in 60 digits (independent)."""
     request = OptimizeRequest.model_validate(body)
-    answer = optimize(request)
+    answer = optimized(body)
     recomputed = by_hand.of_answer(json.loads(request.model_dump_json()), json.loads(answer.model_dump_json()))
     assert len(recomputed) == (3 if answer.status == "infeasible" else 1 + request.objective.least_mass)
     for name, (exact, printed) in recomputed.items():

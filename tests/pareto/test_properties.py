@@ -9,12 +9,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.optimize import optimize
 from optimizer.program.verdict import MASS_GAP
 from schemas.pareto import ParetoFront
-from schemas.requests import OptimizeRequest
 from tests.optimize.machines import first_order, random_machine
 from tests.pareto.cases import ask, below_a_corner, four_webs, front, straight, traded
+from tests.verification.checking import optimized
 
 SEEDS = st.integers(0, 10_000)
 MACHINES = settings(max_examples=8, deadline=None)
@@ -22,7 +21,7 @@ MACHINES = settings(max_examples=8, deadline=None)
 
 def weighted_ends(body: dict[str, Any], **objective: float) -> tuple[float, float]:
     """Objective and its lower bound of one optimum."""
-    answer = optimize(OptimizeRequest.model_validate({"machine": body, "objective": objective}))
+    answer = optimized({"machine": body, "objective": objective})
     assert answer.certificate is not None
     return answer.certificate.objective, answer.certificate.lower_bound
 
@@ -88,7 +87,7 @@ def test_no_optimum_with_other_weights_is_below_the_front(seed: int, exponents: 
             "force_weight": 1.0 / found.scale.force_N,
             "moment_weight": 10.0**exponent / found.scale.moment_Nm,
         }
-        answer = optimize(OptimizeRequest.model_validate({"machine": body, "objective": objective}))
+        answer = optimized({"machine": body, "objective": objective})
         after = answer.residual.after
         assert after is not None
         assert not below_a_corner(after.force.peak_N, after.moment.peak_Nm, found, 1e-12)
@@ -197,7 +196,7 @@ def test_infeasible_under_one_budget_only() -> None:
 
 def test_the_rest_of_the_answer() -> None:
     answer = ask(four_webs(reference_plane_m=0.1), outputs=["residual", "torque"])
-    told = optimize(OptimizeRequest.model_validate({"machine": four_webs(reference_plane_m=0.1)}))
+    told = optimized({"machine": four_webs(reference_plane_m=0.1)})
     assert answer.floor == told.floor
     assert answer.without_counterweights == told.residual.before
     assert answer.reference_plane_m == 0.1
