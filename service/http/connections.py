@@ -22,7 +22,7 @@ from service.settings import Settings
 #: what may wait to be read by a client, and what is read of it at a time [bytes]
 _UNREAD_BYTES = 32_768
 _READ_BYTES = 32_768
-_TITLES = {431: "Headers too large", 501: "Not implemented"}
+_TOO_LARGE = 431
 
 
 def connections(settings: Settings, most: int | None = None) -> type[asyncio.Protocol]:
@@ -161,10 +161,16 @@ class Connection(H11Protocol):
 
     def send_400_response(self, msg: str) -> None:
         error = sys.exc_info()[1]
-        status = error.error_status_hint if isinstance(error, h11.RemoteProtocolError) else 400
-        self._refuse(Fault(status, _TITLES.get(status, "Unreadable request"), msg))
+        too_large = isinstance(error, h11.RemoteProtocolError) and error.error_status_hint == _TOO_LARGE
+        # a coding that nobody knows is no fault of the service, so it is not 501
+        status, title = (_TOO_LARGE, "Headers too large") if too_large else (400, "Unreadable request")
+        self._refuse(Fault(status, title, msg))
 
     def _refuse(self, fault: Fault) -> None:
+        if self.cycle is not None and not self.cycle.response_complete:
+            # who answers a request whose body turned out to be no HTTP has nobody to answer any more
+            self.cycle.disconnected = True
+            self.cycle.message_event.set()
         content = problem(fault, "").model_dump_json().encode()
         headers = [
             *((name.encode(), value.encode()) for name, value in fault.headers.items()),

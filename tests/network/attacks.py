@@ -1,7 +1,8 @@
 """Hand-written attacks, and what each of them may be answered.
 
-``python -m tests.network.attacks`` sends more than 10,000 requests to a service of its own and prints, for each attack,
-the answers, the slowest of them and the memory that the service took.
+``python -m tests.network.attacks`` sends them to a service of its own, more than 10,000 requests, and then others by
+chance up to ``--count``; it prints, for each attack, the answers, the slowest of them and the memory that the service
+took.
 """
 
 import argparse
@@ -15,9 +16,11 @@ from collections import Counter
 from collections.abc import AsyncIterable, AsyncIterator, Callable, Iterator
 from dataclasses import dataclass, field
 from itertools import islice
+from random import Random
 from typing import Any
 
 from service.documents.examples import bodies
+from tests.network import chance
 from tests.network.serving import Reply, Service, request, service
 
 #: most that the service, and one of its workers, may hold [MB]
@@ -25,6 +28,7 @@ CEILING_MB = (400.0, 500.0)
 _AT_ONCE = 16
 _MEMORY_S = 0.1
 _BIG = 100_000_000
+_BATCH = 50
 
 Raw = bytes | AsyncIterable[bytes]
 
@@ -271,9 +275,13 @@ ATTACKS = (
     Attack("header floods", _headers, frozenset({200, 400, 401, 404, 422, 431})),
     Attack("foreign hosts", _hosts, frozenset({400, 421})),
     # some of it is HTTP after all: a later version, the preface of another, a folded header
-    Attack("no HTTP", _no_http, frozenset({200, 400, 404, 415, 501})),
+    Attack("no HTTP", _no_http, frozenset({200, 400, 404, 415})),
     Attack("methods", _methods, frozenset({200, 400, 404, 405, 415})),
 )
+
+
+#: any answer but that of a fault
+_CHANCE = Attack("by chance", lambda: iter(()), frozenset({0, *range(200, 500)}))
 
 
 def wrong(attack: Attack, reply: Reply) -> str | None:
@@ -317,15 +325,39 @@ async def run(target: Service, attack: Attack, most: int | None = None, every: i
     return outcome
 
 
+async def by_chance(target: Service, count: int, seed: int) -> Outcome:
+    """What becomes of so many requests by chance, some at a time."""
+    outcome = Outcome()
+
+    async def client(number: int) -> None:
+        random = Random(f"{seed} {number}")
+        for _ in range(-(-count // (_AT_ONCE * _BATCH))):
+            for sent, reply in await chance.send(target, random, _BATCH):
+                outcome.statuses[reply.status] += 1
+                found = wrong(_CHANCE, reply)
+                if found is not None:
+                    outcome.wrong.append(f"{found} to {sent.raw[:200]!r}")
+
+    await asyncio.gather(*(client(number) for number in range(_AT_ONCE)))
+    outcome.memory_mb = target.memory_mb()
+    return outcome
+
+
 def main() -> int:
     """Every request of every attack."""
-    argparse.ArgumentParser(description=__doc__).parse_args()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--count", type=int, default=200_000)
+    parser.add_argument("--seed", type=int, default=1)
+    given = parser.parse_args()
     total, failures = 0, 0
     with service(log_level="warning") as target:
         print(f"before: {target.memory_mb()[0]:.0f} MB and {target.memory_mb()[1]:.0f} MB a worker")
         print(f"{'attack':<24}{'requests':>9}{'slowest s':>11}{'service MB':>12}{'worker MB':>11}  answers")
-        for attack in ATTACKS:
-            outcome = asyncio.run(run(target, attack))
+        for attack in (*ATTACKS, _CHANCE):
+            if attack is _CHANCE:
+                outcome = asyncio.run(by_chance(target, max(0, given.count - total), given.seed))
+            else:
+                outcome = asyncio.run(run(target, attack))
             count = outcome.statuses.total()
             own, worker = outcome.memory_mb
             answers = ", ".join(f"{status}: {n}" for status, n in sorted(outcome.statuses.items()))

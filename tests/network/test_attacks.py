@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from tests.network.attacks import ATTACKS, CEILING_MB, Attack, run
+from tests.network.attacks import ATTACKS, CEILING_MB, Attack, by_chance, run
 from tests.network.serving import Service
 
 #: every so many requests of the attacks that have thousands
@@ -19,6 +19,14 @@ def test_nothing_that_means_ill_does_harm(target: Service, attack: Attack) -> No
     own, worker = outcome.memory_mb
     assert own < CEILING_MB[0]
     assert worker < CEILING_MB[1]
+
+
+def test_nothing_by_chance_does_harm(target: Service) -> None:
+    outcome = asyncio.run(by_chance(target, 800, seed=0))
+    assert outcome.wrong == []
+    assert outcome.statuses.total() >= 800
+    # few are so wrong that the connection ends without an answer
+    assert outcome.statuses[0] < 200
 
 
 def test_the_service_says_nothing_of_faults_and_still_computes(target: Service) -> None:

@@ -1,0 +1,129 @@
+"""Hostile requests by chance, thousands on connections that are kept: what no list of attacks thinks of."""
+
+import asyncio
+import json
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from random import Random
+
+from service.documents.examples import bodies
+from tests.network.serving import Reply, Service, read
+
+_PATHS = (
+    "/v1/optimize", "/v1/analyze", "/v1/pareto", "/v1/rating", "/v1/scroll/pin-loads", "/v1/report", "/v1/verify",
+    "/v1/accuracy", "/v1/sweeps", "/v1/sweeps/" + "0" * 32, "/v1/sweeps/x/results", "/v1/sweeps/x/events",
+    "/v1/sweeps/x/resume", "/v1/examples", "/v1/examples/w60", "/v1/effects", "/v1/version", "/healthz", "/readyz",
+    "/metrics", "/portal/x/main.js", "/docs/assets/favicon.png", "/", "/nothing", "*", "//", "/v1/../healthz",
+)  # fmt: skip
+_TAILS = (
+    "", "", "", "?", "?limit=%0a", "%0a", "%0d%0aX:%20y", "%00", "?a=%ff&a=%fe", "?columns=" + "x," * 200, "/", ";x",
+    "?before=%F0%9F%92%A9", "?format=csv&limit=9e9", "?select[]=1", "%2e%2e%2f", "?offset=-0", "#x",
+)  # fmt: skip
+_METHODS = ("POST",) * 6 + ("GET",) * 5 + ("DELETE", "PUT", "OPTIONS", "PATCH", "get", "BREW")
+_KINDS = (
+    "application/json", "application/json", "application/json", "application/problem+json", "application/json;",
+    "text/json", "application/json; charset=utf-8", 'application/json; charset="utf-8"', "text/json;charset=utf-7",
+    "application/json; charset*=utf-8''a; charset*0=b", "application/json; charset*1*=%00; charset*0*=x''%ff",
+    "application/json; charset*99999999999999999999=b", "application/json; ;;charset", "multipart/form-data",
+    "application/json, text/html", 'application/json; a="\\"; charset=x', "application/json; charset*0*='", "\xff/\xfe",
+)  # fmt: skip
+_HEADERS = (
+    ("X-Forwarded-For", "127.0.0.1"), ("X-Forwarded-For", "\xff, , 10.0.0.1:x, [::1"), ("X-Forwarded-Proto", "x:"),
+    ("X-Forwarded-Host", "evil.example"), ("Forwarded", "for=127.0.0.1;host=x"), ("Accept", "*/*;q=nan"),
+    ("Accept", "a/b;q=1e999, ;, text/*;q=-1"), ("Accept-Encoding", "gzip;q=inf"), ("Range", "bytes=9-1,-,x"),
+    ("Authorization", "Bearer " + "\xe9" * 50), ("Authorization", "Basic eA=="), ("X-API-Key", "cw_" + "0" * 12 + "_x"),
+    ("Idempotency-Key", "\xa0"), ("Prefer", "respond-async;;=,\xff"), ("Prefer", "respond-async"), ("Origin", "null"),
+    ("Origin", "http://evil.example"), ("Access-Control-Request-Method", "\xff"), ("Last-Event-ID", "\xb2"),
+    ("If-None-Match", '"\xff'), ("Traceparent", "00-" + "g" * 32), ("X-Request-ID", "%0a"), ("Expect", "100-continue"),
+    ("Content-Encoding", "identity, gzip"), ("Cookie", "=" * 4000), ("X-Long", "x" * 12_000), ("Upgrade", "h2c"),
+    ("Connection", "upgrade, close, x"), ("TE", "trailers"), ("Trailer", "Content-Length"), ("Host", "evil.example"),
+    ("Host", "localhost"), ("X-Empty", ""),
+)  # fmt: skip
+_BITS = ("null", "[]", "{}", "1e999", "NaN", '"\\ud800"', '"9 parsec"', "-0", "true", "[" * 60, '"' + "x" * 300 + '"')
+
+
+@dataclass(frozen=True)
+class Sent:
+    """Bytes, the number of answers that they may have, and whether the client sends nothing more after them."""
+
+    raw: bytes
+    answers: int = 1
+    ends: bool = False
+
+
+def requests(random: Random) -> Iterator[Sent]:
+    """Hostile requests without end."""
+    texts = [json.dumps(body) for body in bodies().values()]
+    while True:
+        shape = random.random()
+        one = _request(random, texts)
+        if shape < 0.05:
+            yield Sent(one[: random.randrange(1, len(one))], ends=True)
+        elif shape < 0.1:
+            count = random.randrange(2, 6)
+            yield Sent(b"".join([one, *(_request(random, texts) for _ in range(count - 1))]), count)
+        else:
+            yield Sent(one)
+
+
+def _request(random: Random, texts: list[str]) -> bytes:
+    method, path = random.choice(_METHODS), random.choice(_PATHS) + random.choice(_TAILS)
+    headers = [("Host", "localhost")] if random.random() < 0.97 else []
+    headers += random.sample(_HEADERS, random.choice((0, 0, 1, 2)))
+    body = _body(random, texts) if random.random() < 0.7 else b""
+    if body or method == "POST":
+        headers.append(("Content-Type", random.choice(_KINDS)))
+    framing = random.random()
+    if framing < 0.1:
+        headers.append(("Transfer-Encoding", random.choice(("chunked", "chunked", "Chunked", "chunked, chunked"))))
+        body = _chunked(random, body)
+    elif body or framing < 0.5:
+        headers.append(("Content-Length", str(len(body))))
+        if framing < 0.12:
+            headers.append(("Content-Length", random.choice((str(len(body)), str(len(body) + 1), "+1", "0x1"))))
+    else:
+        body = b""
+    version = "1.0" if random.random() < 0.05 else "1.1"
+    lines = "".join(f"{name}: {value}\r\n" for name, value in headers)
+    return f"{method} {path} HTTP/{version}\r\n{lines}\r\n".encode("latin-1", "replace") + body
+
+
+def _body(random: Random, texts: list[str]) -> bytes:
+    """A body in which some pieces of JSON stand where others were, or that is none any more."""
+    text = random.choice(texts) if random.random() < 0.5 else "{" + ",".join(f'"{k}":1' for k in range(5)) + "}"
+    for _ in range(random.randrange(3)):
+        at = random.randrange(len(text))
+        text = text[:at] + random.choice(_BITS) + text[at + random.randrange(20) :]
+    return text.encode()
+
+
+def _chunked(random: Random, body: bytes) -> bytes:
+    size = random.choice((f"{len(body):x}", f"{len(body):X};a=b", f"000{len(body):x}", f"{len(body):x} ;=\xff"))
+    last = random.choice(("0\r\n\r\n", "0;x\r\n\r\n", "0\r\nX-Trailer: y\r\n\r\n", "0\r\nContent-Length: 9\r\n\r\n"))
+    return (size.encode("latin-1") + b"\r\n" + body + b"\r\n" if body else b"") + last.encode()
+
+
+async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, Reply]]:
+    """Send so many by chance, one after the other, on a connection that is kept as long as the service keeps it."""
+    found: list[tuple[Sent, Reply]] = []
+    pending = requests(random)
+    while len(found) < count:
+        async with target.connection() as (reader, writer):
+            kept = True
+            while kept and len(found) < count:
+                sent = next(pending)
+                with suppress(ConnectionError):
+                    writer.write(sent.raw)
+                    if sent.ends:
+                        writer.write_eof()
+                for _ in range(sent.answers):
+                    async with asyncio.timeout(120):
+                        reply = await read(reader)
+                        while reply.status == 100:
+                            reply = await read(reader)
+                    found.append((sent, reply))
+                    kept = reply.status > 0 and reply.headers.get("connection") != "close" and not sent.ends
+                    if not kept:
+                        break
+    return found
