@@ -85,6 +85,14 @@ def _later(status: int, title: str, retry_after_s: int) -> Callable[[Exception],
     return lambda error: Fault(status, title, str(error), headers={"Retry-After": str(retry_after_s)})
 
 
+def _database(error: DatabaseUnavailable) -> Fault:
+    # where it is, and as whom it was asked, is for the log
+    what = "has no room left" if error.full else "is locked, or does not answer"
+    return Fault(
+        503, "Database unavailable", f"The job database {what}; try again later.", headers={"Retry-After": "5"}
+    )
+
+
 def _too_many(title: str) -> Callable[[Busy | TooManyRequests], Fault]:
     return lambda error: Fault(429, title, str(error), headers={"Retry-After": str(error.retry_after_s)})
 
@@ -140,7 +148,7 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     UnknownColumn: _fixed(422, "Unknown column"),
     TooManyJobs: _later(429, "Too many jobs", 30),
     QuotaExceeded: _fixed(409, "Quota exceeded"),
-    DatabaseUnavailable: _later(503, "Database unavailable", 5),
+    DatabaseUnavailable: _database,
     WrongSchema: _fixed(503, "Wrong schema"),
     FilesUnavailable: _later(503, "Files unavailable", 5),
     RowsDamaged: _later(503, "Rows damaged", 2),

@@ -219,6 +219,8 @@ def _wrong_problem(status: int, headers: dict[str, str], content: bytes) -> str:
         return f"a problem that says nothing: {said}"
     if status == 503 and "retry-after" not in headers:
         return "503 without Retry-After"
+    if "127.0.0.1" in said["detail"]:
+        return f"a problem that tells where the database is: {said['detail']}"
     if status >= 500 and said["title"] != "Database unavailable":
         return f"{status} {said['title']}: {said['detail']}"
     return ""

@@ -316,6 +316,8 @@ def test_a_database_that_cannot_be_reached(tmp_path: Path) -> None:
             client.get(f"/v1/sweeps/{'0' * 32}"),
         ):
             assert (answer.status_code, answer.json()["title"]) == (503, "Database unavailable")
+            # where the database is, and as whom it is asked, is nobody's business
+            assert answer.json()["detail"] == "The job database is locked, or does not answer; try again later."
             assert "retry-after" in answer.headers
 
 
