@@ -6,6 +6,7 @@ Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import reduce
 from typing import Protocol
 
 import numpy as np
@@ -76,9 +77,9 @@ class _Sector:
         return np.where(free, np.inf, half_angle)
 
     def touched(self, machine: Machine, mass_kg: Real, angle_deg: Real) -> np.ndarray:
-        _, centre, _ = sectors(machine)
+        free, centre, half_angle = sectors(machine)
         off = np.abs(np.mod(angle_deg - centre + 180.0, 360.0) - 180.0)
-        return (mass_kg > 0) & (off >= self.size(machine) * (1.0 - TOUCHED))
+        return ~free & (mass_kg > 0) & (off >= half_angle * (1.0 - TOUCHED))
 
     def price(self, machine: Machine, prices: ShadowPrices) -> Real:
         # a sector is opened to both sides
@@ -117,7 +118,7 @@ MACHINE_LIMITS: dict[MachineLimit, Limit] = {"max_total_mass": _Budget()}
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
     allowed = [each.mass(machine) for each in WEB_LIMITS.values() if isinstance(each, MassLimit)]
-    mass = np.min(np.broadcast_arrays(*allowed), axis=0)
+    mass = reduce(np.minimum, allowed)
     # null, or more than can be multiplied
     return np.where(mass > _NO_LIMIT, np.inf, mass)
 

@@ -7,8 +7,8 @@ from optimizer.limits import WEB_LIMITS, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
-from schemas.answers import Counterweight, WebLimit
-from schemas.machine import Machine, Web
+from schemas.answers import Counterweight
+from schemas.machine import Machine
 from schemas.requests import AnalyzeRequest
 
 
@@ -51,20 +51,18 @@ def as_given(request: AnalyzeRequest) -> tuple[Real, Real]:
 def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[Counterweight, ...]:
     """The counterweights of a machine, one for each web."""
     touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
+    vectors = unbalance(mass_kg, angles_deg, stacked([web.counterweight_radius_m for web in machine.webs])).tolist()
     return tuple(
-        _counterweight(web, mass, angle, tuple(name for name, webs in touched.items() if webs[k]))
-        for k, (web, mass, angle) in enumerate(zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), strict=True))
-    )
-
-
-def _counterweight(web: Web, mass: float, angle: float, touched: tuple[WebLimit, ...]) -> Counterweight:
-    vector = complex(unbalance(np.asarray(mass), np.asarray(angle), np.asarray(web.counterweight_radius_m)))
-    return Counterweight(
-        web=web.name,
-        mass_kg=mass,
-        angle_deg=angle,
-        mass_radius_kg_m=mass * web.counterweight_radius_m,
-        x_kg_m=vector.real,
-        y_kg_m=vector.imag,
-        active_limits=touched,
+        Counterweight(
+            web=web.name,
+            mass_kg=mass,
+            angle_deg=angle,
+            mass_radius_kg_m=mass * web.counterweight_radius_m,
+            x_kg_m=vector.real,
+            y_kg_m=vector.imag,
+            active_limits=tuple(name for name, webs in touched.items() if webs[k]),
+        )
+        for k, (web, mass, angle, vector) in enumerate(
+            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, strict=True)
+        )
     )

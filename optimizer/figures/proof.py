@@ -12,7 +12,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real, Reals, mapped
-from optimizer.limits import limits
+from optimizer.limits import largest_mass
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven
 from optimizer.program.optima import Optima
 from optimizer.program.statement import Statement
@@ -101,7 +101,7 @@ def named_proofs(statement: Statement, found: Optima, omega_squared: Real, least
 
 def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
-    smaller = most < limits(machine, most.shape[:-1]).max_mass
+    smaller = most < largest_mass(machine)
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
         for of_design in zip(most.tolist(), smaller.tolist(), strict=True)
