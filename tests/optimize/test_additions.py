@@ -53,6 +53,7 @@ NAMED_IN = {
     "mechanics/inertia.py": "makes them",
     "formulate.py": "translates the fields of the contract",
     "figures/first_order.py": "fields of the answer",
+    "figures/cautions.py": "warns of both",
     "figures/stages.py": "figures of both",
     "figures/rules_of_thumb.py": "figures of both",
     "pareto/pareto.py": "a front is of these two: fields of its answer",
