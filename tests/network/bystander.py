@@ -67,11 +67,9 @@ class Outcome:
 
 
 @asynccontextmanager
-async def connected(
-    target: Aim | Service, address: str
-) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
+async def connected(port: int, address: str) -> AsyncIterator[tuple[asyncio.StreamReader, asyncio.StreamWriter]]:
     """A connection from an address of this machine."""
-    reader, writer = await asyncio.open_connection("127.0.0.1", target.port, local_addr=(address, 0))
+    reader, writer = await asyncio.open_connection("127.0.0.1", port, local_addr=(address, 0))
     try:
         yield reader, writer
     finally:
