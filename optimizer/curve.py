@@ -15,7 +15,7 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, Reals
 from optimizer.circle import Circle, smallest_circle
 from optimizer.pieces import Bracket, Index, Pieces
 
@@ -98,15 +98,21 @@ class TurnResponse:
         return float(self.curves.variance[self.number])
 
 
-def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: float) -> Bracket:
-    """Peaks (responses,) with counterweights (K,) kg m; those of the same curves are searched together."""
+def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Reals) -> Bracket:
+    """Peaks (responses,) with counterweights (K,) kg m; those of the same curves are searched together.
+
+    Parameters
+    ----------
+    tolerance : (responses,) or one for all, of upper - lower, relative to lower.
+    """
+    asked = np.broadcast_to(tolerance, len(responses))
     offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
     number: Index = np.array([response.number for response in responses], dtype=np.intp)
     together: dict[int, list[int]] = {}
     for k, response in enumerate(responses):
         together.setdefault(id(response.curves), []).append(k)
     groups = list(together.values())
-    found = [responses[group[0]].curves.pieces.peaks(offset[group], tolerance, number[group]) for group in groups]
+    found = [responses[group[0]].curves.pieces.peaks(offset[group], asked[group], number[group]) for group in groups]
     order = np.argsort(np.concatenate([np.array(group, dtype=np.intp) for group in groups]))
     return Bracket(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
 

@@ -20,7 +20,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, Reals
 
 Index = NDArray[np.intp]
 
@@ -67,18 +67,19 @@ class Pieces:
     rest: Real
     source: Source
 
-    def peaks(self, offset: Complex, tolerance: float, curve: Index | None = None) -> Bracket:
+    def peaks(self, offset: Complex, tolerance: Reals, curve: Index | None = None) -> Bracket:
         """Peaks (m,) of |d + offset| over the period.
 
         Parameters
         ----------
         offset : (m,) in the unit of the curves; where it is nan there is no peak.
-        tolerance : of upper - lower, relative to lower; rounding sets a limit to it.
+        tolerance : (m,) or one for all, of upper - lower, relative to lower; rounding sets a limit to it.
         curve : (m,) which curve each is asked of, by default all in turn.
         """
         known = np.isfinite(offset)
         of_peak = np.arange(offset.size) if curve is None else curve
-        found = _bracketed(self, offset[known], of_peak[known], tolerance, _SQUARE)
+        asked = np.broadcast_to(tolerance, offset.shape)[known]
+        found = _bracketed(self, offset[known], of_peak[known], asked, _SQUARE)
         if np.all(known):
             return found
 
@@ -132,7 +133,7 @@ class _Parts:
         )
 
 
-def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: float, measure: _Measure) -> Bracket:
+def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: Reals, measure: _Measure) -> Bracket:
     """Brackets (m,): what is below the best found by less than the tolerance is let go, the rest looked at closer."""
     parts = _all_parts(pieces, of_peak, offset)
     scale = np.zeros(offset.size)

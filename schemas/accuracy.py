@@ -1,5 +1,6 @@
 """What accuracy costs in time on a machine: what is asked, and the ladders of methods that answer it."""
 
+from collections.abc import Iterator
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -7,14 +8,19 @@ from pydantic import Field
 from schemas.base import Answer, Model
 from schemas.quantities import Count, Milliseconds
 from schemas.requests import OptimizeRequest
+from schemas.rules import Rule, Ruled
 
 
-class AccuracyRequest(OptimizeRequest):
+class AccuracyRequest(OptimizeRequest, Ruled):
     """Measure what accuracy costs on a machine. `outputs`, `angles`, `fidelity` and `accuracy` play no part."""
 
     repeats: Annotated[Count, Field(ge=1, le=20)] = Field(
         5, description="rounds of timing; every method runs once in a round", examples=[5]
     )
+
+    def rules(self) -> Iterator[Rule]:
+        for name in self.objective.over_the_turn:
+            yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of the whole turn")
 
 
 class AccuracyRow(Model):

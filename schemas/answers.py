@@ -7,7 +7,7 @@ from pydantic import Field
 from schemas.base import Answer, Model
 from schemas.caution import Caution
 from schemas.outputs import Order, OutputFields
-from schemas.proof import InfeasibilityMultipliers, Multipliers
+from schemas.proof import InfeasibilityMultipliers, Multipliers, ResponseName
 from schemas.quantities import (
     Degrees,
     KilogramMetres,
@@ -23,8 +23,12 @@ WebLimit = Literal[
     "max_mass",
     "sector",
 ]
-CeilingField = Literal["force_ceiling_N", "moment_ceiling_Nm"]
-MachineLimit = Literal["max_total_mass", "force_ceiling", "moment_ceiling"]
+CeilingField = Literal[
+    "force_ceiling_N", "moment_ceiling_Nm", "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm"
+]  # fmt: skip
+MachineLimit = Literal[
+    "max_total_mass", "force_ceiling", "moment_ceiling", "bearing_ceiling", "specific_load_ceiling", "bending_ceiling"
+]  # fmt: skip
 PriceUnit = Literal[
     "N/kg", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/deg", "N m/N", "N m/(N m)"
 ]  # fmt: skip
@@ -133,6 +137,18 @@ class Floor(Model):
     )
 
 
+class GoalReached(Model):
+    """One of several goals that were met one after the other."""
+
+    goal: Literal["external", "bearings", "bending"] = Field(description="the goal", examples=["external"])
+    value: float = Field(description="what it came to by itself", examples=[30345.0])
+    lower_bound: float | None = Field(
+        description="certified: under the goals before it nothing is smaller; null if nothing is proven",
+        examples=[30344.97],
+    )
+    limit: float = Field(description="what the goals after it had to keep", examples=[30405.7])
+
+
 class Certificate(Model):
     """The proof: a lower bound in closed form that no counterweights within the limits can beat."""
 
@@ -175,6 +191,15 @@ class Certificate(Model):
         examples=[{"1a": 412.5}],
     )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
+    cuts: int | None = Field(
+        None, description="angles at which responses over the whole turn were held; null without any", examples=[24]
+    )
+    rounds: int | None = Field(None, description="programs solved to find them; null likewise", examples=[5])
+    goals: tuple[GoalReached, ...] = Field(
+        (),
+        description="goals before the last, in their order; the certificate is that of the last one under them",
+        examples=[[]],
+    )
     multipliers: Multipliers = Field(
         description="the multipliers of both bounds, with which anybody can evaluate them again",
         examples=[{"objective": {"rows": [{"name": "sum", "value": 1.0}]}}],
@@ -220,6 +245,16 @@ class Closest(Model):
     first_order: FirstOrder = Field(description="what they leave", examples=[{"force": {"peak_N": 4997.4}}])
 
 
+class SmallestPeak(Model):
+    """The smallest peak of a response over the whole turn beside its ceiling."""
+
+    response: ResponseName = Field(description="the response", examples=["bearing:A"])
+    ceiling_field: CeilingField = Field(description="its ceiling in the request", examples=["bearing_ceiling_N"])
+    ceiling: float = Field(description="largest peak allowed, N or N m", examples=[9000.0])
+    smallest: float = Field(description="smallest peak within the limits, all else left free", examples=[9120.4])
+    lower_bound: float = Field(description="certified: no counterweights have a smaller one", examples=[9120.3])
+
+
 class Infeasibility(Model):
     """Why no counterweights satisfy the ceilings, and what can be reached."""
 
@@ -237,6 +272,9 @@ class Infeasibility(Model):
     )
     smallest_moment_lower_bound_Nm: NewtonMetres = Field(
         description="certified: no counterweights within the limits have a smaller peak moment", examples=[9747.0]
+    )
+    smallest: tuple[SmallestPeak, ...] = Field(
+        (), description="the same of every bearing load and bending moment that has a ceiling", examples=[[]]
     )
     implied_max_mass_kg: dict[Name, Kilograms] = Field(
         description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"

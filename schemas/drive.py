@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import Field, Strict
 
 from schemas.base import Model
-from schemas.quantities import Force, Fraction, Moment, Name, Position
+from schemas.quantities import Force, Fraction, Length, Moment, Name, Position
 from schemas.rules import Rule, Ruled
 from schemas.units import Unit, between, non_negative
 
@@ -71,3 +71,9 @@ class Bearing(Model):
 
     name: Name = Field(description="name of the bearing, unique in the machine", examples=["A"])
     position_m: Position = Field(description="plane of the bearing along the shaft", examples=[-0.4])
+    diameter_m: Length | None = Field(
+        None, description="diameter of the journal; needed only by specific loads", examples=[0.12]
+    )
+    length_m: Length | None = Field(
+        None, description="length of the bearing; needed only by specific loads", examples=[0.05]
+    )

@@ -55,6 +55,8 @@ class ParetoRequest(OptimizeRequest, Ruled):
     )
 
     def rules(self) -> Iterator[Rule]:
+        for name in self.objective.over_the_turn:
+            yield Rule(True, ("objective", name), "a front is of the first-order peaks: not asked of the whole turn")
         budgets = self.total_mass_budgets_kg or ()
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)

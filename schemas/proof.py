@@ -1,20 +1,27 @@
 """Multipliers of a certificate: with them anybody can evaluate the bound again, without a solver."""
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from schemas.base import Model
 from schemas.quantities import Degrees, Kilograms, Name
 
-ResponseName = Literal["force", "moment"]
+#: force, moment, bearing:name, bending:plane
+ResponseName = Annotated[
+    str, StringConstraints(max_length=80, pattern=r"^(force|moment|bearing:[^\x00-\x1f\x7f]+|bending:[-+.e0-9]+)$")
+]
+#: a row of the objective: of a cut the response and the angle
+RowName = Annotated[str, StringConstraints(min_length=1, max_length=128)]
 Part = Literal["co", "counter"]
 
 _PART = (
     "co: the weighted vector that turns with the shaft; counter: the one that turns against it, which counterweights"
     " change only where the direction weights differ"
 )
-_ANGLE = "direction across the shaft; null where the peak over a turn counts in every direction"
+_ANGLE = (
+    "shaft angle at which a response over the whole turn is cut; null where the peak over a turn stands in closed form"
+)
 _SCENARIO = "scenario whose response it is; null for the machine as it is given"
 
 
@@ -23,7 +30,7 @@ class TermMultiplier(Model):
 
     response: ResponseName = Field(description="response whose peak the norm belongs to", examples=["force"])
     part: Part = Field(description=_PART, examples=["co"])
-    row: Name = Field(description="row of the objective that the norm belongs to", examples=["sum"])
+    row: RowName = Field(description="row of the objective that the norm belongs to", examples=["sum"])
     angle_deg: Degrees | None = Field(None, description=_ANGLE, examples=[None])
     scenario: Name | None = Field(None, description=_SCENARIO, examples=[None])
     x: float = Field(
@@ -36,7 +43,9 @@ class TermMultiplier(Model):
 class RowMultiplier(Model):
     """Multiplier of one row of the objective."""
 
-    name: Name = Field(description="sum, or the response whose weighted peak is the row", examples=["sum"])
+    name: RowName = Field(
+        description="sum, or the response whose weighted peak is the row, with the angle of a cut", examples=["sum"]
+    )
     value: float = Field(
         ge=0,
         description="multiplier; those of a bound on the objective sum to 1, those of a bound on the mass are in kg per"

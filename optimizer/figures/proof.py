@@ -115,7 +115,14 @@ def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultip
     return BoundMultipliers.model_validate(
         {
             "terms": tuple(
-                {"response": term.response, "part": term.part, "row": rows[row], "x": y.real, "y": y.imag}
+                {
+                    "response": term.response,
+                    "part": term.part,
+                    "row": rows[row],
+                    "angle_deg": term.angle_deg,
+                    "x": y.real,
+                    "y": y.imag,
+                }
                 for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
             ),
             **_shared(rows, statement, multipliers),
@@ -129,6 +136,31 @@ def named_conflict(statement: Statement, multipliers: PhysicalMultipliers) -> Bo
     return BoundMultipliers.model_validate({"terms": (), **_shared(names, statement, multipliers)})
 
 
+def named_excess(excess: Statement, multipliers: Multipliers, scales: Real, omega_squared: float) -> BoundMultipliers:
+    """Multipliers that prove that ceilings cannot be kept, by the program of their excess: a row for each ceiling.
+
+    Parameters
+    ----------
+    scales : (rows,) what each ceiling is divided by in that program.
+    """
+    usable, _ = normalised(excess, multipliers)
+    row = usable.row / scales / omega_squared
+    terms = _no_longer(usable.term / scales[excess.row] / omega_squared, row[excess.row])
+    price = budget_price(excess, usable, 0.0)
+    names = excess.names
+    return BoundMultipliers.model_validate(
+        {
+            "terms": (),
+            "rows": tuple({"name": name, "value": value} for name, value in zip(names.rows, row.tolist(), strict=True)),
+            "budget": float(price),
+            "ceilings": tuple(
+                {"response": term.response, "part": "co", "angle_deg": term.angle_deg, "x": p.real, "y": p.imag}
+                for term, p in zip(names.terms, terms.tolist(), strict=True)
+            ),
+        }
+    )
+
+
 def _no_longer(vectors: Complex, allowed: Real) -> Complex:
     """Vectors that are no longer than allowed, whatever the rounding of what is done to both."""
     size, allowed = np.abs(vectors), allowed * _INSIDE
@@ -137,13 +169,15 @@ def _no_longer(vectors: Complex, allowed: Real) -> Complex:
 
 def _shared(names: tuple[str, ...], statement: Statement, multipliers: PhysicalMultipliers) -> dict[str, Any]:
     """What every bound has: rows of these names, a budget and ceilings."""
+    ceilings = statement.ceilings
+    angles = ceilings.angles_deg or (None,) * len(ceilings.names)
     return {
         "rows": tuple(
             {"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)
         ),
         "budget": float(multipliers.budget),
         "ceilings": tuple(
-            {"response": name, "part": "co", "x": p.real, "y": p.imag}
-            for name, p in zip(statement.ceilings.names, multipliers.ceiling.tolist(), strict=True)
+            {"response": name, "part": "co", "angle_deg": angle, "x": p.real, "y": p.imag}
+            for name, angle, p in zip(ceilings.names, angles, multipliers.ceiling.tolist(), strict=True)
         ),
     }

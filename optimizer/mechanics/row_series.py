@@ -138,8 +138,16 @@ class RowSeries:
     @cached_property
     def on_shaft(self) -> Taylor:
         """Force on the crank pin as the shaft sees it, over the direction of the crank: radial - j s tangential, N."""
+        return self._seen(self.radial, self.tangential)
+
+    @cached_property
+    def on_frame(self) -> Taylor:
+        """Inertia force along the axis as the shaft sees it, over the direction of the crank, N."""
+        return self._seen(self.inertia * self._cosine, self.inertia * self._sine)
+
+    def _seen(self, along: Taylor, across: Taylor) -> Taylor:
+        """along - j s across."""
         sense = self._each(self.data.sense)
-        along, across = self.radial, self.tangential
         radius = None
         if along.radius is not None and across.radius is not None:
             radius = np.hypot(along.radius, across.radius)

@@ -1,4 +1,6 @@
-"""Loads of the main bearings and bending moments of the shaft over the whole turn, as responses to counterweights.
+"""Loads of the main bearings, bending moments of the shaft, and what it shakes with, over the whole turn.
+
+All of them are responses to counterweights.
 
 Seen from the shaft the load of bearing j is a fixed curve and a constant: d_j(theta) + sum_k B_jk u_k, with B the real
 influence of :mod:`bearings` and the loads of the rows as the shaft sees them (:mod:`whole_turn`). The bending moment is
@@ -15,7 +17,7 @@ from optimizer.arrays import Complex, Real
 from optimizer.curve import TurnResponse
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
+from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
 Influence = Callable[[Real, Real], Real]
@@ -64,8 +66,23 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
     stations = np.unique(np.concatenate([planes(layout), places]))
     moment = bending_influence(layout, places, influence, stations)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
-    names = [f"bending at {station!r} m" for station in stations[some].tolist()]
+    names = [f"bending:{station!r}" for station in stations[some].tolist()]
     return shaft_curves(turn, layout, moment[some]).responses(names, "N m")
+
+
+def shaking(turn: WholeTurn, layout: Layout) -> tuple[TurnResponse, TurnResponse]:
+    """Force [N] and moment [N m] of all orders on the frame, seen from the shaft, which leaves their size alone.
+
+    Gas and friction are internal forces and no part of them.
+
+    Parameters
+    ----------
+    turn, layout : of one machine.
+    """
+    arms = planes(layout) - layout.reference_plane
+    (force,) = shaft_curves(turn, layout, np.ones((1, arms.size)), "on_frame").responses(["force"], "N")
+    (moment,) = shaft_curves(turn, layout, arms[None], "on_frame").responses(["moment"], "N m")
+    return force, moment
 
 
 def bending_influence(layout: Layout, places: Real, influence: Influence, stations: Real) -> Real:
@@ -83,8 +100,8 @@ def planes(layout: Layout) -> Real:
     return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in parts], axis=-1)
 
 
-def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real) -> ShaftCurves:
-    """Curves by their influences (..., C, L) of unit loads in the planes."""
+def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real, reading: Reading = "on_shaft") -> ShaftCurves:
+    """Curves by their influences (..., C, L) of unit loads in the planes, of what the rows put on shaft or frame."""
     rows, masses, designs = layout.reciprocating, layout.rotating, layout.omega.shape
     row_count, mass_count, count = rows.mass.shape[-1], masses.mass.shape[-1], influence.shape[-2]
     of_rows, of_masses, of_webs = np.split(influence, [row_count, row_count + mass_count], axis=-1)
@@ -93,7 +110,7 @@ def shaft_curves(turn: WholeTurn, layout: Layout, influence: Real) -> ShaftCurve
     total = len(turn.centre)
     return ShaftCurves(
         turn.curves(
-            "on_shaft",
+            reading,
             np.broadcast_to(weights, (*designs, count, row_count)).reshape(total, count, row_count),
             np.broadcast_to(still, (*designs, count)).reshape(total, count),
         ),

@@ -26,7 +26,9 @@ _SLIVER = 1e-12
 #: nodes of the quadrature in a piece
 _GAUSS = 5
 
-Reading = Literal["piston", "rod", "rod_without_gas", "rod_at_rest", "side", "tangential", "radial", "on_shaft"]
+Reading = Literal[
+    "piston", "rod", "rod_without_gas", "rod_at_rest", "side", "tangential", "radial", "on_shaft", "on_frame"
+]
 
 
 def break_angles(layout: Layout, opens: tuple[Real, ...] = ()) -> Real:

@@ -18,6 +18,8 @@ from optimizer.curve import TurnResponse, peaks
 
 #: places in every piece of a curve at which it is sampled
 _WITHIN = np.array([-0.75, -0.25, 0.25, 0.75])
+#: share of what is added up at which it has cancelled
+_DUST = 1e-13
 
 
 class Cut(NamedTuple):
@@ -86,7 +88,9 @@ class Samples:
                 angle = (centre[:, None] + half[:, None] * _WITHIN).ravel()
                 together[id(curves)] = angle, curves.at(angle)
             angle, values = together[id(curves)]
-            self._places.append((angle, values[number]))
+            self._places.append((angle, _cleared(quantity, values[number])))
+        #: quantities whose curves cancel to their rounding error everywhere
+        self.cancelled = [not np.any(values) for _, values in self._places]
 
     def first(self) -> tuple[tuple[Cut, ...], ...]:
         """Cuts to begin with: what holds the smallest circle, or the still and the moving part by themselves."""
@@ -113,20 +117,33 @@ class Samples:
         return tuple(found)
 
 
-def reached(quantities: Sequence[Quantity], u: Complex, tolerance: float) -> tuple[Reached, ...]:
+def _cleared(quantity: Quantity, values: Complex) -> Complex:
+    """Samples, all 0 where what the rows add to them cancels up to rounding."""
+    pieces, number = quantity.response.curves.pieces, quantity.response.number
+    wide = pieces.half[number] > 0.0
+    # fourth derivatives are bounded row by row, so that nothing cancels in them
+    added = np.max(pieces.rest[number][wide] / pieces.half[number][wide] ** 4, initial=0.0)
+    return values if np.max(np.abs(values)) > _DUST * added else np.zeros_like(values)
+
+
+def reached(
+    quantities: Sequence[Quantity], u: Complex, tolerance: Real, cancelled: Sequence[bool]
+) -> tuple[Reached, ...]:
     """What quantities come to with an unbalance (K,) kg m.
 
     Parameters
     ----------
-    tolerance : of upper - lower, relative to lower.
+    tolerance : (quantities,) of upper - lower, relative to lower.
+    cancelled : (quantities,) those whose curves are nothing.
     """
-    turning = [quantity.response for quantity in quantities if quantity.measure == "peak"]
-    bracket = iter(zip(*(part.tolist() for part in peaks(turning, u, tolerance)), strict=True) if turning else ())
-    found = []
-    for quantity in quantities:
-        if quantity.measure == "rms":
-            found.append(quantity.rms(u))
-            continue
-        angle, value, lower, upper = next(bracket)
-        found.append(Reached(lower, upper, quantity.cut(angle, value)))
-    return tuple(found)
+    turning = [q for q, each in enumerate(quantities) if each.measure == "peak" and not cancelled[q]]
+    found: dict[int, Reached] = {}
+    for q, quantity in enumerate(quantities):
+        if quantity.measure == "peak" and cancelled[q]:
+            size = abs(quantity.response.offset(u))
+            found[q] = Reached(size, size, quantity.cut(0.0, 0j))
+    if turning:
+        bracket = peaks([quantities[q].response for q in turning], u, tolerance[turning])
+        for q, angle, value, lower, upper in zip(turning, *(part.tolist() for part in bracket), strict=True):
+            found[q] = Reached(lower, upper, quantities[q].cut(angle, value))
+    return tuple(found[q] if q in found else quantity.rms(u) for q, quantity in enumerate(quantities))

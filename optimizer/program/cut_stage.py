@@ -32,6 +32,8 @@ _ATTEMPTS = ((1e-10, 1.0), (1e-10, 20.0), (1e-12, 1.0), (1e-8, 50.0))
 #: limits beyond this multiple of the natural reach cannot bind
 _REACH = 10.0
 _TIME_LIMIT_S = 5.0
+#: no bracket is left wider
+_COARSE = 1e-4
 #: share of a goal below which samples of the turn tell no more
 _SAMPLED = 1e-4
 #: relative gap of a mass that other settings of the solver do not mend
@@ -52,12 +54,14 @@ class Proof:
 
     charge : what the goals that are kept below a level are charged with: the bound of several goals is that of the
         statement, whose groups are those of all goals times their prices, less this.
+    cuts : of every quantity, in the order of the statement.
     """
 
     bound: float
     statement: Statement
     multipliers: Multipliers
-    charge: float = 0.0
+    charge: float
+    cuts: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,7 @@ class Search:
         self.raised = raised
         self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
         several = len(program.goals) > 1
-        self.unit = program.yardsticks if several else np.ones(1)
+        self.unit = program.units if several else np.ones(1)
         statement = times(program.statement(program.first), 1.0 / self.unit[program.goal_of])
         needed = 2.0 * float(np.max(np.abs(inside.unbalance), initial=0.0))
         largest = float(np.max(program.limits.reach, initial=0.0))
@@ -189,7 +193,7 @@ class Search:
         """Whether a point comes to more than its statement says by more than samples leave open."""
         of_group = statement.largest(statement.rows(np.abs(statement.norms.at(u))))
         said = np.bincount(self.program.goal_of, of_group)
-        over = float(np.max((values.goals - said) / self.program.yardsticks))
+        over = float(np.max((values.goals - said) / self.program.units))
         return over > _SAMPLED or values.excess > _SAMPLED
 
     def figure(self, point: Point) -> float:
@@ -197,14 +201,15 @@ class Search:
         return point.mass if self.of_mass else float(point.values.goals[-1])
 
     def _width(self, enough: float, gap: float) -> float:
-        """Relative width of brackets that leaves open a share of what is asked, or of what is still open."""
-        size = self.program.yardsticks
+        """Width of brackets that leaves open a share of what is asked, or of what is still open."""
+        size = self.program.units
         if self.of_mass:
             share = float(np.min(self.kept.margin / size))
         else:
-            share = min(max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1]), 1e-3)
-        limited = bool(self.program.limited)
-        return float(np.clip(_OPEN * share, 1e-14, _OPEN * _LOWERED if limited else 1e-3))
+            share = max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1])
+        if self.program.limited:
+            share = min(share, _LOWERED)
+        return min(_OPEN * share, _COARSE)
 
     def _solved(self, statement: Statement, tolerance: float, margins: float) -> tuple[Complex, list[Proof]] | None:
         """The point of finitely many cuts, and what its multipliers prove.
@@ -247,7 +252,7 @@ class Search:
             else:
                 bound = float(objective_lower_bound(statement, multipliers)) - charge
             if np.isfinite(bound):
-                yield Proof(bound, statement, multipliers, charge)
+                yield Proof(bound, statement, multipliers, charge, tuple(map(len, self.pool.cuts)))
 
     def _charged(self, statement: Statement, found: Multipliers) -> tuple[Statement, Multipliers, Real]:
         """The statement whose groups have the prices of their goals, where each group's multipliers sum to 1."""
@@ -306,7 +311,7 @@ class Search:
     def _excess(self, values: Values) -> Real:
         """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""
         kept = self.kept.most
-        over = (values.goals[: kept.size] - kept) / self.program.yardsticks[: kept.size]
+        over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
         return np.concatenate([over, values.over - self.allowed])
 
 

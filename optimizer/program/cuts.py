@@ -26,6 +26,8 @@ _TOLD = 1e-12
 _SHARPNESS = (1e-2, 1e-4)
 #: and this share of the asked gap where none does
 _ENOUGH = 0.5
+#: share of what optima may differ by that is kept for the figures of the answer
+_RESERVE = 5e-3
 #: of what the stage before has left open, what a later stage leaves unused so that its point is an optimum
 _TARGET_MARGIN = 0.2
 #: relative gap of the mass that ends the search, and that is good enough
@@ -80,15 +82,16 @@ def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowanc
         return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds)
     course = _Course(program, pool, nearest.point, nearest.point.values.excess > -_AMPLE, nearest.rounds)
     for n, allowance in enumerate(allowances):
-        size = float(program.yardsticks[n])
+        size = float(program.units[n])
         course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), max(allowance, OPTIMUM_SHARE) * size)
     last = len(program.goals) - 1
-    size = float(program.yardsticks[last])
+    size = float(program.units[last])
     if not least_mass:
         proof = course.smallest(last, _ENOUGH * relative_gap * size)
         course.keep(last, proof, 0.0)
         return course.found(proof, None, np.inf)
-    share, proof = min(OPTIMUM_SHARE, relative_gap) * size, None
+    # a little is kept for the rounding of masses and angles
+    share, proof = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size, None
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
         course.keep(last, proof, share)
@@ -113,7 +116,7 @@ class _Course:
         so_far = replace(self.program, goals=self.program.goals[: n + 1])
         self.inside, most = _again(so_far, self.inside), self._most(n)
         self.so_far = _bounded(so_far, self.inside, most)
-        margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.yardsticks[:n]
+        margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
         found = self._run(Kept(margin, most, most), enough)
         return max((each for each in (known, found) if each is not None), key=lambda each: each.bound, default=None)
 
@@ -131,7 +134,7 @@ class _Course:
         margin : by which the solver aims below what the last goal may come to.
         """
         most = self._most(len(self.goals))
-        margins = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.yardsticks
+        margins = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units
         margins[-1] = margin
         return self._run(Kept(margins, most, np.append(most[:-1], target)), _MASS_GAP)
 
@@ -174,8 +177,8 @@ def _again(program: OverTurn, point: Point) -> Point:
 
 def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
     """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
-    statement = times(program.statement(program.first), 1.0 / program.yardsticks[program.goal_of])
+    statement = times(program.statement(program.first), 1.0 / program.units[program.goal_of])
     if not np.any(far_limits(statement)):
         return program
-    levels = np.append(most, inside.values.goals[most.size]) / program.yardsticks
+    levels = np.append(most, inside.values.goals[most.size]) / program.units
     return replace(program, limits=bounded(statement, 2.0 * float(np.sum(levels))).limits)

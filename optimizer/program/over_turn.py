@@ -17,12 +17,14 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.program.cut import Cut, Quantity, Reached, Samples, reached
 from optimizer.program.limits import Limits
+from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import PARTS, Ceilings, Names, Norms, Row, Statement, Term, WeightedPeak, limited
-from optimizer.program.verdict import yardstick
 from optimizer.response import Response
 
 #: relative width of the brackets by which quantities are known where they only are a measure
 _FINE = 1e-9
+#: what is smaller is nothing
+_TINY = 1e-300
 #: of every quantity
 Cuts = Sequence[Sequence[Cut]]
 
@@ -47,6 +49,7 @@ class Goal(NamedTuple):
 
     name: str
     groups: tuple[Group, ...]
+    unit: float | None = None  # what gaps are measured by; by default the yardstick
 
 
 class Values(NamedTuple):
@@ -104,15 +107,32 @@ class OverTurn:
 
     @cached_property
     def _resting(self) -> tuple[Reached, ...]:
-        return reached(self.quantities, np.zeros(self.limits.radius.shape, complex), _FINE)
+        still = np.zeros(self.limits.radius.shape, complex)
+        return reached(self.quantities, still, np.full(len(self.quantities), _FINE), self.samples.cancelled)
 
     @cached_property
     def yardsticks(self) -> Real:
-        """(goals,) what gaps are relative to, as :func:`optimizer.program.verdict.yardstick` has it."""
+        """(goals,) what gaps are relative to: the goal without counterweights.
+
+        Where that is 0, what the counterweights that cancel everything in the program could change of it, as
+        :func:`optimizer.program.verdict.yardstick` has it.
+        """
         rest = self.at_rest.goals
-        return np.array(
-            [value or float(yardstick(self.alone(n).statement(self.first))) for n, value in enumerate(rest.tolist())]
-        )
+        if np.all(rest > 0):
+            return rest
+        posed = self.statement(self.first)
+        reach = np.minimum(self.limits.reach, natural_reach(posed))
+        of_term = np.sum(np.abs(posed.norms.influence) * reach, axis=-1)
+        change = np.bincount(self.goal_of[posed.group[posed.row]], of_term, len(self.goals))
+        return np.where(rest > 0, rest, change)
+
+    @cached_property
+    def units(self) -> Real:
+        """(goals,) what gaps are measured by on the way: the yardsticks, 1 where there is nothing to measure."""
+        given = [goal.unit for goal in self.goals]
+        if all(unit is not None for unit in given):
+            return np.array(given)
+        return np.where(self.yardsticks > 0, self.yardsticks, 1.0)
 
     @cached_property
     def sizes(self) -> Real:
@@ -166,14 +186,28 @@ class OverTurn:
         owner, group_of, floor = np.array(terms.row), np.array(terms.group), np.array(terms.floor)
         return Statement(norms, owner, group_of, floor, none, self.limits, Names(tuple(terms.names), tuple(terms.rows)))
 
-    def values(self, u: Complex, tolerance: float) -> Values:
+    def values(self, u: Complex, width: float) -> Values:
         """What an unbalance (K,) comes to.
 
         Parameters
         ----------
-        tolerance : relative width of the brackets of the quantities.
+        width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
-        return self._values(u, reached(self.quantities, u, tolerance), self.sizes)
+        about = np.array([max(each.lower, _TINY) for each in self.samples.reached(u)])
+        tolerance = np.maximum(width * self._shares / about, 1e-15)
+        return self._values(u, reached(self.quantities, u, tolerance, self.samples.cancelled), self.sizes)
+
+    @cached_property
+    def _shares(self) -> Real:
+        """(quantities,) how much of each is worth what goals and ceilings are measured by."""
+        worth = np.full(len(self.quantities), np.inf)
+        for group, n in zip(self.groups, self.goal_of.tolist(), strict=True):
+            for each in group.weighed:
+                share = float(self.units[n]) / len(self.goals[n].groups) / each.weight
+                worth[each.quantity] = min(worth[each.quantity], share)
+        for (q, _), size in zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True):
+            worth[q] = min(worth[q], size)
+        return worth
 
     def sampled(self, u: Complex) -> Values:
         """What an unbalance comes to at the samples, which is less."""
@@ -191,6 +225,11 @@ class OverTurn:
         over += [found[q].upper - cap for q, cap in self.limited]
         return Values(np.bincount(self.goal_of, largest).astype(float), np.array(over) / sizes, found)
 
+    def excess_scales(self, cuts: Sequence[int]) -> Real:
+        """What the rows of the program of the smallest excess are divided by, with so many cuts of every quantity."""
+        count = [*(1 for _ in self.ceilings), *(cuts[q] for q, _ in self.limited)]
+        return np.repeat(self.sizes, np.array(count, dtype=int))
+
     def excess(self) -> "OverTurn":
         """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
         rows = []
@@ -200,7 +239,7 @@ class OverTurn:
             rows.append(Row(response.name, (WeightedPeak(response.name, floor, norms),)))
         sizes = self.sizes[len(self.ceilings) :].tolist()
         weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
-        goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),))
+        goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),), 1.0)
         return replace(self, goals=(goal,), ceilings=(), limited=())
 
 
@@ -230,7 +269,8 @@ class _Terms:
         self.influence.append(weighed.weight * cut.influence)
         self.row.append(len(self.rows))
         self.names.append(Term(name, "co", cut.angle_deg))
-        called = name if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
+        # of a root mean square the cuts have no angle
+        called = f"{name} {len(self.rows)}" if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
         self._end(group, called, weighed.offset + weighed.weight * cut.floor)
 
     def _end(self, group: int, name: str, floor: float) -> None:

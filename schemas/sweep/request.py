@@ -9,7 +9,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 from schemas.base import FieldProblem, Model, NotEmpty
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Count, Flag
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
@@ -18,6 +18,7 @@ from schemas.sweep.target import BadPointer, Target, find_target
 MAX_AXES = 64
 #: parts of a request that an axis may vary
 _ROOTS = ("machine", "objective", "counterweights")
+_ONE_MACHINE = "serves only to optimize one machine: a sweep weighs and limits the first order on the frame"
 
 ColumnName = Annotated[str, Field(max_length=512)]
 
@@ -141,6 +142,9 @@ class SweepRequest(Ruled):
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
+        if isinstance(self.base, OptimizeRequest):
+            for name in self.base.objective.over_the_turn:
+                yield FieldProblem(("base", "objective", name), _ONE_MACHINE)
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")
@@ -155,6 +159,8 @@ class SweepRequest(Ruled):
                 continue
             if targets[i].path[0] not in _ROOTS:
                 yield FieldProblem(("axes", i, "path"), "only fields of machine, objective and counterweights can vary")
+            if targets[i].path[:1] == ("objective",) and targets[i].path[1] in OVER_THE_TURN:
+                yield FieldProblem(("axes", i, "path"), _ONE_MACHINE)
             yield from _value_problems(i, axis, targets[i])
         for (_, first), (i, second) in combinations(targets.items(), 2):
             common = min(len(first.path), len(second.path))

@@ -57,7 +57,7 @@ def test_responses_have_the_values_of_the_samples(model) -> None:  # type: ignor
         found = (response.at(angle) + response.offset(u)) * turned * square
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))
     bent = bending_moments(turn, plan, places, model)
-    stations = np.array([float(response.name.split()[2]) for response in bent])
+    stations = np.array([float(response.name.removeprefix("bending:")) for response in bent])
     for response, expected in zip(bent, bending_moment(places, carried, where, loads, stations), strict=True):
         found = (response.at(angle) + response.offset(u)) * turned * square
         assert found == pytest.approx(expected, rel=1e-9, abs=1e-9 * np.max(np.abs(carried)))

@@ -51,6 +51,7 @@ REQUEST = OptimizeRequest.model_validate({"machine": MACHINE})
 #: where the pair of the contract may be named, and why
 NAMED_IN = {
     "mechanics/inertia.py": "makes them",
+    "mechanics/shaft_curves.py": "makes them, of all orders",
     "formulate.py": "translates the fields of the contract",
     "figures/first_order.py": "fields of the answer",
     "figures/cautions.py": "warns of both",

@@ -83,7 +83,7 @@ CASES: dict[str, tuple[str, dict[str, Any], str, set[str]]] = {
             "give either the irregularity or the inertia",
         },
     ),
-    "weights": ("optimize", GOAL, "/objective/.*_weight$", {"only one of the two weights may be 0"}),
+    "weights": ("optimize", GOAL, "/objective/(force|moment)_weight$", {"one of the weights must be above 0"}),
     "directions": ("optimize", GOAL, "/objective/dir", {"only one of the two direction weights may be 0"}),
     "torque": (
         "analyze",

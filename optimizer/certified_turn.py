@@ -1,0 +1,264 @@
+"""Certified counterweights of one request that asks for the whole turn: bearings, bending, goals in their order."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.effects.registry import problems_of, run
+from optimizer.errors import MissingInput
+from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
+from optimizer.figures.limits import touched_limits
+from optimizer.figures.proof import implied_max_mass, named, named_excess, physical
+from optimizer.formulate import RESPONSES, ceilings
+from optimizer.goals import Goals, goals
+from optimizer.limits import TOUCHED
+from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
+from optimizer.program.over_turn import Goal, Group, OverTurn, Values, Weighed
+from optimizer.program.statement import Row, weighted_peak
+from optimizer.program.verdict import INFEASIBLE, Claim, Verdict, mass_resolution, verdict
+from optimizer.scene import Prepared
+from schemas.answers import (
+    Certificate,
+    Closest,
+    GoalReached,
+    Infeasibility,
+    MachineLimit,
+    SmallestPeak,
+)
+from schemas.base import FieldProblem
+from schemas.proof import BoundMultipliers, InfeasibilityMultipliers, Multipliers
+from schemas.requests import OptimizeRequest
+
+#: width of the brackets by which the counterweights of an answer are judged, as a share of goals and ceilings
+_CLOSE = 1e-10
+#: relative gap of the smallest peaks by themselves
+_ALONE = 1e-7
+#: share of the largest multiplier of a conflict from which on a ceiling takes part in it
+_TAKES_PART = 1e-6
+#: so many responses of a conflict are looked at by themselves
+_MOST_AT_FAULT = 6
+
+
+@dataclass(frozen=True)
+class CertifiedTurn:
+    """Counterweights as they are fitted, and the fields of the answer that tell what is proven of them."""
+
+    status: str
+    reason: str
+    unbalance: Complex | None  # (K,) kg m; None where the ceilings are out of reach
+    fields: dict[str, object]
+
+
+def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
+    """Counterweights that are optimal over the whole turn.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what the objective needs.
+    """
+    asked = goals(request, scene.layout, scene.responses, _whole_turn(scene))
+    goal = request.objective
+    found = over_turn(asked.program, request.accuracy.relative_gap, goal.least_mass, asked.allowances)
+    if isinstance(found, Unkept):
+        return CertifiedTurn("infeasible", INFEASIBLE, None, _infeasible(request, scene, asked, found))
+    machine, square = request.machine, scene.omega_squared
+    mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
+    u = unbalance(mass, angle, found.limits.radius)
+    values = asked.program.values(u, _CLOSE)
+    judged = _judged(request, asked.program, found, u, values, mass)
+    certificate = _certificate(request, asked, found, judged, values, square)
+    return CertifiedTurn(
+        str(judged.status),
+        str(judged.reason),
+        u,
+        {
+            "counterweights": counterweights(machine, mass, angle),
+            "total_mass_kg": float(np.sum(mass)),
+            "active_limits": tuple(
+                dict.fromkeys(
+                    (
+                        *touched_limits(machine, goal, scene.responses, mass, u, square),
+                        *_touched(asked, values, square),
+                    )
+                )
+            ),
+            "shadow_prices": (),
+            "certificate": certificate,
+        },
+    )
+
+
+def _whole_turn(scene: Prepared) -> WholeTurn:
+    """The forces of the rows, if no output has asked for them either."""
+    if "whole_turn" not in scene.results:
+        needs = ("whole_turn",)
+        missing = [FieldProblem(("machine", *path), message) for path, message in problems_of(scene.machine, needs)]
+        if missing:
+            raise MissingInput(missing)
+        angle = np.zeros(1)
+        found = run(scene.machine, scene.layout, needs, scene.request.fidelity, angle)["whole_turn"]
+        assert isinstance(found, WholeTurn)
+        return found
+    turn: WholeTurn = scene.results["whole_turn"]
+    return turn
+
+
+def _judged(
+    request: OptimizeRequest, program: OverTurn, found: Found, u: Complex, values: Values, mass: Real
+) -> Verdict:
+    """What may be said of the counterweights as they are fitted."""
+    bound, rounding, resolution = -np.inf, 0.0, 0.0
+    size = float(program.yardsticks[-1])
+    if found.proof is not None:
+        proof, ceilings_ = found.proof, found.proof.statement.ceilings
+        # the bound speaks of all that exceed no ceiling by more than these counterweights do
+        over = np.full(ceilings_.size.shape, max(values.excess, 0.0))
+        bound = proof.bound - float(ceiling_allowance(proof.statement, proof.multipliers, over))
+        rounding = float(proof.statement.rounding(u)) + proof.charge * np.finfo(float).eps
+        resolution = float(mass_resolution(proof.statement, np.array([size])))
+    mass_bound = None
+    if request.objective.least_mass:
+        mass_bound = np.asarray(0.0 if found.mass_proof is None else found.mass_proof.bound)
+    kept = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], found.goals, strict=False))
+    claimed = Claim(
+        values.goals[-1:],
+        np.array([bound]),
+        np.array([rounding]),
+        np.array([size]),
+        np.asarray(values.excess if kept else np.inf),
+        np.asarray(np.sum(mass)),
+        np.asarray(resolution),
+        mass_bound,
+    )
+    return verdict(claimed, request.accuracy.relative_gap)
+
+
+def _certificate(
+    request: OptimizeRequest, asked: Goals, found: Found, judged: Verdict, values: Values, square: float
+) -> Certificate:
+    program, least = asked.program, request.objective.least_mass
+    of_mass = None
+    if found.mass_proof is not None:
+        proof = found.mass_proof
+        of_mass = named(proof.statement, physical(proof.statement, proof.multipliers, "mass", square))
+    return Certificate(
+        objective=float(values.goals[-1]) * square,
+        lower_bound=_or_null(judged.lower_bound[0] * square),
+        gap=_or_null(judged.gap[0] * square),
+        relative_gap=_or_null(judged.relative_gap),
+        yardstick=float(program.yardsticks[-1]) * square,
+        objective_without_counterweights=float(program.at_rest.goals[-1]) * square,
+        mass_lower_bound_kg=_or_null(judged.mass_lower_bound) if least else None,
+        mass_relative_gap=_or_null(judged.mass_gap) if least else None,
+        mass_yardstick_kg=_or_null(judged.mass_yardstick) if least else None,
+        mass_objective_limit=_or_null(found.mass_target * square) if least else None,
+        implied_max_mass_kg=implied_max_mass(request.machine, found.limits.max_mass[None])[0],
+        method=METHOD,
+        cuts=found.cuts,
+        rounds=found.rounds,
+        goals=tuple(
+            GoalReached(
+                goal=goal.goal,
+                value=goal.value * square,
+                lower_bound=_or_null(goal.lower_bound * square),
+                limit=goal.most * square,
+            )
+            for goal in found.goals[:-1]
+        ),
+        multipliers=Multipliers(objective=_proof(found, square), mass=of_mass),
+    )
+
+
+def _or_null(value: Real | float) -> float | None:
+    return float(value) if np.isfinite(value) else None
+
+
+def _touched(asked: Goals, values: Values, square: float) -> Iterator[MachineLimit]:
+    """Ceilings over the turn that are touched."""
+    for each in asked.limited:
+        if values.reached[each.quantity].upper * square >= each.ceiling * (1.0 - TOUCHED):
+            yield each.limit
+
+
+def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> dict[str, object]:
+    """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
+    machine, square = request.machine, scene.omega_squared
+    alone = replace(asked.program, ceilings=(), limited=())
+    groups = {each.name: Group(rows=(Row(each.name, (weighted_peak(each, 1.0),)),)) for each in scene.responses}
+    # of quantities those that the conflict is about
+    scales = asked.program.excess_scales(found.proof.cuts)
+    at_fault = _at_fault(found)
+    limited = [each for each in asked.limited if alone.quantities[each.quantity].name in at_fault]
+    groups |= {alone.quantities[q].name: Group(weighed=(Weighed(q, 1.0),)) for q in {each.quantity for each in limited}}
+    # one reach for all that is proven here
+    least = {name: _least(alone, group) for name, group in groups.items()}
+    most = np.max([found.limits.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
+    if np.any(most != alone.limits.max_mass):
+        alone = replace(alone, limits=replace(alone.limits, max_mass=most))
+        least = {name: _least(alone, group) for name, group in groups.items()}
+    value = {name: each.goals[0].value * square for name, each in least.items()}
+    bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
+    peaks = tuple(
+        SmallestPeak(
+            response=name,
+            ceiling_field=each.field,
+            ceiling=each.ceiling,
+            smallest=value[name],
+            lower_bound=bound[name],
+        )
+        for each in limited
+        for name in [alone.quantities[each.quantity].name]
+    )
+    allowed = ceilings(request.objective)
+    exact = {each.name: each.ceiling_field for each in RESPONSES.values() if each.name in allowed}
+    impossible = [field for name, field in exact.items() if bound[name] > allowed[name]]
+    impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
+    together = [field for name, field in exact.items() if name in at_fault] + [each.field for each in limited]
+    mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)
+    closest = first_order(scene.first_order(unbalance(mass, angle, found.limits.radius)))
+    proof = found.proof
+    return {
+        "counterweights": (),
+        "total_mass_kg": None,
+        "certificate": None,
+        "infeasibility": Infeasibility(
+            conflict=tuple(dict.fromkeys(impossible or together)),
+            **smallest_peaks(value, bound),
+            smallest=peaks,
+            implied_max_mass_kg=implied_max_mass(machine, most[None])[0],
+            closest=Closest(counterweights=counterweights(machine, mass, angle), first_order=closest),
+            multipliers=InfeasibilityMultipliers(
+                conflict=named_excess(proof.statement, proof.multipliers, scales, square),
+                **smallest_proofs({name: _proof(least[name], square) for name in RESPONSES}),
+            ),
+        ),
+    }
+
+
+def _at_fault(found: Unkept) -> list[str]:
+    """Responses whose ceilings conflict, those first that the proof leans on most."""
+    statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
+    share: dict[str, float] = {}
+    for term, owner in zip(statement.names.terms, statement.row.tolist(), strict=True):
+        share[term.response] = share.get(term.response, 0.0) + float(row[owner] / np.sum(row))
+    leant = [name for name, part in share.items() if part > _TAKES_PART]
+    return sorted(leant, key=lambda name: -share[name])[:_MOST_AT_FAULT]
+
+
+def _least(program: OverTurn, group: Group) -> Found:
+    """The smallest value of one group."""
+    found = over_turn(replace(program, goals=(Goal("alone", (group,)),)), _ALONE, False, ())
+    assert isinstance(found, Found)  # without ceilings nothing is out of reach
+    return found
+
+
+def _proof(found: Found, omega_squared: float) -> BoundMultipliers:
+    proof = found.proof
+    assert proof is not None  # clarabel or rest proves something
+    return named(proof.statement, physical(proof.statement, proof.multipliers, "objective", omega_squared))

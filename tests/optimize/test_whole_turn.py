@@ -1,0 +1,222 @@
+"""Objectives over the whole turn: closed forms, ceilings, goals in their order, and what is refused."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from optimizer.analyze import analyze
+from optimizer.errors import MissingInput
+from optimizer.optimize import optimize
+from schemas.answers import Certificate, OptimizeAnswer
+from schemas.pareto import ParetoRequest
+from schemas.requests import AnalyzeRequest
+from schemas.sweep.request import SweepRequest
+from tests.optimize.whole_turn import ALONE, asked, inline_six, one_throw
+
+
+def answered(machine: dict[str, Any], **objective: Any) -> tuple[OptimizeAnswer, Certificate]:
+    found = optimize(asked(machine, **objective))
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    return found, found.certificate
+
+
+@pytest.mark.parametrize(("rod", "radius", "share"), [(None, 0.25, 0.5), (3.0, 0.346038, 0.661)])
+def test_one_throw_between_two_bearings(rod: float | None, radius: float, share: float) -> None:
+    """Analytic: m_rec/4 on each bearing with (m_rot + m_rec/2)/2 on each web; published for a ratio of 1/3."""
+    found, proof = answered(one_throw(rod), bearing_weight=1, **ALONE)
+    assert proof.objective == pytest.approx(radius, abs=2.5e-6)
+    assert proof.objective_without_counterweights == pytest.approx(1.0 if rod is None else 1.0 + 1.0 / 6.0, rel=1e-6)
+    for counterweight in found.counterweights:
+        assert counterweight.mass_kg == pytest.approx((1.0 + share) / 2, abs=2e-3)
+        assert counterweight.angle_deg == pytest.approx(180.0, abs=0.1)
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= radius + 1e-6
+    assert proof.cuts is not None
+    assert proof.rounds is not None
+    assert found.main_bearings is not None
+
+
+def test_one_throw_shakes_with_all_orders() -> None:
+    """Published in the mathematics of this project: lam 0.3, a web takes the single's 1.3 down to .6964692."""
+    machine = one_throw(1.0 / 0.3)
+    machine["throws"][0]["rotating_mass_kg"] = 0.0
+    machine["webs"] = [{"name": "w", "position_m": 0.0, "counterweight_radius_m": 1.0, "max_mass_kg": 9.0}]
+    del machine["bearings"]
+    found, proof = answered(machine, orders="all", moment_weight=0, least_mass=False)
+    assert proof.objective_without_counterweights == pytest.approx(1.3, rel=1e-9)
+    assert proof.objective == pytest.approx(0.6964692, abs=2e-6)
+    assert found.counterweights[0].mass_kg == pytest.approx(0.603531, abs=1e-3)
+    assert found.main_bearings is None
+    # the first order alone is another program
+    assert answered(machine, moment_weight=0)[1].objective == pytest.approx(0.5, rel=3e-6)
+
+
+def test_bearings_of_an_inline_six() -> None:
+    """Regression, and published in the mathematics of this project for such a machine: 43.6 kN to 8.360 kN."""
+    found, proof = answered(inline_six(), bearing_weight=1, **ALONE)
+    assert proof.objective_without_counterweights == pytest.approx(43.6e3, abs=50)
+    assert proof.objective == pytest.approx(8.360e3, abs=1)
+    assert proof.relative_gap is not None
+    assert proof.relative_gap <= 1e-6
+    assert proof.mass_relative_gap is not None
+    assert proof.mass_relative_gap <= 1e-4
+    assert found.main_bearings is not None
+    sampled = [bearing.after.peak_N for bearing in found.main_bearings.bearings if bearing.after is not None]
+    assert max(sampled) <= proof.objective * (1 + 1e-9)
+    terms = proof.multipliers.objective.terms
+    assert {term.response for term in terms} <= {f"bearing:{k}" for k in range(7)}
+    assert all(term.angle_deg is not None for term in terms)
+    assert sum(row.value for row in proof.multipliers.objective.rows) == pytest.approx(1.0, rel=1e-12)
+
+
+def test_specific_loads_are_loads_over_areas() -> None:
+    _, plain = answered(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
+    _, specific = answered(inline_six(), bearing_weight=1, bearing_measure="specific", least_mass=False, **ALONE)
+    assert specific.objective == pytest.approx(plain.objective / (0.06 * 0.02), rel=2e-6)
+
+
+def test_root_mean_squares_are_smaller_than_peaks() -> None:
+    _, peak = answered(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
+    _, rms = answered(inline_six(), bearing_weight=1, bearing_measure="rms", least_mass=False, **ALONE)
+    assert rms.objective < peak.objective
+
+
+def test_force_and_bearings_are_weighed_together() -> None:
+    machine = inline_six()
+    both, together = answered(machine, bearing_weight=1)
+    _, bearings = answered(machine, bearing_weight=1, **ALONE)
+    assert together.objective >= bearings.objective - 1.0
+    assert both.residual.after is not None
+    external = both.residual.after.force.peak_N + both.residual.after.moment.peak_Nm / 0.55
+    assert together.objective == pytest.approx(bearings.objective + external, rel=1e-2)
+
+
+def test_a_ceiling_on_bearings_is_kept_and_touched() -> None:
+    found, proof = answered(inline_six(), bearing_ceiling_N=12e3)
+    assert found.active_limits == ("bearing_ceiling",)
+    assert found.total_mass_kg is not None
+    assert found.total_mass_kg > 0
+    assert found.main_bearings is not None
+    assert all(each.after is not None and each.after.peak_N <= 12e3 for each in found.main_bearings.bearings)
+    assert proof.multipliers.mass is not None
+    assert any(ceiling.x or ceiling.y for ceiling in proof.multipliers.mass.ceilings)
+    # a looser ceiling takes less iron
+    looser, _ = answered(inline_six(), bearing_ceiling_N=20e3)
+    assert looser.total_mass_kg is not None
+    assert looser.total_mass_kg < found.total_mass_kg
+
+
+@pytest.mark.parametrize("field", ["bearing_ceiling_N", "specific_load_ceiling_Pa"])
+def test_ceilings_below_the_floor_are_out_of_reach_and_say_by_how_much(field: str) -> None:
+    area = 1.0 if field == "bearing_ceiling_N" else 0.06 * 0.02
+    found = optimize(asked(inline_six(), **{field: 6e3 / area}))
+    assert found.status == "infeasible"
+    why = found.infeasibility
+    assert why is not None
+    assert why.conflict == (field,)
+    (middle,) = why.smallest
+    assert middle.response == "bearing:3"
+    assert middle.ceiling == pytest.approx(6e3)
+    assert middle.smallest == pytest.approx(8.360e3, abs=1)
+    assert 6e3 < middle.lower_bound <= middle.smallest
+    assert why.multipliers.conflict.ceilings
+
+
+def test_bending_has_a_weight_and_a_ceiling() -> None:
+    machine = inline_six()
+    _, smallest = answered(machine, bending_weight=1, least_mass=False, **ALONE)
+    assert 0 < smallest.objective < 0.5 * smallest.objective_without_counterweights
+    found, _ = answered(machine, bending_ceiling_Nm=1.5 * smallest.objective)
+    assert found.active_limits == ("bending_ceiling",)
+    assert found.main_bearings is not None
+    assert found.main_bearings.bending.after_Nm is not None
+    assert max(found.main_bearings.bending.after_Nm) <= 1.5 * smallest.objective * (1 + 1e-9)
+
+
+def test_goals_are_met_one_after_the_other() -> None:
+    order = [{"goal": "external", "allowance": 0.001}, {"goal": "bearings"}, {"goal": "mass"}]
+    found, proof = answered(inline_six(), bearing_weight=1, priorities=order)
+    (external,) = proof.goals
+    assert external.goal == "external"
+    assert external.value <= external.limit
+    assert proof.objective == pytest.approx(8.360e3, abs=1)
+    assert found.residual.after is not None
+    assert found.residual.after.force.peak_N <= external.limit * (1 + 1e-9)
+
+
+def test_continuous_shafts_carry_otherwise() -> None:
+    request = asked(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
+    continuous = request.model_copy(update={"fidelity": request.fidelity.model_copy(update={"shaft": "continuous"})})
+    one, other = optimize(request).certificate, optimize(continuous).certificate
+    assert one is not None
+    assert other is not None
+    assert abs(one.objective - other.objective) > 0.05 * one.objective
+
+
+@pytest.mark.parametrize(
+    ("objective", "field"),
+    [
+        ({"bearing_weight": 0, **ALONE}, "moment_weight"),
+        ({"orders": "all", "direction_weights": {"x": 1, "y": 2}}, "direction_weights"),
+        ({"priorities": [{"goal": "external"}, {"goal": "external"}]}, "goal"),
+        ({"priorities": [{"goal": "mass"}, {"goal": "external"}]}, "goal"),
+        ({"priorities": [{"goal": "mass"}]}, "goal"),
+        ({"priorities": [{"goal": "bearings"}]}, "goal"),
+        ({"bearing_weight": 1, "priorities": [{"goal": "bearings"}]}, "priorities"),
+        ({"least_mass": False, "priorities": [{"goal": "external"}, {"goal": "mass"}]}, "least_mass"),
+        ({"bearing_measure": "mean"}, "bearing_measure"),
+    ],
+)
+def test_objectives_that_contradict_themselves_name_the_field(objective: dict[str, Any], field: str) -> None:
+    with pytest.raises(ValidationError) as refused:
+        asked(inline_six(), **objective)
+    assert field in {str(part) for error in refused.value.errors() for part in (*error["loc"], error["msg"])} or any(
+        field in str(error) for error in refused.value.errors()
+    )
+
+
+def test_what_a_machine_lacks_is_named() -> None:
+    machine = inline_six()
+    del machine["bearings"][2]["length_m"]
+    with pytest.raises(MissingInput) as missing:
+        optimize(asked(machine, specific_load_ceiling_Pa=1e7))
+    assert [problem.path for problem in missing.value.problems] == [("machine", "bearings", 2, "length_m")]
+    del machine["bearings"]
+    with pytest.raises(MissingInput) as missing:
+        optimize(asked(machine, bearing_weight=1))
+    assert ("machine", "bearings") in [problem.path for problem in missing.value.problems]
+
+
+def test_sweeps_and_fronts_refuse_the_whole_turn() -> None:
+    base = {"machine": inline_six(), "objective": {"bearing_weight": 1}}
+    axis = {"path": "/machine/speed_rpm", "values": [1000.0, 2000.0]}
+    with pytest.raises(ValidationError, match="one machine"):
+        SweepRequest.model_validate({"task": "optimize", "base": base, "axes": [axis]})
+    other = {"path": "/objective/bearing_weight", "values": [1.0, 2.0]}
+    with pytest.raises(ValidationError, match="one machine"):
+        SweepRequest.model_validate({"task": "optimize", "base": {"machine": inline_six()}, "axes": [other]})
+    with pytest.raises(ValidationError, match="whole turn"):
+        ParetoRequest.model_validate(base)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_brute_force_never_beats_the_certificate(seed: int) -> None:
+    """Independent: peaks of random counterweights near the answer, at 0.1 degree, by the analysis of samples."""
+    machine = inline_six()
+    found, proof = answered(machine, bearing_weight=1, least_mass=False, **ALONE)
+    rng = np.random.default_rng(seed)
+    fitted = [
+        {"web": each.web, "mass_kg": each.mass_kg * rng.uniform(0.9, 1.1), "angle_deg": each.angle_deg + rng.normal()}
+        for each in found.counterweights
+    ]
+
+    body = {"machine": machine, "counterweights": fitted, "outputs": ["main_bearings"], "angles": {"step_deg": 0.1}}
+    loads = analyze(AnalyzeRequest.model_validate(body)).main_bearings
+    assert loads is not None
+    peak = max(each.after.peak_N for each in loads.bearings if each.after is not None)
+    assert proof.lower_bound is not None
+    # what 0.1 degree may miss of the curve
+    assert proof.lower_bound <= peak * (1 + 1e-5)
