@@ -62,7 +62,8 @@ def _masses(answer: dict[str, Any]) -> Iterator[Tampered]:
 
 
 def _residuals(answer: dict[str, Any]) -> Iterator[Tampered]:
-    for when, first_order in answer["residual"].items():
+    for when in ("before", "after"):
+        first_order = answer["residual"][when]
         for name, unit in _UNITS.items() if first_order else ():
             size = answer["residual"]["before"][name][f"peak_{unit}"]
             for figure in _FIGURES:
