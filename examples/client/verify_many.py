@@ -2,7 +2,8 @@
 
     python verify_many.py request.json answer.json
 
-Of a sweep, the answer is its rows as a JSON list or as NDJSON. verify.py has to lie beside this file.
+Of a sweep, the answer is its rows as a JSON list or as NDJSON. verify.py, verify_program.py and verify_numbers.py
+have to lie beside this file.
 """
 
 from __future__ import annotations

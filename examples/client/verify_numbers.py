@@ -144,7 +144,7 @@ KNOWN = (
 IDLE = (
     " name description length_m throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
     " tangential_gas_force_N drive_bearing pin_circle_radius_m outputs angles fidelity multipliers symmetric points"
-    " total_mass_budgets_kg "
+    " total_mass_budgets_kg bearing_measure "
 )
 
 
@@ -220,7 +220,9 @@ class Place:
     def known(self) -> None:
         """Raises NotCovered where there is a field that is not known."""
         for name in self.value if isinstance(self.value, dict) else ():
-            if f" {name} " not in IDLE and (self / name).value not in (None, [], {}):
+            # a weight of 0 is none
+            nothing = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
+            if f" {name} " not in IDLE and (self / name).value not in nothing:
                 if f" {name} " not in KNOWN:
                     raise NotCovered(self / name)
                 (self / name).known()

@@ -90,6 +90,18 @@ def test_what_the_checker_does_not_know_is_not_covered() -> None:
     ]
 
 
+def test_requests_with_every_field_and_over_the_whole_turn() -> None:
+    """All that has its default changes nothing; objectives over the turn are other programs."""
+    body = SINGLE["sum"]
+    asked = OptimizeRequest.model_validate(body)
+    answer = json.loads(optimize(asked).model_dump_json())
+    assert verdict(json.loads(asked.model_dump_json()), answer) == "held"
+    for name, value in {"orders": "all", "bearing_weight": 1.0, "bending_ceiling_Nm": 0.0}.items():
+        found = checker().verify({**body, "objective": {name: value}}, answer)
+        assert found["verdict"] == "not covered"
+        assert f"/request/objective/{name}" in [one["where"] for one in found["claims"]]
+
+
 _WEB = SINGLE["sum"]["machine"]["webs"][0]["name"]
 _ANSWER = json.loads(optimize(OptimizeRequest.model_validate(SINGLE["ceilings"])).model_dump_json())
 _JSON = st.recursive(
