@@ -120,6 +120,8 @@ def _judged(
         # the bound speaks of all that exceed no ceiling by more than these counterweights do
         over = np.full(ceilings_.size.shape, max(values.excess, 0.0))
         bound = proof.bound - float(ceiling_allowance(proof.statement, proof.multipliers, over))
+        # a sum of sizes is not below 0, whatever the rounding of a proof
+        bound = max(bound, 0.0)
         rounding = float(proof.statement.rounding(u)) + proof.charge * np.finfo(float).eps
         resolution = float(mass_resolution(proof.statement, np.array([size])))
     mass_bound = None

@@ -125,6 +125,14 @@ def test_ceilings_below_the_floor_are_out_of_reach_and_say_by_how_much(field: st
     assert why.multipliers.conflict.ceilings
 
 
+def test_machines_without_webs_are_answered() -> None:
+    machine = inline_six() | {"webs": []}
+    _, proof = answered(machine, bearing_weight=1, **ALONE)
+    assert proof.objective == proof.objective_without_counterweights
+    assert answered(machine, bearing_ceiling_N=1e6)[1].objective == 0.0
+    assert optimize(asked(machine, bearing_ceiling_N=1e3)).status == "infeasible"
+
+
 def test_bending_has_a_weight_and_a_ceiling() -> None:
     machine = inline_six()
     _, smallest = answered(machine, bending_weight=1, least_mass=False, **ALONE)

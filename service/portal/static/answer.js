@@ -63,8 +63,8 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
 function refusal({ objective }, { conflict, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
   const { force: nearForce, moment: nearMoment } = closest.first_order;
   return [
-    conflict.length > 1 ? "The ceilings of force and moment cannot be met, alone or together."
-      : `The ceiling of the ${conflict[0].split("_")[0]} cannot be met.`,
+    conflict.length > 1 ? `The ceilings of ${conflict.map((field) => field.split("_ceiling")[0].replace("_", " ")).join(" and ")} cannot be met, alone or together.`
+      : `The ceiling of the ${conflict[0].split("_ceiling")[0].replace("_", " ")} cannot be met.`,
     `Within these limits the peak force can come down to ${figure(force)} N (the moment left free) and the peak moment to ${figure(moment)} N m `
     + `(the force left free); the ceilings ask for ${figure(objective?.force_ceiling_N)} N and ${figure(objective?.moment_ceiling_Nm)} N m.`,
     `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m.`,

@@ -6,7 +6,7 @@ from optimizer.formulate import span, weights
 from schemas.cylinder import Cylinder
 from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw
 from schemas.over_turn import ForceTable, TorqueTable
-from schemas.requests import OptimizeRequest
+from schemas.requests import OptimizeRequest, Priority
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
 
 _ACTING = {"double": "both sides", "head": "head side", "crank": "crank side"}
@@ -220,6 +220,23 @@ def _webs(machine: Machine) -> Block:
     )  # fmt: skip
 
 
+#: fields of the objective that look at the whole turn, in words
+_OVER_THE_TURN = {
+    "bearing_weight": "weight of the largest bearing load, 1/N or 1/Pa",
+    "bearing_measure": "measure of the bearing loads",
+    "bearing_ceiling_N": "ceiling of the bearing loads, N",
+    "specific_load_ceiling_Pa": "ceiling of the specific bearing loads, Pa",
+    "bending_weight": "weight of the largest bending moment, 1/(N m)",
+    "bending_ceiling_Nm": "ceiling of the bending moments, N m",
+    "orders": "orders of force and moment",
+    "priorities": "goals in their order",
+}
+
+
+def _told(value: float | str | tuple[Priority, ...]) -> float | str:
+    return ", ".join(each.goal for each in value) if isinstance(value, tuple) else value
+
+
 def _objective(request: OptimizeRequest) -> Table:
     goal, wanted = request.objective, weights(request.machine, request.objective)
     combined = {
@@ -236,6 +253,10 @@ def _objective(request: OptimizeRequest) -> Table:
             ("weight of components along y", goal.direction_weights.y),
             ("ceiling of the peak force, N", "none" if goal.force_ceiling_N is None else goal.force_ceiling_N),
             ("ceiling of the peak moment, N m", "none" if goal.moment_ceiling_Nm is None else goal.moment_ceiling_Nm),
+            *(
+                (_OVER_THE_TURN[name], _told(getattr(goal, name)))
+                for name in (*goal.over_the_turn, *(("bearing_measure",) if goal.bearing_weight else ()))
+            ),
             ("among all optima", "the lightest" if goal.least_mass else "any"),
             ("relative gap asked for", request.accuracy.relative_gap),
         ],

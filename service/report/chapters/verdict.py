@@ -8,7 +8,13 @@ from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, 
 from service.report.chapters.balance import limits, shown, which
 from service.report.formula import formula
 
-_CEILINGS = {"force_ceiling_N": "the ceiling of the force", "moment_ceiling_Nm": "the ceiling of the moment"}
+_CEILINGS = {
+    "force_ceiling_N": "the ceiling of the force",
+    "moment_ceiling_Nm": "the ceiling of the moment",
+    "bearing_ceiling_N": "the ceiling of the bearing loads",
+    "specific_load_ceiling_Pa": "the ceiling of the specific bearing loads",
+    "bending_ceiling_Nm": "the ceiling of the bending moments",
+}
 
 
 def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
@@ -83,6 +89,12 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
             ("best compromise", closest.force.peak_N, closest.moment.peak_Nm),
         ],
     )
+    if why.smallest:
+        yield table(
+            "Bearing loads and bending moments by themselves, N and N m",
+            ["response", "#ceiling", "#smallest", "#certified not below"],
+            [(each.response, each.ceiling, each.smallest, each.lower_bound) for each in why.smallest],
+        )
 
 
 def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter:
