@@ -8,7 +8,6 @@ from typing import Any
 from anyio import create_task_group, to_thread
 from fastapi import FastAPI
 from starlette.middleware import Middleware
-from starlette.middleware.cors import CORSMiddleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from schemas.version import package_version
@@ -21,6 +20,7 @@ from service.guard.shares import Shares
 from service.guard.threads import Threads
 from service.http import errors
 from service.http.computing import Computing
+from service.http.cors import Cors
 from service.http.openapi import Documented
 from service.http.pacing import Pacing
 from service.http.security_headers import SecurityHeaders
@@ -128,7 +128,7 @@ def create_app(
             Middleware(HeadAsGet),
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
             Middleware(SecurityHeaders, chosen.hsts_s),
-            Middleware(CORSMiddleware, chosen.cors_origins, **CORS),
+            Middleware(Cors, chosen.cors_origins, **CORS),
             Middleware(Pacing),
             Middleware(
                 Access,
