@@ -120,7 +120,7 @@ def test_the_table_of_problems_is_complete() -> None:
     found = set()
     for kind, describe in FAULTS.items():
         error = kind.__new__(kind)
-        anything = {"problems": (), "more": False, "wrong": False, "retry": True, "retry_after_s": 1}
+        anything = {"problems": (), "more": False, "wrong": False, "retry": True, "retry_after_s": 1, "full": False}
         vars(error).update(anything, status_code=404, detail="", headers=None, _errors=())
         said = problem(describe(error), "")
         found.add((said.status, said.type.removeprefix("/problems/")))
