@@ -297,6 +297,9 @@ def test_only_pages_of_the_listed_origins_may_ask(client: TestClient) -> None:
     assert allowed.headers["access-control-allow-origin"] == "https://portal.example"
     refused = client.options("/v1/optimize", headers={"Origin": "https://evil.example", **asked})
     assert "access-control-allow-origin" not in refused.headers
+    assert (refused.status_code, refused.headers["content-type"]) == (400, "application/problem+json")
+    assert refused.json()["detail"] == "Disallowed CORS origin."
+    assert "origin" in refused.headers["vary"].lower()
     # an error can be read by the page too
     answer = client.get("/v1/examples", headers={"Origin": "https://portal.example"})
     assert (answer.status_code, answer.headers["access-control-allow-origin"]) == (401, "https://portal.example")
