@@ -11,7 +11,7 @@ from optimizer.formulate import formulate
 from optimizer.outputs import prepare
 from optimizer.program.statement import Statement
 from optimizer.sweep.designs import axis_values
-from optimizer.sweep.rows import Group
+from optimizer.sweep.variation import with_fields
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
 from tests.benchmarks.cases import eight_webs
@@ -64,8 +64,15 @@ class Program:
 
 def programs(request: SweepRequest, numbers: Iterable[int]) -> list[Program]:
     """The programs of some designs, each formulated by itself."""
-    group = Group(request, axis_values(request, 0, request.total))
-    return [_program(group.one(number)) for number in numbers]
+    columns = {
+        target.path: values
+        for target, values in zip(request.targets, axis_values(request, 0, request.total), strict=True)
+    }
+    designs = (
+        with_fields(request.base, {path: float(values[number]) for path, values in columns.items()})
+        for number in numbers
+    )
+    return [_program(design) for design in designs]
 
 
 def _program(request: OptimizeRequest) -> Program:

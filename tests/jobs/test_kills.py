@@ -23,6 +23,13 @@ def expected() -> "object":
     return run_chunk(request.model_dump_json().encode(), 0, request.total)
 
 
+def computes(child: psutil.Process) -> bool:
+    try:
+        return "spawn_main" in " ".join(child.cmdline())
+    except psutil.Error:  # it has just ended
+        return False
+
+
 def test_kills_at_random_moments(tmp_path: Path) -> None:
     # a hundred: python -m tests.jobs.kills
     sweeps, midway = kill(tmp_path, kills=6, seed=7, longest_s=0.5, kills_of_one=3)
@@ -37,7 +44,7 @@ def test_a_killed_worker(tmp_path: Path) -> None:
         killed = 0
         while killed < 2 and running.read(path)["state"] in ("queued", "running"):
             for child in psutil.Process(running.process.pid).children():
-                if "spawn_main" in " ".join(child.cmdline()) and running.read(path)["done"] > 100 * killed:
+                if computes(child) and running.read(path)["done"] > 100 * killed:
                     os.kill(child.pid, signal.SIGKILL)
                     killed += 1
                     time.sleep(0.5)

@@ -36,7 +36,7 @@ def test_an_output_lists_what_it_takes(client: TestClient) -> None:
     assert by_name["gas"] == OutputEntry(
         name="gas",
         meaning=by_name["gas"].meaning,
-        needs=("kinematics", "gas"),
+        needs=("kinematics", "gas", "indicated_work"),
         inputs=("machine.throws.rows.connecting_rod", "machine.throws.rows.cylinder"),
     )
     assert {"machine.friction", "machine.flywheel"} <= set(by_name["flywheel"].inputs)
