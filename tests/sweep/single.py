@@ -12,7 +12,7 @@ from optimizer.optimize import optimize
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.sweep import run_chunk
 from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
 from service.validation import InvalidRequest, check, pointer
 
@@ -192,4 +192,6 @@ def numeric_paths(request: SweepRequest) -> list[str]:
     for part in ("machine", "objective", "counterweights"):
         if part in body:
             walk(body[part], (part,))
-    return found
+    # a sweep does not weigh what is known over the turn
+    refused = tuple(pointer(("objective", name)) for name in OVER_THE_TURN)
+    return [path for path in found if not path.startswith(refused)]
