@@ -5,6 +5,8 @@ from collections.abc import Callable, Iterable
 
 from service.guard.addresses import Networks, client_network
 
+#: every so many-th connection is kept for those who have fewer than these
+_KEPT, _FEW = 10, 8
 #: further connections of an address, and altogether, that may ask for health and nothing else
 _PROBING_EACH = 4
 _PROBING = 32
@@ -29,7 +31,8 @@ class Doors:
     def enter(self, address: str) -> bool:
         """Whether there is room for a connection from an address; it is counted then."""
         client = client_network(address)
-        room = self._open.total() < self._altogether
+        kept = 0 if self._open[client] < _FEW else self._altogether // _KEPT
+        room = self._open.total() < self._altogether - kept
         if not (room and (self._open[client] < self._each or address in self._proxies)):
             return False
         self._open[client] += 1

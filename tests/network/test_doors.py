@@ -44,3 +44,10 @@ def test_what_has_ended_is_forgotten() -> None:
         doors.probed("10.0.0.1", give_up)
         assert doors.enter("10.0.0.1")
         doors.leave("10.0.0.1")
+
+
+def test_some_are_kept_for_those_who_have_few() -> None:
+    doors = Doors(100, 50, ())
+    many = [doors.enter(f"10.0.0.{k % 4}") for k in range(120)]
+    assert many == [True] * 90 + [False] * 30
+    assert [doors.enter("10.0.0.9") for _ in range(12)] == [True] * 8 + [False] * 4
