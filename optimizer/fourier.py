@@ -34,8 +34,8 @@ class FourierCurves:
         half = np.full(shape, 0.5 * np.deg2rad(self.period_deg) / count)
         centre = half * (2.0 * np.arange(count) + 1.0)
         curve, piece = np.indices(shape)
-        fourth = np.sum(np.abs(self.coefficient) * np.abs(self.order) ** 4, axis=-1)
-        return Pieces(centre, half, self.cubics(curve, piece, centre, half), fourth[:, None] * half**4 / 24.0, self)
+        cubic, rest = self.cubics(curve, piece, centre, half), self.rests(curve, piece, centre, half)
+        return Pieces(centre, half, cubic, rest, np.sum(np.abs(self.coefficient), axis=-1), self)
 
     def at(self, angle: Real) -> Complex:
         """The curves at angles (n,) rad: (J, n)."""
@@ -56,6 +56,10 @@ class FourierCurves:
         size = half[..., None] * self.order
         terms = self.coefficient[curve] * np.exp(1j * centre[..., None] * self.order)
         return np.stack([np.sum(terms * (1j * size) ** k, axis=-1) / factorial(k) for k in range(4)], axis=-1)
+
+    def rests(self, curve: Index, _piece: Index, _centre: Real, half: Real) -> Real:
+        """The fourth derivative is at most the sum of its terms' magnitudes, everywhere."""
+        return np.sum(np.abs(self.coefficient[curve]) * (half[..., None] * self.order) ** 4, axis=-1) / 24.0
 
     def values(self, curve: Index, _piece: Index, angle: Real) -> Complex:
         """Of the series."""

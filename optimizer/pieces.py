@@ -26,10 +26,16 @@ Index = NDArray[np.intp]
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or expanded anew, which leaves out 16^-4 as much
 _PARTS, _FINER = 4, 16
+#: a rest of this share of the tolerance is no longer what keeps a bracket open
+_ENOUGH = 0.125
 #: after so many cuts in a row the bracket is told as it is
 _MOST_CUTS = 40
+#: and so it is where so many parts may hold peaks: what is so steep is not worth more time
+_MOST_PARTS = 50_000
 #: no bracket is narrower than this share of what is added up in it
 _ROUNDING = 32 * np.finfo(float).eps
+#: rad, by which an angle may be rounded within two turns
+_ANGLE_ROUNDING = 64 * np.finfo(float).eps
 
 
 class Bracket(NamedTuple):
@@ -47,6 +53,9 @@ class Source(Protocol):
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (m, 4) about other centres (m,) rad within given pieces."""
 
+    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
+        """Bounds (m,) on what these leave out within half widths (m,) rad."""
+
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """Values (m,) at angles (m,) rad within given pieces; at their ends the one-sided limits."""
 
@@ -58,6 +67,7 @@ class Pieces:
     centre, half : (J, P) rad; half is 0 where two breaks coincide.
     cubic : (J, P, 4) coefficients of ((angle - centre) / half)^k; real for scalars.
     rest : (J, P) bounds on what they leave out, half^4/24 times the largest fourth derivative.
+    size : (J,) of the terms that are added up in a curve: no bracket is narrower than their rounding.
     source : of finer ones.
     """
 
@@ -65,6 +75,7 @@ class Pieces:
     half: Real
     cubic: Complex
     rest: Real
+    size: Real
     source: Source
 
     def peaks(self, offset: Complex, tolerance: Reals, curve: Index | None = None) -> Bracket:
@@ -114,6 +125,7 @@ class _Parts:
     half: Real
     cubic: Complex  # (n, 4), offset included
     rest: Real
+    fourth: Real  # rest of an expansion about the centre, over half^4
 
     def chosen(self, keep: NDArray[np.bool_]) -> "_Parts":
         return _Parts(**{name: value[keep] for name, value in vars(self).items()})
@@ -136,9 +148,7 @@ class _Parts:
 def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: Reals, measure: _Measure) -> Bracket:
     """Brackets (m,): what is below the best found by less than the tolerance is let go, the rest looked at closer."""
     parts = _all_parts(pieces, of_peak, offset)
-    scale = np.zeros(offset.size)
-    np.maximum.at(scale, parts.peak, np.sum(np.abs(parts.cubic), axis=-1) + parts.rest)
-    scale += np.abs(offset)
+    scale = pieces.size[of_peak] + np.abs(offset)
     angle, piece = np.zeros(offset.size), np.zeros(offset.size, dtype=np.intp)
     lower, upper = np.full(offset.size, np.nan), np.full(offset.size, -np.inf)
     for cuts in range(_MOST_CUTS):
@@ -157,14 +167,15 @@ def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: Reals
         )
         allowed = np.maximum(tolerance * np.abs(lower), _ROUNDING * scale)
         open_ = most > (lower + allowed)[parts.peak]
-        if cuts == _MOST_CUTS - 1:
+        if cuts == _MOST_CUTS - 1 or np.count_nonzero(open_) > _MOST_PARTS:
             open_[:] = False
-        np.maximum.at(upper, parts.peak[~open_], most[~open_])
+        rounding = _ANGLE_ROUNDING * np.abs(parts.cubic[:, 1]) / parts.half
+        np.maximum.at(upper, parts.peak[~open_], (most + rounding)[~open_])
         if not np.any(open_):
             break
-        parts, too_coarse = parts.chosen(open_), (parts.rest > 0.125 * allowed[parts.peak])[open_]
+        parts, too_coarse = parts.chosen(open_), (parts.rest > _ENOUGH * allowed[parts.peak])[open_]
         fine = parts.chosen(~too_coarse).cut(_PARTS)
-        coarse = _expanded(pieces, of_peak, offset, parts.chosen(too_coarse).cut(_FINER))
+        coarse = _expanded(pieces, of_peak, offset, parts.chosen(too_coarse).cut(_FINER), allowed)
         parts = fine.and_(coarse)
     value = pieces.source.values(of_peak, piece, angle)
     lower = measure.size(measure.polynomial((value + offset)[:, None])[:, 0])
@@ -173,29 +184,25 @@ def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: Reals
 
 def _all_parts(pieces: Pieces, of_peak: Index, offset: Complex) -> _Parts:
     """Every piece of every curve whose peak is asked for."""
-    half = pieces.half[of_peak]
-    peak, piece = np.nonzero(half > 0.0)
+    peak, piece = np.nonzero(pieces.half[of_peak] > 0.0)
     where = (of_peak[peak], piece)
-    return _Parts(
-        peak,
-        piece,
-        pieces.centre[where],
-        half[peak, piece],
-        _moved(pieces.cubic[where], offset[peak]),
-        pieces.rest[where],
-    )
+    half, rest = pieces.half[where], pieces.rest[where]
+    cubic = _moved(pieces.cubic[where], offset[peak])
+    return _Parts(peak, piece, pieces.centre[where], half, cubic, rest, rest / half**4)
 
 
-def _expanded(pieces: Pieces, of_peak: Index, offset: Complex, parts: _Parts) -> _Parts:
-    """The same parts by polynomials of their own."""
+def _expanded(pieces: Pieces, of_peak: Index, offset: Complex, parts: _Parts, allowed: Real) -> _Parts:
+    """The same parts by polynomials of their own; where that does not help enough, with bounds of their own as well."""
     if not parts.peak.size:
         return parts
     curve = of_peak[parts.peak]
     cubic = pieces.source.cubics(curve, parts.piece, parts.centre, parts.half)
-    # the bound on the derivative is that of the whole piece
-    whole = (curve, parts.piece)
-    rest = pieces.rest[whole] * (parts.half / pieces.half[whole]) ** 4
-    return replace(parts, cubic=_moved(cubic, offset[parts.peak]), rest=rest)
+    rest = parts.fourth * parts.half**4
+    steep = rest > _ENOUGH * allowed[parts.peak]
+    if np.any(steep):
+        some = parts.chosen(steep)
+        rest[steep] = np.minimum(rest[steep], pieces.source.rests(curve[steep], some.piece, some.centre, some.half))
+    return replace(parts, cubic=_moved(cubic, offset[parts.peak]), rest=rest, fourth=rest / parts.half**4)
 
 
 def _keep_best(best: tuple[Real, Real, Index], peak: Index, found: tuple[Real, Real, Index]) -> None:

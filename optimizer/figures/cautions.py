@@ -95,7 +95,9 @@ def _bare_crank(told: Told) -> Iterator[Caution]:
     request, machine = told.scene.request, told.scene.machine
     if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
         return
-    if told.unbalance is None or not machine.webs:
+    goal = request.objective
+    weighed = goal.bearing_weight or goal.bending_weight or goal.bearing_ceiling_N or goal.bending_ceiling_Nm
+    if told.unbalance is None or not machine.webs or weighed:
         return
     rates = cranks(machine).rates(told.unbalance).real
     bare = np.flatnonzero(rates < _BARE)
@@ -106,7 +108,7 @@ def _bare_crank(told: Told) -> Iterator[Caution]:
             code="bare_crank",
             message=f"{bare.size} of {len(machine.throws)} throws have less than half of their rotating mass balanced "
             f"by their own webs (throw {name}: {rates[least] + 0.0:.2f}). What leaves the machine needs no more, but "
-            "its main bearings carry the rest: ask for main_bearings.",
+            "its main bearings carry the rest: ask for main_bearings, or weigh them.",
             pointer="/objective",
         )
 

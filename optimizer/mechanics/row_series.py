@@ -168,7 +168,11 @@ class RowSeries:
         twice, four_times = self._trigonometric(cosine, 2), self._trigonometric(cosine, 4)
         # cos^4 = (3 + 4 cos 2 phi + cos 4 phi) / 8
         upper = twice.times(lam * (short + 0.5 * lam**2)) + four_times.times(0.125 * lam**3)
-        return (self._cosine + upper.plus(0.375 * lam**3) * self._upright.power(-1.5)).times(size)
+        upper = upper.plus(0.375 * lam**3)
+        if upper.radius is None:
+            # at 90 degrees the sum cancels, and what it is divided by may be as small
+            upper.middle[0] = lam * (short * twice.middle[0] + lam**2 * self._cosine.middle[0] ** 4)
+        return (self._cosine + upper * self._upright.power(-1.5)).times(size)
 
     @property
     def friction(self) -> Real:
@@ -205,10 +209,18 @@ class RowSeries:
     def _travel(self, side: int) -> Taylor:
         """Own travel of the chambers of one side over the crank radius."""
         lam = self._each(self.data.rod_ratio)
-        swing = self._sine_squared
-        swing = swing * self._cos_beta.plus(1.0).power(-1.0) if self.data.exact else swing.times(0.5)
-        swing = swing.times(lam)
-        series = (swing - self._cosine).plus(1.0) if side == 0 else (self._cosine - swing).plus(1.0)
+        if not self.data.exact:
+            swing = self._sine_squared.times(0.5 * lam)
+            series = (swing - self._cosine).plus(1.0) if side == 0 else (self._cosine - swing).plus(1.0)
+        elif side == 0:
+            series = (self._swing - self._cosine).plus(1.0)
+        else:
+            # what motion() leaves to the inner dead centre: nothing cancels, however near lam is to 1
+            away = np.cos(self._within) < 0.0
+            short = self._each(self.data.rod_margin) * (1.0 + lam)
+            upright = self._cos_beta + self._cosine.times(np.where(away, -lam, lam))
+            u = upright.power(np.where(away, -1.0, 1.0)).times(np.where(away, short, 1.0))
+            series = (self._cosine.plus(1.0) * u * u.plus(1.0 + lam).power(-1.0)).times(2.0)
         if self.half is None:
             # where 1 - cos would cancel
             return Taylor(np.concatenate([self._travel_at(side, self._angle)[None], series.middle[1:]]))
@@ -217,16 +229,23 @@ class RowSeries:
         return series.between(np.minimum(*ends), np.maximum(*ends))
 
     def _travel_at(self, side: int, angle: Real) -> Real:
+        """The same at angles (N, R, P), as in :func:`kinematics.motion`."""
         lam = self._each(self.data.rod_ratio)
-        swing = lam * np.sin(angle) ** 2
-        if self.data.exact:
-            short = self._each(self.data.rod_margin) * (1.0 + lam)
-            swing = swing / (1.0 + np.sqrt(short + (lam * np.cos(angle)) ** 2))
-        else:
-            swing = 0.5 * swing
+        if not self.data.exact:
+            swing = 0.5 * lam * np.sin(angle) ** 2
+            return 2.0 * np.sin(0.5 * angle) ** 2 + swing if side == 0 else 2.0 * np.cos(0.5 * angle) ** 2 - swing
+        short, cosine = self._each(self.data.rod_margin) * (1.0 + lam), np.cos(angle)
+        cos_beta = np.sqrt(short + (lam * cosine) ** 2)
         if side == 0:
-            return 2.0 * np.sin(0.5 * angle) ** 2 + swing
-        return np.maximum(2.0 * np.cos(0.5 * angle) ** 2 - swing, 0.0)
+            return 2.0 * np.sin(0.5 * angle) ** 2 + lam * np.sin(angle) ** 2 / (1.0 + cos_beta)
+        upright = cos_beta + lam * np.abs(cosine)
+        u = np.where(cosine >= 0.0, upright, short / upright)
+        return 4.0 * np.cos(0.5 * angle) ** 2 * u / (u + 1.0 + lam)
+
+    @cached_property
+    def _swing(self) -> Taylor:
+        """(1 - cos beta) / lam = lam sin^2 phi / (1 + cos beta)."""
+        return (self._sine_squared * self._cos_beta.plus(1.0).power(-1.0)).times(self._each(self.data.rod_ratio))
 
     @cached_property
     def _upright(self) -> Taylor:

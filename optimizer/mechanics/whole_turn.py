@@ -103,15 +103,15 @@ class TurnCurves:
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""
-        whole, bounds = self.whole, getattr(self.whole.bounds, self.reading)
+        whole = self.whole
+        points, bounds = (getattr(series, self.reading) for series in (whole.points, whole.bounds))
         half = whole.half[:, None, :]
-        cubic = _sums(getattr(whole.points, self.reading), self.weights, self.constant) * half[..., None] ** np.arange(
-            4
-        )
-        fourth = np.abs(self.weights @ bounds.middle[4]) + np.abs(self.weights) @ bounds.radius[4]
+        cubic = _sums(points, self.weights, self.constant) * half[..., None] ** np.arange(4)
         centre, width = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
-        rest = (fourth * half**4).reshape(centre.shape)
-        return Pieces(centre, width, cubic.reshape(*centre.shape, 4), rest, source=self)
+        rest = (_fourth(bounds, self.weights) * half**4).reshape(centre.shape)
+        terms = np.abs(self.weights) @ np.abs(points.middle[0])
+        size = np.max(terms, axis=-1) + np.abs(self.constant)
+        return Pieces(centre, width, cubic.reshape(*centre.shape, 4), rest, size.reshape(-1), source=self)
 
     @cached_property
     def mean(self) -> Complex:
@@ -147,17 +147,30 @@ class TurnCurves:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
         return self._within(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
 
+    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
+        """Bounds within half widths (m,) rad about other centres."""
+        series, weights, _ = self._series(curve, piece, centre, 4, half)
+        bounds: Taylor = getattr(series, self.reading)
+        return (_fourth(bounds, weights) * half[:, None, None] ** 4)[:, 0, 0]
+
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
         return self._within(curve, piece, angle, 0)[:, 0]
 
     def _within(self, curve: Index, piece: Index, angle: Real, order: int) -> Complex:
         """Coefficients (m, order + 1) of the curves about angles (m,)."""
+        series, weights, constant = self._series(curve, piece, angle, order, None)
+        return _sums(getattr(series, self.reading), weights, constant)[:, 0, 0]
+
+    def _series(
+        self, curve: Index, piece: Index, angle: Real, order: int, half: Real | None
+    ) -> tuple[RowSeries, Complex | Real, Complex | Real]:
+        """Series of the rows about one angle for each of (m,) curves, with the curve's weights and constant."""
         design, number = np.divmod(curve, self.weights.shape[1])
         within = self.whole.centre[design, piece][:, None]
-        rows = RowSeries(self.whole.rows.chosen(design), angle[:, None], None, within, order)
-        weights, constant = self.weights[design, number][:, None], self.constant[design, number][:, None]
-        return _sums(getattr(rows, self.reading), weights, constant)[:, 0, 0]
+        width = None if half is None else half[:, None]
+        rows = RowSeries(self.whole.rows.chosen(design), angle[:, None], width, within, order)
+        return rows, self.weights[design, number][:, None], self.constant[design, number][:, None]
 
 
 def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:
@@ -165,4 +178,11 @@ def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> 
     of_curves: Complex = np.matmul(weights, series.middle)
     found = np.moveaxis(of_curves, 0, -1)
     found[..., 0] += constant[..., None]
+    return found
+
+
+def _fourth(bounds: Taylor, weights: Complex | Real) -> Real:
+    """Largest magnitude of the coefficient of order 4 of the curves, (N, C, P), from enclosures of the rows."""
+    assert bounds.radius is not None  # enclosures have one
+    found: Real = np.abs(weights @ bounds.middle[4]) + np.abs(weights) @ bounds.radius[4]
     return found
