@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
-from tests.benchmarks import outputs
+from tests.benchmarks import outputs, whole_turn
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -29,6 +29,11 @@ def test_phases_add_up() -> None:
 def test_every_output_of_the_benchmark_runs(machine: dict[str, Any]) -> None:
     assert set(outputs.times_by_output(machine, 1)) == set(outputs.SCENES)
     assert set(outputs.residual_with_and_without_gas(machine, 1)) == {"with gas data", "without"}
+
+
+@pytest.mark.parametrize("build", whole_turn.MACHINES.values(), ids=whole_turn.MACHINES)
+def test_every_bearing_optimum_of_the_benchmark_is_certified(build: Callable[[], dict[str, Any]]) -> None:
+    assert whole_turn.times(build(), False, 1).gap <= 1e-6
 
 
 def test_scroll_pin_cases_run() -> None:
