@@ -233,6 +233,9 @@ class BearingLoad(Model):
     peak_angle_deg: Degrees = Field(
         description="shaft angle at which it occurs; at a jump the load is that on its larger side", examples=[0.0]
     )
+    specific_load_Pa: Pascals | None = Field(
+        None, description="peak over diameter times length; null where the bearing has none", examples=[2.0e7]
+    )
     rms_N: Newtons = Field(description="root of the mean square over the turn", examples=[61000.0])
     floor_N: Newtons = Field(
         description="what the peak comes to at least, whatever counterweights turn with the shaft: the radius of the "

@@ -18,6 +18,7 @@ from optimizer.mechanics.angles import turned
 from optimizer.mechanics.shaft_curves import ShaftCurves, planes
 from optimizer.pieces import Bracket
 from optimizer.scene import Prepared
+from schemas.drive import Bearing
 from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.machine import ReciprocatingMachine
 
@@ -69,6 +70,9 @@ def _loads(
     scene: Prepared, found: ShaftCurves, peak: Bracket, floor: Real, unbalance: Complex | None
 ) -> tuple[BearingLoad, ...]:
     """Loads of the bearings of one machine without or with counterweights (webs,) kg m."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    bearings = machine.bearings
     square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
     offset = np.zeros(len(floor), dtype=complex) if unbalance is None else found.offsets(unbalance)
     _, loads = scene.results["shaft_loads"]
@@ -83,11 +87,19 @@ def _loads(
             peak_N=float(peak.lower[k]),
             peak_bracket_N=bracket(peak, k),
             peak_angle_deg=float(np.rad2deg(peak.angle[k])),
+            specific_load_Pa=_over_area(float(peak.lower[k]), bearings[k]),
             rms_N=float(rms[k]),
             floor_N=float(floor[k]),
         )
         for k, one in enumerate(samples)
     )
+
+
+def _over_area(load: float, bearing: Bearing) -> float | None:
+    """Specific load, Pa; None where the machine does not say how large the bearing is."""
+    if bearing.diameter_m is None or bearing.length_m is None:
+        return None
+    return load / (bearing.diameter_m * bearing.length_m)
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

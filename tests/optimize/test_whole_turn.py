@@ -74,8 +74,11 @@ def test_bearings_of_an_inline_six() -> None:
 
 def test_specific_loads_are_loads_over_areas() -> None:
     _, plain = answered(inline_six(), bearing_weight=1, least_mass=False, **ALONE)
-    _, specific = answered(inline_six(), bearing_weight=1, bearing_measure="specific", least_mass=False, **ALONE)
+    found, specific = answered(inline_six(), bearing_weight=1, bearing_measure="specific", least_mass=False, **ALONE)
     assert specific.objective == pytest.approx(plain.objective / (0.06 * 0.02), rel=2e-6)
+    assert found.main_bearings is not None
+    told = [each.after.specific_load_Pa for each in found.main_bearings.bearings if each.after is not None]
+    assert max(load for load in told if load is not None) == pytest.approx(specific.objective, rel=1e-8)
 
 
 def test_root_mean_squares_are_smaller_than_peaks() -> None:
