@@ -10,7 +10,8 @@ ALWAYS = ("counterweights", "hodographs", "over-angle", "orders", "pareto", "acc
 DRIVEN = ("torque", "rod-loads", "flywheel", "main-bearings")
 MACHINES = {
     "2d12": (*ALWAYS, *DRIVEN),
-    "v8-cross-plane": ALWAYS,
+    # by inertia alone
+    "v8-cross-plane": (*ALWAYS, "torque", "rod-loads"),
     "scroll-three-pins": (*ALWAYS, "pin-loads"),
 }
 #: plots of each panel; the others hold tables and forms

@@ -131,7 +131,8 @@ def test_ceilings_below_the_floor_are_out_of_reach_and_say_by_how_much(field: st
 def test_machines_without_webs_are_answered() -> None:
     machine = inline_six() | {"webs": []}
     _, proof = answered(machine, bearing_weight=1, **ALONE)
-    assert proof.objective == proof.objective_without_counterweights
+    # analytic: nothing can be fitted; both are brackets of the same peak
+    assert proof.objective == pytest.approx(proof.objective_without_counterweights, rel=1e-9)
     assert answered(machine, bearing_ceiling_N=1e6)[1].objective == 0.0
     assert optimize(asked(machine, bearing_ceiling_N=1e3)).status == "infeasible"
 
