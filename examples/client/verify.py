@@ -72,7 +72,7 @@ def proven(
     for believed in (False, True):
         bound = statement.bound(proof, implied, slack, cost, believed)
         said = price(bound.rows)
-        room = bound.least - said if place and bound.least is not None else None
+        room = bound.least - said if place and proof and bound.least is not None else None
         if room is not None and room.high >= 0:
             break
     if believed and room is not None and room.high >= 0:

@@ -81,6 +81,15 @@ def test_falsified_points_are_caught(front: tuple[dict[str, Any], dict[str, Any]
             one[name] = right
 
 
+def test_a_front_without_its_proofs_is_not_covered() -> None:
+    # nor is a bound of its masses false for want of a proof
+    body = {**SINGLE["sum"], "points": 2}
+    answer = json.loads(pareto(ParetoRequest.model_validate(body)).model_dump_json())
+    found = claims(body, answer)
+    assert (found["corner"], found["mass_lower_bound"]) == ("not covered", "not covered")
+    assert verdict(body, answer) == "not covered"
+
+
 @pytest.mark.parametrize("name", SWEEPS)
 def test_the_rows_of_a_sweep(name: str) -> None:
     body, table = SWEEPS[name], swept(SWEEPS[name])
