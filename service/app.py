@@ -32,7 +32,7 @@ from service.routes import version as version_route
 from service.settings import Settings
 from service.watch.metrics import Metrics
 from service.watch.needs import database, disk
-from service.watch.readiness import Readiness
+from service.watch.readiness import Readiness, nothing
 from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
 from service.workers.pool import Pool
@@ -82,7 +82,7 @@ def create_app(
     ----------
     settings : from the environment if not given.
     warm_up : what has to be done, once and in the background, before the service is ready; by default its workers are
-        started, which else start when they are needed.
+        started, which else start when they are needed; with ``nothing`` (readiness.py) it is ready at once.
     jobs : as the settings say if not given.
 
     Raises
@@ -112,7 +112,10 @@ def create_app(
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
-            tasks.start_soon(readiness.warm, warm_up or pool.open)
+            if warm_up is nothing:
+                readiness.state = "ready"
+            else:
+                tasks.start_soon(readiness.warm, warm_up or pool.open)
             desk.open()
             tasks.start_soon(readiness.watch)
             tasks.start_soon(app.state.watch.run)

@@ -19,6 +19,10 @@ _PATIENCE_S = 10.0
 _LOG = logging.getLogger(__name__)
 
 
+def nothing() -> None:
+    """The warm-up of a service that is to be ready before its first request."""
+
+
 class NotReady(Exception):
     """The service cannot compute; a retry helps if ``retry_after_s`` is given."""
 

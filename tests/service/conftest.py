@@ -19,7 +19,7 @@ MAX_BODY_BYTES = 1_000_000
 def client() -> Iterator[TestClient]:
     """A client of a service that is ready; an exception that escapes the service fails the test."""
     with TestClient(create_app(Settings(max_body_bytes=MAX_BODY_BYTES)), follow_redirects=False) as client:
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 240
         while client.get("/readyz").status_code != 200:
             assert time.monotonic() < deadline
             time.sleep(0.05)

@@ -12,6 +12,7 @@ from schemas.problem import Problem
 from service.app import create_app
 from service.http.errors import FAULTS
 from service.settings import Settings
+from service.watch.readiness import nothing
 from tests.service.conftest import MAX_BODY_BYTES
 
 Post = Callable[..., Any]
@@ -223,7 +224,7 @@ def test_odd_paths(client: TestClient, path: str) -> None:
 
 
 def test_500_says_nothing_of_the_inside() -> None:
-    app = create_app(Settings(), warm_up=lambda: None)
+    app = create_app(Settings(), warm_up=nothing)
 
     @app.get("/broken")
     async def broken() -> None:
@@ -241,7 +242,7 @@ def test_500_says_nothing_of_the_inside() -> None:
 
 
 def test_parameters_of_later_routes() -> None:
-    app = create_app(Settings(), warm_up=lambda: None)
+    app = create_app(Settings(), warm_up=nothing)
 
     @app.get("/later")
     async def later(points: int) -> int:

@@ -11,7 +11,7 @@ from starlette.testclient import TestClient
 from service.app import create_app
 from service.settings import Settings
 from service.watch import needs, readiness
-from service.watch.readiness import NotReady
+from service.watch.readiness import NotReady, nothing
 
 
 def wait_until(condition: Callable[[], bool]) -> None:
@@ -65,7 +65,7 @@ def test_ready_means_database_and_disk_and_threads_too(tmp_path: Path, monkeypat
         elif trouble:
             raise NotReady(trouble[0], retry_after_s=5)
 
-    app = create_app(Settings(data_dir=tmp_path), warm_up=lambda: None)
+    app = create_app(Settings(data_dir=tmp_path), warm_up=nothing)
     app.state.readiness._checks = {"one": check}
     with TestClient(app) as client:
         for said, expected in (("no disk", "no disk"), ("no thread", "No thread has answered within 0.5 s.")):
