@@ -312,7 +312,8 @@ class OptimizeAnswer(OutputFields, Answer):
     shadow_prices: tuple[ShadowPrice, ...] = Field(
         (),
         description="price of every limit that the answer touches or that holds the objective up, webs in the "
-        "machine's order and then the machine's limits; empty if infeasible",
+        "machine's order and then the machine's limits; empty if infeasible, and where the objective looks at the "
+        "whole turn",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
     )
     residual: Residual = Field(description="first order before and after", examples=[{"before": {}, "after": {}}])

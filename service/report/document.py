@@ -12,6 +12,7 @@ from schemas.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts
 from service.report.chapters import balance, inputs, reproduction, verdict
 from service.report.chapters.answers import outputs
+from service.report.chapters.worth_knowing import worth_knowing
 
 _STATUS = {
     "optimal": "optimal, certified",
@@ -85,7 +86,8 @@ def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[F
     yield inputs.inputs(request, answer.reference_plane_m)
     yield balance.layout(request, answer)
     yield balance.stages(answer.stages, missing)
-    yield balance.counterweights(answer)
+    yield balance.counterweights(request, answer)
+    yield from worth_knowing(answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from outputs(request.machine, answer)

@@ -25,7 +25,7 @@ CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
 def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
     """Counterweights, what they leave, and the certificate; or why there are none."""
     yield verdict.result(request, answer)
-    yield balance.counterweights(answer)
+    yield balance.counterweights(request, answer)
     yield from worth_knowing(answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)

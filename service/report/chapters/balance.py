@@ -47,6 +47,9 @@ _LIMITS = {
     "max_total_mass": "largest total mass",
     "force_ceiling": "ceiling of the force",
     "moment_ceiling": "ceiling of the moment",
+    "bearing_ceiling": "ceiling of the bearing loads",
+    "specific_load_ceiling": "ceiling of the specific bearing loads",
+    "bending_ceiling": "ceiling of the bending moments",
 }
 #: the hodographs reach at least to this share of force and moment without counterweights taken together
 _VISIBLE = 1e-3
@@ -129,7 +132,7 @@ def _rules(found: Sequence[Stage]) -> Iterator[Block]:
         yield table("Customary partial balances, for comparison", heads, rows)
 
 
-def counterweights(answer: OptimizeAnswer) -> Chapter:
+def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     """One row for each web."""
     fitted, _ = shown(answer)
     blocks: list[Block] = []
@@ -142,7 +145,7 @@ def counterweights(answer: OptimizeAnswer) -> Chapter:
         Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
     )
     blocks.append(places(fitted))
-    return Chapter("Counterweights", (*blocks, *_prices(answer)))
+    return Chapter("Counterweights", (*blocks, *_prices(request, answer)))
 
 
 def places(fitted: Sequence[Counterweight]) -> Table:
@@ -160,9 +163,11 @@ def places(fitted: Sequence[Counterweight]) -> Table:
     )  # fmt: skip
 
 
-def _prices(answer: OptimizeAnswer) -> Iterator[Block]:
+def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:
     """What the limits cost."""
-    if answer.shadow_prices:
+    if request.objective.over_the_turn:
+        yield Paragraph("Shadow prices are told of objectives of the first order alone.")
+    elif answer.shadow_prices:
         yield Paragraph(
             "A shadow price says by how much the smallest objective falls per unit by which a limit is raised, the "
             "others kept. The objective is taken as a force, which is to say divided by the weight of the force, or as "
