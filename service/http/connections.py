@@ -53,7 +53,7 @@ class Connection(H11Protocol):
         self._write_timer: asyncio.TimerHandle | None = None
         self._unread = 0
         self._counted = False
-        self._waits = self._lost = False
+        self._waits = False
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(Joined(transport, self.loop))  # type: ignore[arg-type]
@@ -78,7 +78,6 @@ class Connection(H11Protocol):
         return self.client[0] if self.client else ""
 
     def connection_lost(self, exc: Exception | None) -> None:
-        self._lost = True
         _stop(self._headers_timer)
         _stop(self._write_timer)
         if self._counted:
@@ -96,7 +95,8 @@ class Connection(H11Protocol):
 
     def _look_at(self, data: bytes) -> None:
         self._waits = False
-        if self._lost:
+        if self.transport.is_closing():
+            # lost, or refused, while it waited
             return
         self.transport.go_on()  # type: ignore[attr-defined]
         super().data_received(data)
@@ -138,6 +138,9 @@ class Connection(H11Protocol):
 
     def on_response_complete(self) -> None:
         super().on_response_complete()
+        if self._waits:
+            # it is not idle: what comes next has come
+            self._unset_keepalive_if_required()
         if self.conn.their_state is h11.SEND_BODY:
             self._watch_headers()
         self.transport.flush()  # type: ignore[attr-defined]

@@ -1,12 +1,20 @@
 """Rounds: whose bytes are looked at next."""
 
+import asyncio
 from collections import deque
-from collections.abc import Callable
+from collections.abc import AsyncIterator, Callable
+from contextlib import asynccontextmanager
 
+import pytest
+import uvicorn
 from hypothesis import given
 from hypothesis import strategies as st
+from uvicorn.server import ServerState
 
+from service.http.connections import Connection, connections
 from service.http.rounds import Rounds
+from service.settings import Settings
+from tests.network.serving import read, request
 
 
 class Loop:
@@ -57,3 +65,63 @@ def test_all_is_done_once_and_in_the_order_of_its_client(clients: list[str], tur
         asked = [(each, number) for number, each in enumerate(clients) if each == client]
         assert [one for one in done if one[0] == client] == asked
     assert not loop.soon
+
+
+async def nobody(scope: object, receive: object, send: object) -> None:
+    raise AssertionError("what came too late is answered")
+
+
+@asynccontextmanager
+async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loop]]:
+    """A connection whose first bytes wait for their round, its client, and what gives them their round."""
+    loop, made = Loop(), list[Connection]()
+
+    class Waiting(connections(Settings())):  # type: ignore[misc]
+        rounds = Rounds(loop.soon.append)
+
+    def accepted() -> Connection:
+        made.append(Waiting(config, ServerState(), {}))
+        return made[0]
+
+    config = uvicorn.Config(nobody, interface="asgi3", http=Waiting, log_config=None)
+    config.load()
+    assert Waiting.rounds.ask("other", lambda: None)
+    listening = await asyncio.get_running_loop().create_server(accepted, "127.0.0.1", 0)
+    async with listening, asyncio.timeout(60):
+        reader, writer = await asyncio.open_connection(*listening.sockets[0].getsockname())
+        writer.write(request("GET", "/healthz"))
+        while not Waiting.rounds._waiting:
+            await asyncio.sleep(0.01)
+        yield made[0], reader, loop
+        made[0].transport.abort()
+        writer.close()
+        await writer.wait_closed()
+
+
+@pytest.mark.parametrize(
+    ("ended", "status"),
+    [(Connection._give_up, 503), (Connection.timeout_keep_alive_handler, 0), (Connection.shutdown, 0)],
+)
+def test_what_waits_on_a_connection_that_ends_is_not_looked_at(
+    ended: Callable[[Connection], None], status: int
+) -> None:
+    """The place of a probe is given to another, or the service ends, while a request waits for its round."""
+
+    async def answered() -> int:
+        async with waiting() as (connection, reader, loop):
+            ended(connection)
+            loop.turn()
+            assert not connection.rounds._waiting
+            return (await read(reader)).status
+
+    assert asyncio.run(answered()) == status
+
+
+def test_a_connection_whose_bytes_wait_is_not_idle() -> None:
+    async def counts() -> bool:
+        async with waiting() as (connection, _, _):
+            # an answer ends when the next request has come already
+            connection.on_response_complete()
+            return connection.timeout_keep_alive_task is not None
+
+    assert not asyncio.run(counts())
