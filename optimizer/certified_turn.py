@@ -17,10 +17,11 @@ from optimizer.goals import Goals, goals
 from optimizer.limits import TOUCHED
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.cut_stage import Proof
 from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
 from optimizer.program.over_turn import Goal, Group, OverTurn, Values, Weighed
 from optimizer.program.statement import Row, weighted_peak
-from optimizer.program.verdict import INFEASIBLE, Claim, Verdict, mass_resolution, verdict
+from optimizer.program.verdict import CONTRADICTED, INFEASIBLE, Claim, Verdict, mass_resolution, verdict
 from optimizer.scene import Prepared
 from schemas.answers import (
     Certificate,
@@ -51,6 +52,7 @@ class CertifiedTurn:
     status: str
     reason: str
     unbalance: Complex | None  # (K,) kg m; None where the ceilings are out of reach
+    certify_s: float  # time spent on bounds
     fields: dict[str, object]
 
 
@@ -66,7 +68,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
     goal = request.objective
     found = over_turn(asked.program, request.accuracy.relative_gap, goal.least_mass, asked.allowances)
     if isinstance(found, Unkept):
-        return CertifiedTurn("infeasible", INFEASIBLE, None, _infeasible(request, scene, asked, found))
+        return _infeasible(request, scene, asked, found)
     machine, square = request.machine, scene.omega_squared
     mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
     u = unbalance(mass, angle, found.limits.radius)
@@ -77,6 +79,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
         str(judged.status),
         str(judged.reason),
         u,
+        found.certify_s,
         {
             "counterweights": counterweights(machine, mass, angle),
             "total_mass_kg": float(np.sum(mass)),
@@ -113,32 +116,35 @@ def _judged(
     request: OptimizeRequest, program: OverTurn, found: Found, u: Complex, values: Values, mass: Real
 ) -> Verdict:
     """What may be said of the counterweights as they are fitted."""
-    bound, rounding, resolution = -np.inf, 0.0, 0.0
     size = float(program.yardsticks[-1])
-    if found.proof is not None:
-        proof, ceilings_ = found.proof, found.proof.statement.ceilings
-        # the bound speaks of all that exceed no ceiling by more than these counterweights do
-        over = np.full(ceilings_.size.shape, max(values.excess, 0.0))
-        bound = proof.bound - float(ceiling_allowance(proof.statement, proof.multipliers, over))
-        # a sum of sizes is not below 0, whatever the rounding of a proof
-        bound = max(bound, 0.0)
-        rounding = float(proof.statement.rounding(u)) + proof.charge * np.finfo(float).eps
-        resolution = float(mass_resolution(proof.statement, np.array([size])))
+    *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in found.goals)
+    # what goals before the last are proven to need, these counterweights need as well
+    against = [least > value + known for (least, known), value in zip(before, values.goals[:-1], strict=True)]
     mass_bound = None
     if request.objective.least_mass:
         mass_bound = np.asarray(0.0 if found.mass_proof is None else found.mass_proof.bound)
     kept = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], found.goals, strict=False))
     claimed = Claim(
         values.goals[-1:],
-        np.array([bound]),
+        # a sum of sizes is not below 0, whatever the rounding of a proof
+        np.array([max(bound, 0.0)]),
         np.array([rounding]),
         np.array([size]),
         np.asarray(values.excess if kept else np.inf),
         np.asarray(np.sum(mass)),
-        np.asarray(resolution),
+        mass_resolution(found.proof.statement, np.array([size])),
         mass_bound,
+        found.contradicted or any(against),
     )
     return verdict(claimed, request.accuracy.relative_gap)
+
+
+def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
+    """A bound that speaks of all that exceed no ceiling by more than counterweights do, and the rounding of a value."""
+    statement = proof.statement
+    over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
+    allowance = float(ceiling_allowance(statement, proof.multipliers, over))
+    return proof.bound - allowance, float(statement.rounding(u)) + proof.charge * np.finfo(float).eps
 
 
 def _certificate(
@@ -168,7 +174,7 @@ def _certificate(
             GoalReached(
                 goal=goal.goal,
                 value=goal.value * square,
-                lower_bound=_or_null(goal.lower_bound * square),
+                lower_bound=None if judged.reason == CONTRADICTED else _or_null(goal.lower_bound * square),
                 limit=goal.most * square,
             )
             for goal in found.goals[:-1]
@@ -188,7 +194,7 @@ def _touched(asked: Goals, values: Values, square: float) -> Iterator[MachineLim
             yield each.limit
 
 
-def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> dict[str, object]:
+def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     machine, square = request.machine, scene.omega_squared
     alone = replace(asked.program, ceilings=(), limited=())
@@ -225,7 +231,7 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
     mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)
     closest = first_order(scene.first_order(unbalance(mass, angle, found.limits.radius)))
     proof = found.proof
-    return {
+    fields: dict[str, object] = {
         "counterweights": (),
         "total_mass_kg": None,
         "certificate": None,
@@ -241,6 +247,8 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
             ),
         ),
     }
+    spent = found.certify_s + sum(each.certify_s for each in least.values())
+    return CertifiedTurn("infeasible", INFEASIBLE, None, spent, fields)
 
 
 def _at_fault(found: Unkept) -> list[str]:
@@ -262,5 +270,4 @@ def _least(program: OverTurn, group: Group) -> Found:
 
 def _proof(found: Found, omega_squared: float) -> BoundMultipliers:
     proof = found.proof
-    assert proof is not None  # clarabel or rest proves something
     return named(proof.statement, physical(proof.statement, proof.multipliers, "objective", omega_squared))

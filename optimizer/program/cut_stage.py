@@ -6,6 +6,7 @@ true peaks. Where the two are apart the cuts that the brackets found are added, 
 gap tells when to stop, and not the solver.
 """
 
+import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -15,7 +16,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
 from optimizer.program.cut import Cut
-from optimizer.program.multipliers import mass_multipliers, objective_multipliers
+from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.reference.assembled import NoPoint, Target, solved
 from optimizer.program.reference.modelling import Stage as CostStage
@@ -86,8 +87,9 @@ class Stage(NamedTuple):
     """What one stage came to."""
 
     point: Point
-    proof: Proof | None  # None where nothing is proven
+    proof: Proof | None  # None where nothing is proven, which can only be so of a mass
     rounds: int
+    certify_s: float  # time spent on bounds
 
 
 class Pool:
@@ -139,6 +141,7 @@ class Search:
         largest = float(np.max(program.limits.reach, initial=0.0))
         natural = float(natural_reach(statement))
         self.clip = min(max(_REACH * natural, needed), largest) if natural > 0 else largest
+        self.certify_s = 0.0
 
     def run(self, enough: float, told: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
         """Rounds until the gap is small enough, or nothing more is to be had.
@@ -148,7 +151,7 @@ class Search:
         enough : gap that ends the search, in the goal's unit; of a mass relative to it.
         told : whether a value and its bound are all that has to be known.
         """
-        best, proof = self.inside, None
+        best, proof = self.inside, None if self.of_mass else self._resting()
         attempts, gap, rounds, coarse = list(_ATTEMPTS), np.inf, 0, True
         while attempts and rounds < _MOST_ROUNDS:
             rounds += 1
@@ -181,7 +184,7 @@ class Search:
                     # what is left open is between the levels that count and that are aimed at
                     break
                 attempts = attempts[1:]
-        return Stage(self._tidied(best), proof, rounds)
+        return Stage(self._tidied(best), proof, rounds, self.certify_s)
 
     def _learnt(self, statement: Statement, u: Complex, values: Values) -> bool:
         """Whether a point has shown a cut that was not known."""
@@ -235,7 +238,23 @@ class Search:
         if isinstance(found, NoPoint):
             return None
         u = program.limits.into(scaling.unbalance(posed, found.solution))
-        return u, list(self._proofs(statement, u, scaling.multipliers(posed, found.solution)))
+        began = time.perf_counter()
+        proofs = list(self._proofs(statement, u, scaling.multipliers(posed, found.solution)))
+        self.certify_s += time.perf_counter() - began
+        return u, proofs
+
+    def _resting(self) -> Proof:
+        """What is proven of the last goal without a solver, whatever the goals before it come to."""
+        began = time.perf_counter()
+        statement = self.program.statement(self.pool.cuts)
+        last = self.program.goal_of == len(self.program.goals) - 1
+        alone, cuts = times(statement, last.astype(float)), tuple(map(len, self.pool.cuts))
+        proofs = [
+            Proof(float(objective_lower_bound(alone, each)), alone, each, 0.0, cuts)
+            for each in resting_multipliers(alone)
+        ]
+        self.certify_s += time.perf_counter() - began
+        return max(proofs, key=lambda proof: proof.bound)
 
     def _proofs(self, statement: Statement, u: Complex, found: Multipliers) -> Iterator[Proof]:
         """Bounds by the multipliers of the solver and by sharper ones."""

@@ -39,8 +39,12 @@ class Reached(NamedTuple):
 
     goal: str
     value: float
-    lower_bound: float
+    proof: Proof
     most: float  # that it may come to for what follows
+
+    @property
+    def lower_bound(self) -> float:
+        return self.proof.bound
 
 
 @dataclass(frozen=True)
@@ -49,12 +53,18 @@ class Found:
 
     point: Point
     goals: tuple[Reached, ...]
-    proof: Proof | None
     mass_proof: Proof | None  # None where the least mass was not sought
     mass_target: float  # largest objective that the proof of the mass counts as an optimum
     limits: Limits  # that the proofs count with
     rounds: int
     cuts: int
+    certify_s: float  # time spent on bounds
+    contradicted: bool  # a point exceeds the ceilings by less than any is proven to
+
+    @property
+    def proof(self) -> Proof:
+        """Of the objective."""
+        return self.goals[-1].proof
 
 
 @dataclass(frozen=True)
@@ -65,6 +75,7 @@ class Unkept:
     proof: Proof  # of the smallest largest excess, relative to the sizes
     limits: Limits
     rounds: int
+    certify_s: float
 
 
 def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowances: Sequence[float]) -> Found | Unkept:
@@ -78,20 +89,22 @@ def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowanc
     """
     pool = Pool(program)
     nearest = _nearest(program, pool)
-    if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING:
-        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds)
-    course = _Course(program, pool, nearest.point, nearest.point.values.excess > -_AMPLE, nearest.rounds)
+    excess = nearest.point.values.excess
+    contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING
+    if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
+        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds, nearest.certify_s)
+    course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted)
     for n, allowance in enumerate(allowances):
         size = float(program.units[n])
         course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), max(allowance, OPTIMUM_SHARE) * size)
     last = len(program.goals) - 1
     size = float(program.units[last])
     if not least_mass:
-        proof = course.smallest(last, _ENOUGH * relative_gap * size)
-        course.keep(last, proof, 0.0)
-        return course.found(proof, None, np.inf)
+        course.keep(last, course.smallest(last, _ENOUGH * relative_gap * size), 0.0)
+        return course.found(None, np.inf)
     # a little is kept for the rounding of masses and angles
-    share, proof = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size, None
+    share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
+    proof: Proof | None = None
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
         course.keep(last, proof, share)
@@ -100,30 +113,32 @@ def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowanc
         mass = course.inside.mass
         if mass_proof is not None and mass - mass_proof.bound <= _LIGHT * mass:
             break
-    return course.found(proof, mass_proof, target)
+    return course.found(mass_proof, target)
 
 
 class _Course:
     """Stages one after the other, each with what is known already."""
 
-    def __init__(self, program: OverTurn, pool: Pool, inside: Point, raised: bool, rounds: int) -> None:
-        self.program, self.pool, self.raised, self.rounds = program, pool, raised, rounds
-        self.inside, self.so_far = inside, program
+    def __init__(self, program: OverTurn, pool: Pool, nearest: Stage, raised: bool, contradicted: bool) -> None:
+        self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
+        self.inside, self.so_far = nearest.point, program
+        self.rounds, self.certify_s = nearest.rounds, nearest.certify_s
         self.goals: list[Reached] = []
 
-    def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof | None:
+    def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof:
         """Make a goal small under those before it."""
         so_far = replace(self.program, goals=self.program.goals[: n + 1])
         self.inside, most = _again(so_far, self.inside), self._most(n)
         self.so_far = _bounded(so_far, self.inside, most)
         margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
         found = self._run(Kept(margin, most, most), enough)
-        return max((each for each in (known, found) if each is not None), key=lambda each: each.bound, default=None)
+        assert found is not None  # rest proves something of every objective
+        return found if known is None or found.bound > known.bound else known
 
-    def keep(self, n: int, proof: Proof | None, share: float) -> None:
+    def keep(self, n: int, proof: Proof, share: float) -> None:
         """What a goal may come to from now on: so much above its bound."""
-        value, bound = float(self.inside.values.goals[n]), -np.inf if proof is None else proof.bound
-        self.goals[n:] = [Reached(self.program.goals[n].name, value, bound, max(value, bound + share))]
+        value = float(self.inside.values.goals[n])
+        self.goals[n:] = [Reached(self.program.goals[n].name, value, proof, max(value, proof.bound + share))]
 
     def lightest(self, target: float, margin: float) -> Proof | None:
         """The least mass under all goals.
@@ -138,9 +153,18 @@ class _Course:
         margins[-1] = margin
         return self._run(Kept(margins, most, np.append(most[:-1], target)), _MASS_GAP)
 
-    def found(self, proof: Proof | None, mass_proof: Proof | None, target: float) -> Found:
-        limits, cuts = self.so_far.limits, self.pool.count()
-        return Found(self.inside, tuple(self.goals), proof, mass_proof, target, limits, self.rounds, cuts)
+    def found(self, mass_proof: Proof | None, target: float) -> Found:
+        return Found(
+            self.inside,
+            tuple(self.goals),
+            mass_proof,
+            target,
+            self.so_far.limits,
+            self.rounds,
+            self.pool.count(),
+            self.certify_s,
+            self.contradicted,
+        )
 
     def _most(self, n: int) -> Real:
         return np.array([goal.most for goal in self.goals[:n]])
@@ -148,6 +172,7 @@ class _Course:
     def _run(self, kept: Kept, enough: float) -> Proof | None:
         stage = Search(self.so_far, self.pool, kept, self.inside, self.raised).run(enough)
         self.inside, self.rounds = stage.point, self.rounds + stage.rounds
+        self.certify_s += stage.certify_s
         return stage.proof
 
 
@@ -159,7 +184,7 @@ def _nearest(program: OverTurn, pool: Pool) -> Stage:
     """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
     rest = _rest(program)
     if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
-        return Stage(rest, None, 0)
+        return Stage(rest, None, 0, 0.0)
     excess = program.excess()
     still = _rest(excess)
     excess = _bounded(excess, still, np.zeros(0))

@@ -63,6 +63,7 @@ class Claim:
     mass: Real  # (...) kg
     mass_resolution: Real  # (...) kg, lighter ones are not told apart any finer
     mass_lower_bound: Real | None  # (...) kg; None where the least mass was not asked for
+    contradicted: bool = False  # another bound that was needed on the way is above its value
 
 
 def claim(
@@ -107,7 +108,7 @@ def verdict(claim: Claim, asked: float) -> Verdict:
     """
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
-    false = np.all(over > claim.rounding, axis=-1)
+    false = np.all(over > claim.rounding, axis=-1) | claim.contradicted
     bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
     relative = np.max(relative_gap(gap, claim.yardstick), axis=-1)
     mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)

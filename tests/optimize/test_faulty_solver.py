@@ -1,0 +1,144 @@
+"""Objectives over the turn with a solver that fails or lies, or a bound that is wrong: what is answered is true."""
+
+import logging
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.analyze import analyze
+from optimizer.optimize import optimize
+from optimizer.program import cut_stage
+from optimizer.program.reference.assembled import Assembled, NoPoint, solved
+from optimizer.program.reference.modelling import ScaledSolution
+from optimizer.program.verdict import CONTRADICTED
+from schemas.answers import Certificate, OptimizeAnswer
+from schemas.requests import AnalyzeRequest
+from tests.optimize.whole_turn import ALONE, asked, one_throw
+
+#: published for a rod ratio of 1/3: the largest load with and without the best counterweights, N
+_SMALLEST, _AT_REST = 0.346038, 1.0 + 1.0 / 6.0
+_EXTERNAL_FIRST = [{"goal": "external", "allowance": 0.5}, {"goal": "bearings"}]
+
+
+def _answer(**objective: Any) -> OptimizeAnswer:
+    return optimize(asked(one_throw(3.0), bearing_weight=1, **objective))
+
+
+def _proof(found: OptimizeAnswer) -> Certificate:
+    assert found.certificate is not None
+    return found.certificate
+
+
+def _lying(monkeypatch: pytest.MonkeyPatch, change: Callable[[ScaledSolution], ScaledSolution]) -> None:
+    def lying(*args: Any, **kwargs: Any) -> Assembled | NoPoint:
+        found = solved(*args, **kwargs)
+        return found if isinstance(found, NoPoint) else found._replace(solution=change(found.solution))
+
+    monkeypatch.setattr(cut_stage, "solved", lying)
+
+
+@pytest.mark.parametrize("least_mass", [False, True])
+@pytest.mark.parametrize("limit", [{}, {"bearing_ceiling_N": 0.9}, {"bearing_ceiling_N": 0.1}])
+def test_a_solver_that_finds_nothing_leaves_what_rest_proves(
+    limit: dict[str, float], least_mass: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(cut_stage, "solved", lambda *_, **__: NoPoint("not solved within 5 s"))
+    found = _answer(least_mass=least_mass, **ALONE, **limit)
+    assert found.status == "inaccurate"
+    assert found.total_mass_kg == 0.0
+    proof = _proof(found)
+    assert proof.objective == pytest.approx(_AT_REST, rel=1e-9)
+    assert proof.lower_bound is not None
+    assert 0.0 <= proof.lower_bound <= _SMALLEST
+
+
+def test_several_goals_need_no_solver_to_be_answered(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cut_stage, "solved", lambda *_, **__: NoPoint("not solved within 5 s"))
+    proof = _proof(_answer(least_mass=False, priorities=_EXTERNAL_FIRST))
+    (external,) = proof.goals
+    assert external.lower_bound is not None
+    assert 0.0 <= external.lower_bound <= external.value
+    assert proof.objective == pytest.approx(_AT_REST, rel=1e-9)
+
+
+def _elsewhere(found: ScaledSolution) -> ScaledSolution:
+    rng = np.random.default_rng(1)
+    return found._replace(x=rng.normal(size=found.x.shape), y=rng.normal(size=found.y.shape))
+
+
+def _wrong_multipliers(found: ScaledSolution) -> ScaledSolution:
+    rng = np.random.default_rng(2)
+
+    def other(size: int) -> Any:
+        return 1e3 * rng.normal(size=(size, 2)) @ [1, 1j]
+
+    row = 1e3 * rng.uniform(size=found.row.shape)
+    return found._replace(row=row, term=other(found.term.size), ceiling=other(found.ceiling.size))
+
+
+@pytest.mark.parametrize("lie", [_elsewhere, _wrong_multipliers, lambda found: _wrong_multipliers(_elsewhere(found))])
+def test_a_solver_that_lies_proves_nothing_false(
+    lie: Callable[[ScaledSolution], ScaledSolution], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _lying(monkeypatch, lie)
+    found = _answer(**ALONE)
+    assert found.status == "inaccurate"
+    proof = _proof(found)
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= _SMALLEST + 1e-6
+    # independent: the loads of what is returned, by the analysis of samples
+    fitted = [each.model_dump(include={"web", "mass_kg", "angle_deg"}) for each in found.counterweights]
+    body = {"machine": one_throw(3.0), "counterweights": fitted, "outputs": ["main_bearings"]}
+    loads = analyze(AnalyzeRequest.model_validate(body)).main_bearings
+    assert loads is not None
+    peak = max((each.after or each.before).peak_N for each in loads.bearings)
+    assert proof.objective == pytest.approx(peak, rel=1e-3)
+    assert proof.objective >= _SMALLEST - 1e-6
+    assert found.total_mass_kg == pytest.approx(sum(each.mass_kg for each in found.counterweights), rel=1e-12)
+
+
+def _raised(monkeypatch: pytest.MonkeyPatch, wrong: Callable[..., bool]) -> None:
+    """Bounds that are 1 too high, where they are wrong."""
+    right = cut_stage.objective_lower_bound
+
+    def bound(statement: Any, multipliers: Any) -> Any:
+        return right(statement, multipliers) + wrong(statement)
+
+    monkeypatch.setattr(cut_stage, "objective_lower_bound", bound)
+
+
+@pytest.mark.parametrize(
+    ("objective", "wrong"),
+    [
+        (ALONE, lambda statement: True),
+        # only that of the first goal, which alone has no term of a bearing
+        (
+            {"priorities": _EXTERNAL_FIRST},
+            lambda statement: not any("bearing" in term.response for term in statement.names.terms),
+        ),
+        # only that of the excess, as if the ceilings could not be kept
+        (ALONE | {"bearing_ceiling_N": 0.9}, lambda statement: np.any(statement.floor < 0)),
+    ],
+)
+def test_a_bound_above_its_value_is_a_fault_that_is_said(
+    objective: dict[str, Any],
+    wrong: Callable[..., bool],
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    """Never clipped: nothing is proven, and it is logged, which is what counts faults."""
+    _raised(monkeypatch, wrong)
+    found = _answer(least_mass=False, **objective)
+    assert (found.status, found.status_reason) == ("inaccurate", CONTRADICTED)
+    proof = _proof(found)
+    assert proof.lower_bound is proof.gap is proof.relative_gap is None
+    assert all(goal.lower_bound is None for goal in proof.goals)
+    assert [record.levelno for record in caplog.records] == [logging.ERROR]
+
+
+def test_the_time_of_bounds_is_measured() -> None:
+    timing = _answer(**ALONE).timing
+    assert 0.0 < timing.certificate_ms < timing.total_ms
+    assert timing.solve_ms > 0.0
