@@ -6,8 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.effects.registry import problems_of, run
-from optimizer.errors import MissingInput
+from optimizer.effects.registry import run
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import touched_limits
@@ -31,7 +30,6 @@ from schemas.answers import (
     MachineLimit,
     SmallestPeak,
 )
-from schemas.base import FieldProblem
 from schemas.proof import BoundMultipliers, InfeasibilityMultipliers, Multipliers
 from schemas.requests import OptimizeRequest
 
@@ -62,7 +60,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
     Raises
     ------
     MissingInput
-        if the machine lacks what the objective needs.
+        if bearings lack the sizes that specific loads need.
     """
     asked = goals(request, scene.layout, scene.responses, _whole_turn(scene))
     goal = request.objective
@@ -101,9 +99,6 @@ def _whole_turn(scene: Prepared) -> WholeTurn:
     """The forces of the rows, if no output has asked for them either."""
     if "whole_turn" not in scene.results:
         needs = ("whole_turn",)
-        missing = [FieldProblem(("machine", *path), message) for path, message in problems_of(scene.machine, needs)]
-        if missing:
-            raise MissingInput(missing)
         angle = np.zeros(1)
         found = run(scene.machine, scene.layout, needs, scene.request.fidelity, angle)["whole_turn"]
         assert isinstance(found, WholeTurn)

@@ -47,6 +47,11 @@ def cautions(scene: Prepared, unbalance: Complex | None, fields: Mapping[str, An
     return tuple(caution for watch in WATCHES for caution in watch(told))
 
 
+def _four(value: float) -> str:
+    """Four digits without an exponent, as forces and moments are read: 107600, not 1.076e+05."""
+    return f"{float(f'{value:.4g}'):.15g}"
+
+
 def _sizes(scene: Prepared) -> tuple[float, float]:
     """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
     masses, rows = scene.layout.rotating, scene.layout.reciprocating
@@ -84,8 +89,8 @@ def _second_order(told: Told) -> Iterator[Caution]:
         if twice > left and twice > _NOTABLE * size:
             yield Caution(
                 code="second_order_remains",
-                message=f"A {what} of {twice:.4g} {unit} remains at twice the shaft speed, more than the {left:.4g} "
-                f"{unit} at the speed itself: no counterweight on the crank changes it.",
+                message=f"A {what} of {_four(twice)} {unit} remains at twice the shaft speed, more than the "
+                f"{_four(left)} {unit} at the speed itself: no counterweight on the crank changes it.",
                 pointer="/machine/throws",
             )
 
@@ -96,8 +101,7 @@ def _bare_crank(told: Told) -> Iterator[Caution]:
     if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
         return
     goal = request.objective
-    weighed = goal.bearing_weight or goal.bending_weight or goal.bearing_ceiling_N or goal.bending_ceiling_Nm
-    if told.unbalance is None or not machine.webs or weighed:
+    if told.unbalance is None or not machine.webs or goal.of_the_shaft:
         return
     rates = cranks(machine).rates(told.unbalance).real
     bare = np.flatnonzero(rates < _BARE)
@@ -129,7 +133,7 @@ def _component_grows(told: Told) -> Iterator[Caution]:
             if after > before + _NOTABLE * size:
                 yield Caution(
                     code="component_grows",
-                    message=f"The {what} along {axis} grows from {before:.4g} to {after:.4g} {unit}: weigh that "
+                    message=f"The {what} along {axis} grows from {_four(before)} to {_four(after)} {unit}: weigh that "
                     "direction more if it matters.",
                     pointer=f"/objective/direction_weights/{axis}",
                 )
@@ -149,8 +153,8 @@ def _far_web(told: Told) -> Iterator[Caution]:
         far = max(range(len(machine.webs)), key=lambda k: abs(machine.webs[k].position_m - middle))
         yield Caution(
             code="span_of_a_far_web",
-            message=f"The moment is weighed with the span {whole:.4g} m of throws and webs, which web "
-            f"{machine.webs[far].name} makes {whole / own:.2g} times that of the throws: give moment_weight.",
+            message=f"The moment is weighed with the span {_four(whole)} m of throws and webs, which web "
+            f"{machine.webs[far].name} makes {_four(whole / own)} times that of the throws: give moment_weight.",
             pointer=f"/machine/webs/{far}/position_m",
         )
 
@@ -176,7 +180,7 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
             if now > than * (1.0 + _ALIKE):
                 yield Caution(
                     code=code,
-                    message=f"The largest {what} is {now:.4g} {unit}, above the {than:.4g} {unit} {of}.",
+                    message=f"The largest {what} is {_four(now)} {unit}, above the {_four(than)} {unit} {of}.",
                     pointer="/objective" if isinstance(scene.request, OptimizeRequest) else "/counterweights",
                 )
 

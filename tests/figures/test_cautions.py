@@ -91,6 +91,19 @@ def test_bearing_loads_that_counterweights_raise_are_told() -> None:
     assert _codes(loaded(180.0)) == ["bearing_load_grows", "bending_moment_grows"]
 
 
+def test_figures_of_warnings_have_no_exponent() -> None:
+    # analytic: half of 10 kg at 0.1 m and 50 rad/s comes back across, here ten thousand times as heavy
+    made = machine(throw(0.0, row(0.0, mass_kg=1e5)), webs=[web("a", 0.0, max_mass_kg=1e6)])
+    (told,) = (caution for caution in _optimized(made).warnings if caution.code == "component_grows")
+    assert str(round(1e5 / 2 * RADIUS * 50.0**2)) in told.message
+
+
+def test_a_ceiling_of_specific_loads_looks_at_the_bearings_too() -> None:
+    bearings = [{"name": n, "position_m": z, "diameter_m": 0.1, "length_m": 0.1} for n, z in (("A", -1.0), ("B", 4.0))]
+    answer = _optimized(_four(bearings=bearings), objective={"specific_load_ceiling_Pa": 1e9})
+    assert "bare_crank" not in _codes(answer)
+
+
 def test_rows_without_cylinders_are_told_where_gas_would_count() -> None:
     made = machine(throw(0.0, row(0.0)), throw(180.0, row(0.0), z=1.0))
     asked = {"machine": made.model_dump(), "outputs": ["torque"]}

@@ -199,7 +199,15 @@ def test_what_a_machine_lacks_is_named() -> None:
     del machine["bearings"]
     with pytest.raises(MissingInput) as missing:
         optimize(asked(machine, bearing_weight=1))
-    assert ("machine", "bearings") in [problem.path for problem in missing.value.problems]
+    (problem,) = missing.value.problems
+    assert problem.path == ("machine", "bearings")
+    assert problem.message == "bearing loads need the bearings; asked for by objective.bearing_weight"
+    del machine["throws"][0]["rows"][0]["connecting_rod"]
+    with pytest.raises(MissingInput) as missing:
+        optimize(asked(machine, orders="all"))
+    (problem,) = missing.value.problems
+    assert problem.path == ("machine", "throws", 0, "rows", 0, "connecting_rod")
+    assert problem.message.endswith("asked for by objective.orders")
 
 
 def test_sweeps_and_fronts_refuse_the_whole_turn() -> None:
