@@ -147,36 +147,48 @@ class _Parts:
 
 def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: Reals, measure: _Measure) -> Bracket:
     """Brackets (m,): what is below the best found by less than the tolerance is let go, the rest looked at closer."""
-    parts = _all_parts(pieces, of_peak, offset)
     scale = pieces.size[of_peak] + np.abs(offset)
     angle, piece = np.zeros(offset.size), np.zeros(offset.size, dtype=np.intp)
     lower, upper = np.full(offset.size, np.nan), np.full(offset.size, -np.inf)
-    for cuts in range(_MOST_CUTS):
+
+    def allowed() -> Real:
+        return np.maximum(tolerance * np.abs(lower), _ROUNDING * scale)
+
+    def still_open(parts: _Parts, most_parts: float) -> _Parts:
+        """Those that may hold a peak above the best found, theirs included, unless there are too many; the others are
+        told in the bracket."""
+        if not parts.peak.size:
+            return parts
         bernstein = _bernstein(measure.polynomial(parts.cubic))
         most = measure.size(np.max(bernstein, axis=-1)) + parts.rest
-        first, last = (measure.size(bernstein[:, end]) - parts.rest for end in (0, -1))
-        at_first = first >= last
+        first, final = (measure.size(bernstein[:, end]) - parts.rest for end in (0, -1))
+        at_first = first >= final
         _keep_best(
             (lower, angle, piece),
             parts.peak,
             (
-                np.where(at_first, first, last),
+                np.where(at_first, first, final),
                 parts.centre + np.where(at_first, -parts.half, parts.half),
                 parts.piece,
             ),
         )
-        allowed = np.maximum(tolerance * np.abs(lower), _ROUNDING * scale)
-        open_ = most > (lower + allowed)[parts.peak]
-        if cuts == _MOST_CUTS - 1 or np.count_nonzero(open_) > _MOST_PARTS:
+        open_ = most > (lower + allowed())[parts.peak]
+        if np.count_nonzero(open_) > most_parts:
             open_[:] = False
         rounding = _ANGLE_ROUNDING * np.abs(parts.cubic[:, 1]) / parts.half
         np.maximum.at(upper, parts.peak[~open_], (most + rounding)[~open_])
-        if not np.any(open_):
+        return parts.chosen(open_)
+
+    parts = still_open(_all_parts(pieces, of_peak, offset), _MOST_PARTS)
+    for cuts in range(1, _MOST_CUTS):
+        if not parts.peak.size:
             break
-        parts, too_coarse = parts.chosen(open_), (parts.rest > _ENOUGH * allowed[parts.peak])[open_]
+        too_coarse = parts.rest > _ENOUGH * allowed()[parts.peak]
         fine = parts.chosen(~too_coarse).cut(_PARTS)
-        coarse = _expanded(pieces, of_peak, offset, parts.chosen(too_coarse).cut(_FINER), allowed)
-        parts = fine.and_(coarse)
+        # most of the finer ones are let go by what is known: an expansion costs far more
+        coarse = still_open(parts.chosen(too_coarse).cut(_FINER), np.inf)
+        coarse = _expanded(pieces, of_peak, offset, coarse, allowed())
+        parts = still_open(fine.and_(coarse), _MOST_PARTS if cuts < _MOST_CUTS - 1 else 0)
     value = pieces.source.values(of_peak, piece, angle)
     lower = measure.size(measure.polynomial((value + offset)[:, None])[:, 0])
     return Bracket(angle, value, lower, upper + _ROUNDING * scale)
