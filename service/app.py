@@ -1,6 +1,6 @@
 """The application."""
 
-from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from collections.abc import AsyncIterator, Mapping, Sequence
 from contextlib import asynccontextmanager
 from functools import partial
 from typing import Any
@@ -32,7 +32,7 @@ from service.routes import version as version_route
 from service.settings import Settings
 from service.watch.metrics import Metrics
 from service.watch.needs import database, disk
-from service.watch.readiness import Readiness, nothing
+from service.watch.readiness import Readiness
 from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
 from service.workers.pool import Pool
@@ -73,16 +73,14 @@ unit as a suffix; a number is in that unit, a string such as `"140 mm"` is read 
 """
 
 
-def create_app(
-    settings: Settings | None = None, warm_up: Callable[[], None] | None = None, jobs: Desk | None = None
-) -> FastAPI:
+def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk | None = None) -> FastAPI:
     """The service as an ASGI application.
 
     Parameters
     ----------
     settings : from the environment if not given.
-    warm_up : what has to be done, once and in the background, before the service is ready; by default its workers are
-        started, which else start when they are needed; with ``nothing`` (readiness.py) it is ready at once.
+    warm : start the workers in the background, and be ready when they are; else be ready at once, and start them when
+        they are needed.
     jobs : as the settings say if not given.
 
     Raises
@@ -105,6 +103,7 @@ def create_app(
     readiness = Readiness(
         {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)},
         threads,
+        "warming" if warm else "ready",
     )
     metrics = Metrics(pool, desk.counts, desk.faults)
     traces = tracing(chosen)
@@ -112,10 +111,8 @@ def create_app(
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
-            if warm_up is nothing:
-                readiness.state = "ready"
-            else:
-                tasks.start_soon(readiness.warm, warm_up or pool.open)
+            if warm:
+                tasks.start_soon(readiness.warm, pool.open)
             desk.open()
             tasks.start_soon(readiness.watch)
             tasks.start_soon(app.state.watch.run)

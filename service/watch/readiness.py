@@ -19,10 +19,6 @@ _PATIENCE_S = 10.0
 _LOG = logging.getLogger(__name__)
 
 
-def nothing() -> None:
-    """The warm-up of a service that is to be ready before its first request."""
-
-
 class NotReady(Exception):
     """The service cannot compute; a retry helps if ``retry_after_s`` is given."""
 
@@ -38,10 +34,11 @@ class Readiness:
     ----------
     checks : by name; each raises :class:`NotReady` where something is missing.
     threads : those that routes run in, in which it is looked; that there is one is looked at too.
+    state : at first; ready where nothing has to be warm.
     """
 
-    def __init__(self, checks: Mapping[str, Callable[[], None]], threads: Threads) -> None:
-        self.state: State = "warming"
+    def __init__(self, checks: Mapping[str, Callable[[], None]], threads: Threads, state: State = "warming") -> None:
+        self.state = state
         self._checks = checks
         self._threads = threads
         self._missing: dict[str, NotReady] = {}

@@ -29,7 +29,6 @@ from schemas.sweep import SweepRequest
 from service.app import create_app
 from service.documents.examples import load
 from service.settings import Settings
-from service.watch.readiness import nothing
 from starlette.testclient import TestClient
 
 assert Path(schemas.__file__).parents[1] == Path.cwd()
@@ -41,7 +40,7 @@ ratios = [
 ]
 expected = [degrees(asin(ratio)) for ratio in ratios]
 
-with TestClient(create_app(Settings(), warm_up=nothing)) as client:
+with TestClient(create_app(Settings(), warm=False)) as client:
     answer = client.post("/v1/optimize", json=body)
     assert answer.status_code == 200, answer.text
     found = answer.json()["obliquity"]["largest_deg"]
@@ -79,11 +78,10 @@ from pathlib import Path
 
 from service.app import create_app
 from service.settings import Settings
-from service.watch.readiness import nothing
 from starlette.testclient import TestClient
 
 path, body = "/v1/piston-speed", {"stroke_m": 0.28, "speed_rpm": 500}
-with TestClient(create_app(Settings(data_dir=Path(sys.argv[1])), warm_up=nothing)) as client:
+with TestClient(create_app(Settings(data_dir=Path(sys.argv[1])), warm=False)) as client:
     now = client.post(path, json=body)
     # analytic: two strokes in a turn
     assert (now.status_code, abs(now.json()["mean_m_s"] - 2 * 0.28 * 500 / 60) < 1e-12) == (200, True), now.text
@@ -112,14 +110,13 @@ from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.app import create_app
 from service.settings import Settings
-from service.watch.readiness import nothing
 from starlette.testclient import TestClient
 
 throw = {"position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 30, "rotating_mass_kg": 10, "rows": []}
 web = {"name": "w", "position_m": 0, "counterweight_radius_m": 0.2, "max_mass_kg": 20, "max_centrifugal_force_N": 1500}
 machine = {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": [web]}
 body, square = {"machine": machine}, (20 * pi) ** 2
-with TestClient(create_app(Settings(), warm_up=nothing)) as client:
+with TestClient(create_app(Settings(), warm=False)) as client:
     answer = client.post("/v1/optimize", json=body).json()
     (fitted,), (price,) = answer["counterweights"], answer["shadow_prices"]
     # analytic: the rotating mass pulls with 1 kg m, and the counterweight takes 1500 N of that

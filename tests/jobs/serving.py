@@ -9,7 +9,6 @@ from typing import Any
 
 from service.jobs import worker
 from service.jobs.piece import Piece
-from service.watch.readiness import nothing
 
 #: seconds that a chunk takes on top of its work
 DELAY = "TESTS_DELAY_S"
@@ -38,7 +37,7 @@ def serve(**given: Any) -> None:
     jobs = Desk(settings, Pace(poll_s=0.05, lease_s=settings.lease_s, tidy_s=float(os.environ.get(TIDY, "60"))), slow)
     socket = listen(settings)
     print(url(socket), flush=True)
-    run(create_app(settings, warm_up=nothing, jobs=jobs), settings, socket)
+    run(create_app(settings, warm=False, jobs=jobs), settings, socket)
 
 
 if __name__ == "__main__":

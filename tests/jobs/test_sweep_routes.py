@@ -17,14 +17,13 @@ from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.app import create_app
 from service.settings import Settings
-from service.watch.readiness import nothing
 from tests.jobs.sweeps import MACHINE, MASS, analyses, optimisations
 
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     folder: Path = tmp_path_factory.mktemp("data")
-    with TestClient(create_app(Settings(data_dir=folder, sweep_workers=2), warm_up=nothing)) as client:
+    with TestClient(create_app(Settings(data_dir=folder, sweep_workers=2), warm=False)) as client:
         deadline = time.monotonic() + 30
         while client.get("/readyz").status_code != 200:
             assert time.monotonic() < deadline
@@ -305,7 +304,7 @@ def test_single_requests_are_answered_while_a_sweep_runs(client: TestClient) -> 
 
 def test_a_database_that_cannot_be_reached(tmp_path: Path) -> None:
     settings = Settings(data_dir=tmp_path, database_url="postgresql://nobody@127.0.0.1:1/x")
-    with TestClient(create_app(settings, warm_up=nothing)) as client:
+    with TestClient(create_app(settings, warm=False)) as client:
         # warm, though not ready: that the database is needed is known to readiness too
         deadline = time.monotonic() + 60
         while "database of the jobs" not in client.get("/readyz").json().get("detail", ""):

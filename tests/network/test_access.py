@@ -16,7 +16,6 @@ from service.documents.examples import bodies
 from service.guard import keys
 from service.guard.keys import BadKeyFile, KeyRecord, Scope
 from service.settings import Settings
-from service.watch.readiness import nothing
 from tests.network.serving import Service, request, service
 
 KEYS: dict[str, tuple[str, tuple[Scope, ...], dict[str, Any]]] = {
@@ -54,7 +53,7 @@ def client(made: tuple[Path, dict[str, str]], tmp_path_factory: pytest.TempPathF
         cors_origins=("https://portal.example",),
         hsts_s=600,
     )
-    with TestClient(create_app(settings, warm_up=nothing)) as client:
+    with TestClient(create_app(settings, warm=False)) as client:
         yield client
 
 
@@ -174,7 +173,7 @@ def test_a_key_has_a_rate_of_its_own(ask: Any) -> None:
 
 
 def test_those_who_guess_are_slowed_down(made: tuple[Path, dict[str, str]]) -> None:
-    app = create_app(Settings(keys_file=made[0], refusal_limit="3/hour"), warm_up=nothing)
+    app = create_app(Settings(keys_file=made[0], refusal_limit="3/hour"), warm=False)
     with TestClient(app) as client:
         statuses = [client.get("/v1/examples", headers={"X-API-Key": "x"}).status_code for _ in range(5)]
         assert statuses == [401] * 3 + [429] * 2
@@ -325,7 +324,7 @@ def test_https_is_insisted_on_where_it_is_used(client: TestClient) -> None:
 
 
 def test_a_prefix_changes_nothing_about_who_may_what(made: tuple[Path, dict[str, str]], tmp_path: Path) -> None:
-    app = create_app(Settings(keys_file=made[0], data_dir=tmp_path), warm_up=nothing)
+    app = create_app(Settings(keys_file=made[0], data_dir=tmp_path), warm=False)
     with TestClient(app, root_path="/cw") as client:
         for prefix in ("", "/cw"):
             assert client.get(f"{prefix}/healthz").status_code == 200

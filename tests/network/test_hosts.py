@@ -8,7 +8,6 @@ from starlette.testclient import TestClient
 from service.app import create_app
 from service.guard import keys
 from service.settings import Settings
-from service.watch.readiness import nothing
 
 FOREIGN = (
     "evil.example", "evil.example:8000", "127.0.0.1.evil.example", "localhost.evil.example", "xlocalhost",
@@ -23,7 +22,7 @@ OWN = (
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> TestClient:
     settings = Settings(data_dir=tmp_path_factory.mktemp("data"), allowed_hosts=("service.example",))
-    return TestClient(create_app(settings, warm_up=nothing))
+    return TestClient(create_app(settings, warm=False))
 
 
 @pytest.mark.parametrize("host", FOREIGN)
@@ -46,13 +45,13 @@ def test_probes_are_answered_by_whatever_name(client: TestClient) -> None:
 
 
 def test_any_host_where_that_is_said(tmp_path: Path) -> None:
-    app = create_app(Settings(data_dir=tmp_path, allowed_hosts=("*",)), warm_up=nothing)
+    app = create_app(Settings(data_dir=tmp_path, allowed_hosts=("*",)), warm=False)
     assert TestClient(app).get("/v1/examples", headers={"Host": "evil.example"}).status_code == 200
 
 
 def test_with_keys_the_host_does_not_matter(tmp_path: Path) -> None:
     key, record = keys.make("alice", ("read",))
     keys.write(tmp_path / "keys", [record])
-    app = create_app(Settings(data_dir=tmp_path, keys_file=tmp_path / "keys"), warm_up=nothing)
+    app = create_app(Settings(data_dir=tmp_path, keys_file=tmp_path / "keys"), warm=False)
     asked = {"Host": "service.example", "X-API-Key": key}
     assert TestClient(app).get("/v1/examples", headers=asked).status_code == 200

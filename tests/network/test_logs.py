@@ -16,7 +16,6 @@ from service.app import create_app
 from service.documents.examples import load
 from service.settings import Settings
 from service.watch import logs
-from service.watch.readiness import nothing
 from tests.network.serving import Service, service
 
 SECRET = "secret-7021962"
@@ -114,7 +113,7 @@ def test_nobody_begins_a_line_of_text() -> None:
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     settings = Settings(concurrent_solves=1, data_dir=tmp_path_factory.mktemp("data"))
-    with TestClient(create_app(settings, warm_up=nothing), raise_server_exceptions=False) as client:
+    with TestClient(create_app(settings, warm=False), raise_server_exceptions=False) as client:
         yield client
 
 
@@ -180,7 +179,7 @@ def test_traces_go_to_the_collector(tmp_path: Path) -> None:
         thread.start()
         try:
             settings = Settings(otlp_endpoint=f"http://127.0.0.1:{collector.server_port}", data_dir=tmp_path)
-            with TestClient(create_app(settings, warm_up=nothing)) as client:
+            with TestClient(create_app(settings, warm=False)) as client:
                 headers = {"Content-Type": "application/json", "Traceparent": f"00-{TRACE}-b7ad6b7169203331-01"}
                 assert client.post("/v1/optimize", content=BODY, headers=headers).status_code == 200
         finally:

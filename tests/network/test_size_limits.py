@@ -12,7 +12,6 @@ from starlette.testclient import TestClient
 from service.app import create_app
 from service.documents.examples import load
 from service.settings import Settings
-from service.watch.readiness import nothing
 
 BODY: dict[str, Any] = json.loads(load("2d12"))
 SCENE = {"machine": BODY["machine"]}
@@ -31,7 +30,7 @@ LIMITS: dict[str, Any] = {
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     settings = Settings(data_dir=tmp_path_factory.mktemp("data"), **LIMITS)
-    with TestClient(create_app(settings, warm_up=nothing)) as client:
+    with TestClient(create_app(settings, warm=False)) as client:
         yield client
 
 
@@ -73,7 +72,7 @@ def test_what_is_answered_later_is_no_larger(client: TestClient, path: str) -> N
 
 def test_what_is_as_large_as_allowed_is_computed(tmp_path: Path) -> None:
     exactly = {**LIMITS, "max_throws": 2, "max_rows": 2, "max_webs": 4}
-    with TestClient(create_app(Settings(data_dir=tmp_path, **exactly), warm_up=nothing)) as client:
+    with TestClient(create_app(Settings(data_dir=tmp_path, **exactly), warm=False)) as client:
         asked = {**SCENE, "outputs": ["hodograph"], "angles": {"step_deg": 0.9}}
         assert client.post("/v1/analyze", json=asked).status_code == 200
         sweep = {"base": SCENE, "axes": [{**SPEEDS, "count": 5}], "dry_run": True}

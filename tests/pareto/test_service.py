@@ -12,7 +12,6 @@ from typer.testing import CliRunner
 from service.app import create_app
 from service.cli import app
 from service.settings import Settings
-from service.watch.readiness import nothing
 from tests.pareto.cases import four_webs, single_row, straight
 
 runner = CliRunner()
@@ -21,7 +20,7 @@ runner = CliRunner()
 @pytest.fixture(scope="module")
 def client() -> Any:
     # ready at once: programs are compiled when they are first needed
-    with TestClient(create_app(Settings(), warm_up=nothing)) as client:
+    with TestClient(create_app(Settings(), warm=False)) as client:
         while client.get("/readyz").status_code != 200:
             pass
         yield client

@@ -19,7 +19,6 @@ from service.computations import COMPUTATIONS, Computation
 from service.documents.catalogue import documents
 from service.guard import keys
 from service.settings import Settings
-from service.watch.readiness import nothing
 from tests.service.toy import TOY, ToyAnswer, ToyRequest
 
 _BODY = {"one": 2.0, "other": 0.5}
@@ -40,7 +39,7 @@ def client(tmp_path: Path, made: dict[str, tuple[str, keys.KeyRecord]]) -> Itera
     file = tmp_path / "keys"
     keys.write(file, [record for _, record in made.values()])
     settings = Settings(keys_file=file, data_dir=tmp_path / "data")
-    with TestClient(create_app(settings, warm_up=nothing)) as client:
+    with TestClient(create_app(settings, warm=False)) as client:
         yield client
 
 

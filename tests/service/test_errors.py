@@ -12,7 +12,6 @@ from schemas.problem import Problem
 from service.app import create_app
 from service.http.errors import FAULTS
 from service.settings import Settings
-from service.watch.readiness import nothing
 from tests.service.conftest import MAX_BODY_BYTES
 
 Post = Callable[..., Any]
@@ -224,7 +223,7 @@ def test_odd_paths(client: TestClient, path: str) -> None:
 
 
 def test_500_says_nothing_of_the_inside() -> None:
-    app = create_app(Settings(), warm_up=nothing)
+    app = create_app(Settings(), warm=False)
 
     @app.get("/broken")
     async def broken() -> None:
@@ -242,7 +241,7 @@ def test_500_says_nothing_of_the_inside() -> None:
 
 
 def test_parameters_of_later_routes() -> None:
-    app = create_app(Settings(), warm_up=nothing)
+    app = create_app(Settings(), warm=False)
 
     @app.get("/later")
     async def later(points: int) -> int:

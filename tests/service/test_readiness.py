@@ -11,7 +11,8 @@ from starlette.testclient import TestClient
 from service.app import create_app
 from service.settings import Settings
 from service.watch import needs, readiness
-from service.watch.readiness import NotReady, nothing
+from service.watch.readiness import NotReady
+from service.workers.pool import Pool
 
 
 def wait_until(condition: Callable[[], bool]) -> None:
@@ -21,9 +22,10 @@ def wait_until(condition: Callable[[], bool]) -> None:
         time.sleep(0.01)
 
 
-def test_warming_then_ready() -> None:
+def test_warming_then_ready(monkeypatch: pytest.MonkeyPatch) -> None:
     go = Event()
-    with TestClient(create_app(Settings(), warm_up=lambda: go.wait(10) and None)) as client:
+    monkeypatch.setattr(Pool, "open", lambda _: go.wait(60))
+    with TestClient(create_app(Settings())) as client:
         assert client.get("/healthz").json() == {"status": "alive"}
         answer = client.get("/readyz")
         assert answer.status_code == 503
@@ -38,11 +40,14 @@ def test_warming_then_ready() -> None:
         assert client.post("/v1/optimize", json={}).status_code == 422
 
 
-def test_a_warm_up_that_fails_is_reported_and_logged(caplog: pytest.LogCaptureFixture) -> None:
-    def fail() -> None:
+def test_a_warm_up_that_fails_is_reported_and_logged(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(_: Pool) -> None:
         raise RuntimeError("no solver in here")
 
-    with TestClient(create_app(Settings(), warm_up=fail)) as client:
+    monkeypatch.setattr(Pool, "open", fail)
+    with TestClient(create_app(Settings())) as client:
         wait_until(lambda: "could not be loaded" in client.get("/readyz").json()["detail"])
         answer = client.get("/readyz")
         assert answer.status_code == 503
@@ -65,7 +70,7 @@ def test_ready_means_database_and_disk_and_threads_too(tmp_path: Path, monkeypat
         elif trouble:
             raise NotReady(trouble[0], retry_after_s=5)
 
-    app = create_app(Settings(data_dir=tmp_path), warm_up=nothing)
+    app = create_app(Settings(data_dir=tmp_path), warm=False)
     app.state.readiness._checks = {"one": check}
     with TestClient(app) as client:
         for said, expected in (("no disk", "no disk"), ("no thread", "No thread has answered within 0.5 s.")):
@@ -92,14 +97,15 @@ def test_what_is_needed(tmp_path: Path) -> None:
         needs.disk(tmp_path, 10**9)
 
 
-def test_a_shutdown_does_not_wait_for_the_warm_up() -> None:
+def test_a_shutdown_does_not_wait_for_the_warm_up(monkeypatch: pytest.MonkeyPatch) -> None:
     go, ended = Event(), Event()
 
-    def warm_up() -> None:
-        go.wait(10)
+    def warm_up(_: Pool) -> None:
+        go.wait(60)
         ended.set()
 
-    with TestClient(create_app(Settings(), warm_up=warm_up)) as client:
+    monkeypatch.setattr(Pool, "open", warm_up)
+    with TestClient(create_app(Settings())) as client:
         assert client.get("/healthz").status_code == 200
     assert not ended.is_set()
     go.set()
