@@ -2,6 +2,8 @@
 
 import os
 import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -38,7 +40,6 @@ def create(
     from service.guard.rates import parsed
 
     where = _file(file)
-    known = _read(where) if where.exists() else []
     expires = None if days is None else time.time() + days * _DAY_S
     try:
         parsed(rate or "")
@@ -47,7 +48,8 @@ def create(
         fail(*(f"{detail['loc'][0]}: {detail['msg']}" for detail in error.errors(include_input=False)))
     except ValueError as error:
         fail(str(error))
-    _write(where, [*known, record])
+    with _changed(where, new=True) as known:
+        known.append(record)
     put(made)
 
 
@@ -77,11 +79,11 @@ def revoke(
 ) -> None:
     """Remove a key."""
     where = _file(file)
-    known = _read(where)
-    left = [record for record in known if record.id != identity]
-    if len(left) == len(known):
-        fail(f"there is no key of the id {identity}")
-    _write(where, left)
+    with _changed(where) as known:
+        left = [record for record in known if record.id != identity]
+        if len(left) == len(known):
+            fail(f"there is no key of the id {identity}")
+        known[:] = left
 
 
 def _file(given: Path | None) -> Path:
@@ -100,11 +102,15 @@ def _read(file: Path) -> "list[KeyRecord]":
         fail(str(error))
 
 
-def _write(file: Path, records: "list[KeyRecord]") -> None:
-    from service.guard.keys import write
+@contextmanager
+def _changed(file: Path, new: bool = False) -> Iterator["list[KeyRecord]"]:
+    from service.guard.keys import BadKeyFile, changed
 
     try:
-        write(file, records)
+        with changed(file, new) as known:
+            yield known
+    except BadKeyFile as error:
+        fail(str(error))
     except OSError as error:
         fail(f"cannot write {file}: {error.strerror}")
 

@@ -3,13 +3,16 @@
 A key holds 256 random bits, so that no dictionary helps against a hash and a fast one (SHA-256 with a salt) will do.
 """
 
+import fcntl
 import hashlib
 import hmac
 import logging
+import os
 import re
 import secrets
 import time
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
@@ -155,6 +158,29 @@ def write(file: Path, records: list[KeyRecord]) -> None:
     """
     with replaced(file, 0o600) as out:
         out.writelines(record.model_dump_json(exclude_none=True).encode() + b"\n" for record in records)
+
+
+@contextmanager
+def changed(file: Path, new: bool = False) -> Iterator[list[KeyRecord]]:
+    """The keys in a file, to be changed in place: written when the block has ended, and left as they are if it raises.
+
+    Of several at a time, one waits for the other, so that none loses what another has written.
+
+    Parameters
+    ----------
+    new : whether there may be no such file yet.
+
+    Raises
+    ------
+    BadKeyFile
+    OSError
+    """
+    # beside the file, which is another one after each change; open for writing, as network file systems want it
+    with open(os.open(file.with_name(f".{file.name}.lock"), os.O_RDWR | os.O_CREAT, 0o600), "wb") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        records = [] if new and not file.exists() else read(file)
+        yield records
+        write(file, records)
 
 
 class Keys:

@@ -1,5 +1,6 @@
 """``counterweight key``: keys are made, listed and revoked, and a right one is right."""
 
+import threading
 from pathlib import Path
 
 import pytest
@@ -7,6 +8,7 @@ from click.testing import Result
 from typer.testing import CliRunner
 
 from service.cli import app
+from service.guard import keys
 from service.guard.keys import Keys
 
 
@@ -71,3 +73,37 @@ def test_an_unknown_key_cannot_be_revoked(file: Path) -> None:
     assert result.exit_code == 2
     assert "there is no key" in result.stderr
     assert len(file.read_text().splitlines()) == 1
+
+
+def test_of_two_changes_at_a_time_none_is_lost(file: Path) -> None:
+    def add(owner: str) -> None:
+        with keys.changed(file, new=True) as known:
+            known.append(keys.make(owner, ("read",))[1])
+
+    others = [threading.Thread(target=add, args=(f"other{number}",)) for number in range(3)]
+    with keys.changed(file, new=True) as known:
+        for other in others:
+            other.start()
+        # long enough for one that does not wait; one that does may take as long as it likes
+        for other in others:
+            other.join(0.2)
+        assert not file.exists()
+        known.append(keys.make("first", ("read",))[1])
+    for other in others:
+        other.join()
+    assert sorted(record.owner for record in keys.read(file)) == ["first", "other0", "other1", "other2"]
+    assert file.stat().st_mode & 0o777 == 0o600
+
+
+def test_a_change_that_raises_changes_nothing(file: Path) -> None:
+    assert run("create", "alice").exit_code == 0
+    before = file.read_bytes()
+
+    def half() -> None:
+        with keys.changed(file) as known:
+            known.clear()
+            raise ArithmeticError
+
+    with pytest.raises(ArithmeticError):
+        half()
+    assert file.read_bytes() == before
