@@ -88,6 +88,36 @@ def test_infeasible_ceilings_are_explained(portal: Portal) -> None:
     assert f"{floor:,.0f}" in portal.page.locator(".proof").inner_text()
 
 
+def asked_of_the_shaft(portal: Portal, field: str, value: str) -> None:
+    portal.open("2d12")
+    portal.unfold("/objective")
+    portal.page.locator("#form details[data-pointer='/objective'] .more > summary").click()
+    portal.input(f"/objective/{field}").fill(value)
+    portal.optimise()
+
+
+def test_bearing_loads_that_are_weighed_are_told(portal: Portal, url: str) -> None:
+    asked_of_the_shaft(portal, "bearing_weight", "1")
+    request = ask(url, "/v1/examples/2d12") | {"objective": {"bearing_weight": 1}}
+    loads = ask(url, "/v1/optimize", request)["main_bearings"]["bearings"]
+    largest = [max(one[when]["peak_N"] for one in loads) for when in ("before", "after")]
+    (row,) = (row for row in cells(portal.page.locator("#answer")) if row[0] == "largest bearing load, N")
+    assert [float(text.replace(",", "")) for text in row[1:3]] == pytest.approx(largest, rel=1e-4)
+    assert "sum of peak force, peak moment and the largest bearing load" in portal.page.locator(".proof").inner_text()
+    assert "bearing load +" in portal.page.locator("#answer h2").inner_text()
+
+
+def test_a_ceiling_of_bearings_is_explained(portal: Portal) -> None:
+    asked_of_the_shaft(portal, "bearing_ceiling_N", "105 kN")
+    assert "ceiling of the bearing loads is reached" in portal.panel("counterweights").inner_text()
+    portal.input("/objective/bearing_ceiling_N").fill("20 kN")
+    portal.optimise()
+    words = portal.page.locator(".proof").inner_text()
+    assert "The ceiling of the bearing loads cannot be met." in words
+    assert "the ceiling asks for 20,000 N" in words
+    assert "– N" not in words
+
+
 def test_choosing_a_point_of_the_front(portal: Portal, url: str) -> None:
     portal.open("2d12", ("pareto",))
     points = ask(url, "/v1/pareto", portal.bodies("/v1/pareto")[0])["fronts"][0]["points"]

@@ -4,7 +4,8 @@ import { h, table } from "./dom.js";
 import { front } from "./drawing/front.js";
 import { side } from "./drawing/side.js";
 import { reports } from "./files.js";
-import { beside, figure, share } from "./format.js";
+import { beside, figure, number, share } from "./format.js";
+import { ofTheShaft, refusal, weighed } from "./objective.js";
 import { scales } from "./scales.js";
 
 export function showAnswer(place, request, answer, outputs) {
@@ -13,7 +14,7 @@ export function showAnswer(place, request, answer, outputs) {
     h("h2", { class: `status ${answer.status}` }, headline(answer)),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
-    comparison(request, answer),
+    ...comparison(request, answer),
     h("div", { class: "drawings" },
       h("figure", {}, front(request.machine, fitted), h("figcaption", {}, "From the front, shaft angle 0")),
       h("figure", {}, side(request.machine, fitted, answer.reference_plane_m),
@@ -21,14 +22,14 @@ export function showAnswer(place, request, answer, outputs) {
     reports(request, outputs));
 }
 
-function headline({ status, total_mass_kg: mass, residual }) {
+function headline(answer) {
+  const { status, total_mass_kg: mass, residual } = answer;
   if (status === "infeasible") return "No counterweights meet these ceilings";
   const [before, after] = [residual.before, residual.after];
-  const less = (part, unit) => {
-    const was = before[part][unit];
-    return was > 0 ? `${part} −${share(Math.max(0, 1 - after[part][unit] / was))}` : null;
-  };
-  const changes = [less("force", "peak_N"), less("moment", "peak_Nm")].filter(Boolean).join(", ");
+  const peaks = [["force", before.force.peak_N, after.force.peak_N], ["moment", before.moment.peak_Nm, after.moment.peak_Nm],
+    ...ofTheShaft(answer).map(([what, , was, now]) => [what, was, now]).filter(([, was, now]) => Math.abs(now - was) > 5e-5 * was)];
+  const changes = peaks.filter(([, was]) => was > 0)
+    .map(([what, was, now]) => `${what} ${now > was * (1 + 1e-9) ? "+" : "−"}${share(Math.abs(now / was - 1))}`).join(", ");
   return `${figure(mass)} kg of counterweights: ${changes || "there was nothing to balance"}`;
 }
 
@@ -36,7 +37,7 @@ function headline({ status, total_mass_kg: mass, residual }) {
 function proof(request, { status, certificate, infeasibility, floor, timing, residual }) {
   if (infeasibility) return refusal(request, infeasibility);
   const { objective, lower_bound: bound, gap, objective_without_counterweights: bare } = certificate;
-  const how = request.objective?.combine === "max" ? "the larger of the weighted peaks" : "the weighted sum of peak force and peak moment";
+  const how = weighed(request.objective);
   const small = 1e-6 * bare;
   const sentences = [];
   if (bare === 0) sentences.push("Nothing of first order is out of balance: no counterweights are needed.");
@@ -60,17 +61,6 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
   return sentences;
 }
 
-function refusal({ objective }, { conflict, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
-  const { force: nearForce, moment: nearMoment } = closest.first_order;
-  return [
-    conflict.length > 1 ? `The ceilings of ${conflict.map((field) => field.split("_ceiling")[0].replace("_", " ")).join(" and ")} cannot be met, alone or together.`
-      : `The ceiling of the ${conflict[0].split("_ceiling")[0].replace("_", " ")} cannot be met.`,
-    `Within these limits the peak force can come down to ${figure(force)} N (the moment left free) and the peak moment to ${figure(moment)} N m `
-    + `(the force left free); the ceilings ask for ${figure(objective?.force_ceiling_N)} N and ${figure(objective?.moment_ceiling_Nm)} N m.`,
-    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m.`,
-  ];
-}
-
 function comparison(request, answer) {
   const { residual, floor, infeasibility } = answer;
   const { before } = residual;
@@ -78,8 +68,13 @@ function comparison(request, answer) {
   const scale = scales(request.machine, answer);
   const cells = (name, part, unit, least) => [name,
     ...[before[part][unit], after[part][unit], least].map((value) => ({ number: true, text: beside(value, scale[part]) }))];
-  return table("First order, over a turn of the shaft", ["", "before", "after", "floor"], [
-    cells("peak force, N", "force", "peak_N", floor.force_N),
-    cells("peak moment, N m", "moment", "peak_Nm", floor.moment_Nm),
-  ]);
+  const heads = ["", "before", "after", "floor"];
+  const shaft = ofTheShaft(answer).map(([what, unit, ...values]) => [`largest ${what}, ${unit}`, ...values.map((value) => number(value))]);
+  return [
+    table("First order, over a turn of the shaft", heads, [
+      cells("peak force, N", "force", "peak_N", floor.force_N),
+      cells("peak moment, N m", "moment", "peak_Nm", floor.moment_Nm),
+    ]),
+    ...(shaft.length ? [table("All orders with gas and friction, over a turn of the shaft", heads, shaft)] : []),
+  ];
 }

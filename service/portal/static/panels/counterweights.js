@@ -6,6 +6,8 @@ import { figure, number } from "../format.js";
 const LIMITS = {
   max_mass: "mass", sector: "sector", max_total_mass: "limit of the total mass",
   force_ceiling: "ceiling of the force", moment_ceiling: "ceiling of the moment",
+  bearing_ceiling: "ceiling of the bearing loads", specific_load_ceiling: "ceiling of the specific bearing loads",
+  bending_ceiling: "ceiling of the bending moment",
 };
 const worth = ({ value, unit }) => `${figure(value, 4)} ${unit}`;
 

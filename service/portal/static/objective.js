@@ -1,0 +1,66 @@
+// What was asked to be small, and what came of it where that is more than force and moment of the first order.
+
+import { figure } from "./format.js";
+
+const GOALS = { external: "force and moment", bearings: "the largest bearing load", bending: "the largest bending moment" };
+const MEASURES = { rms: "the largest root mean square of a bearing load", specific: "the largest specific bearing load" };
+
+export const CEILINGS = {
+  force_ceiling_N: "force", moment_ceiling_Nm: "moment", bearing_ceiling_N: "bearing loads",
+  specific_load_ceiling_Pa: "specific bearing loads", bending_ceiling_Nm: "bending moment",
+};
+
+// the objective of the certificate in words
+export function weighed(objective = {}) {
+  const { combine, orders, force_weight: force = 1, moment_weight: moment = null, bearing_measure: measure,
+    bearing_weight: bearing = 0, bending_weight: bending = 0, priorities = [] } = objective;
+  const all = orders === "all" ? " of all orders" : "";
+  const bearings = MEASURES[measure] ?? GOALS.bearings;
+  const goals = priorities.map(({ goal }) => goal).filter((goal) => goal !== "mass");
+  if (goals.length) {
+    const words = goals.map((goal) => (goal === "external" ? `the weighted peaks of force and moment${all}` : goal === "bearings" ? bearings : GOALS[goal]));
+    return words.length > 1 ? `${words.at(-1)}, after ${words.slice(0, -1).join(" and ")},` : words[0];
+  }
+  const parts = [...(force === 0 ? [] : ["peak force"]), ...(moment === 0 ? [] : ["peak moment"])].map((part) => `${part}${all}`);
+  if (bearing) parts.push(bearings);
+  if (bending) parts.push(GOALS.bending);
+  if (!bearing && !bending && parts.length === 2 && !all) {
+    return combine === "max" ? "the larger of the weighted peaks" : "the weighted sum of peak force and peak moment";
+  }
+  if (parts.length === 1) return parts[0].replace(/^peak/, "the peak");
+  const listed = `${parts.slice(0, -1).join(", ")} and ${parts.at(-1)}`;
+  return combine === "max" ? `the largest, weighted, of ${listed}` : `the weighted sum of ${listed}`;
+}
+
+// [[name, before, after, floor]]: largest bearing load and bending moment, where the answer has them
+export function ofTheShaft({ main_bearings: found }) {
+  if (!found) return [];
+  const { bearings, bending } = found;
+  const largest = (numbers) => (numbers ? Math.max(...numbers) : null);
+  const after = bearings.every((one) => one.after) ? bearings.map((one) => one.after.peak_N) : null;
+  return [
+    ["bearing load", "N", largest(bearings.map((one) => one.before.peak_N)), largest(after), largest(bearings.map((one) => one.before.floor_N))],
+    ["bending moment", "N m", largest(bending.before_Nm), largest(bending.after_Nm), bending.floor_Nm],
+  ];
+}
+
+// which ceilings cannot be met, and how far what is limited can come down
+export function refusal({ objective }, { conflict, smallest, smallest_force_N: force, smallest_moment_Nm: moment, closest }) {
+  const { force: nearForce, moment: nearMoment } = closest.first_order;
+  const names = conflict.map((field) => CEILINGS[field]);
+  const [mostForce, mostMoment] = [objective?.force_ceiling_N, objective?.moment_ceiling_Nm];
+  const asked = [mostForce == null ? null : `${written(mostForce, "N")} of force`, mostMoment == null ? null : `${written(mostMoment, "N m")} of moment`].filter(Boolean);
+  return [
+    names.length > 1 ? `The ceilings of ${names.join(" and ")} cannot be met, alone or together.` : `The ceiling of the ${names[0]} cannot be met.`,
+    ...(asked.length ? [`Within these limits the peak force can come down to ${figure(force)} N (all else left free) and the peak moment to ${figure(moment)} N m `
+      + `(all else left free); the ceilings ask for ${asked.join(" and ")}.`] : []),
+    ...(smallest ?? []).map((one) => {
+      const unit = one.ceiling_field.split("_").at(-1).replace("Nm", "N m");
+      return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling asks for ${figure(one.ceiling)} ${unit}.`;
+    }),
+    `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order.`,
+  ];
+}
+
+// a number as asked, or the text with its unit
+const written = (value, unit) => (typeof value === "number" ? `${figure(value)} ${unit}` : value);
