@@ -44,6 +44,10 @@ class Curves(Protocol):
     def variance(self) -> Real:
         """Means of |curve - mean|^2 over the period (J,)."""
 
+    @property
+    def rms_error(self) -> Real:
+        """What root mean squares of curve + constant, by this mean and variance, may be off by (J,)."""
+
     def at(self, angle: Real) -> Complex:
         """The curves at angles (n,) rad: (J, n); in the middle between the limits at a jump or one of them."""
 
@@ -96,6 +100,11 @@ class TurnResponse:
     def variance(self) -> float:
         """Mean of |curve - mean|^2: the mean square of curve + offset is this + |mean + offset|^2."""
         return float(self.curves.variance[self.number])
+
+    @property
+    def rms_error(self) -> float:
+        """What sqrt(variance + |mean + offset|^2) may be off by, whatever the offset."""
+        return float(self.curves.rms_error[self.number])
 
 
 def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Reals) -> Bracket:

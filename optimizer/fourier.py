@@ -11,6 +11,8 @@ from optimizer.pieces import Index, Pieces
 
 #: rad, width of the pieces
 _WIDEST = np.deg2rad(2.0)
+#: of a mean square, in units of the sum of the magnitudes of its orders
+_ROUNDING = 4 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -50,6 +52,11 @@ class FourierCurves:
     def variance(self) -> Real:
         """Parseval's sum of the others; every order is there once."""
         return np.sum(np.where(self.order == 0, 0.0, np.abs(self.coefficient) ** 2), axis=-1)
+
+    @property
+    def rms_error(self) -> Real:
+        """Of a finite sum nothing but rounding."""
+        return _ROUNDING * np.sum(np.abs(self.coefficient), axis=-1)
 
     def cubics(self, curve: Index, _piece: Index, centre: Real, half: Real) -> Complex:
         """Taylor polynomials of the exponentials about any centres."""

@@ -56,7 +56,7 @@ class Quantity:
 
     @cached_property
     def spread(self) -> float:
-        """sqrt(V), what the root mean square comes to at least."""
+        """sqrt(V), what the root mean square comes to at least, but for its error."""
         return float(np.sqrt(self.response.variance))
 
     def cut(self, angle: float, value: complex) -> Cut:
@@ -64,12 +64,17 @@ class Quantity:
         return Cut(value, self.response.influence, angle_deg=float(np.rad2deg(angle)))
 
     def rms(self, u: Complex) -> Reached:
-        """The root mean square: with the angle of the vector (|mean + H u|, sqrt(V)) its cut is it."""
+        """The root mean square: with the angle of the vector (|mean + H u|, sqrt(V)) its cut is it.
+
+        Both are off by no more than is known of mean and variance.
+        """
         mean, influence = self.response.mean, self.response.influence
         moved = abs(mean + self.response.offset(u))
         value = float(np.hypot(moved, self.spread))
         along, across = (moved / value, self.spread / value) if value > 0 else (1.0, 0.0)
-        return Reached(value, value, Cut(along * mean, along * influence, across * self.spread))
+        off = self.response.rms_error
+        cut = Cut(along * mean, along * influence, across * self.spread - off)
+        return Reached(value - off, value + off, cut)
 
 
 class Samples:
@@ -98,7 +103,8 @@ class Samples:
         for quantity, (angle, value) in zip(self.quantities, self._places, strict=True):
             influence = quantity.response.influence
             if quantity.measure == "rms":
-                found.append((Cut(0j, 0.0 * influence, quantity.spread), Cut(quantity.response.mean, influence)))
+                mean, off = quantity.response.mean, quantity.response.rms_error
+                found.append((Cut(0j, 0.0 * influence, quantity.spread - off), Cut(mean, influence, -off)))
             else:
                 support = smallest_circle(value).support
                 found.append(tuple(quantity.cut(float(angle[k]), complex(value[k])) for k in support))

@@ -107,6 +107,29 @@ def test_mean_and_variance_are_those_of_many_samples(style: str) -> None:
     assert curves.variance == pytest.approx(variance, rel=1e-4)
 
 
+@pytest.mark.parametrize("most", [1, 512])
+@pytest.mark.parametrize("style", STYLES)
+def test_root_mean_squares_are_off_by_no_more_than_is_told(
+    style: str, most: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # independent: twenty nodes in each of eight parts, by the values of the curve in every piece
+    turn, _, _ = _driven(2, style, friction=1e3)
+    monkeypatch.setattr("optimizer.mechanics.whole_turn._MOST_PARTS", most)
+    curves = _peaks_of_rows(turn, "on_shaft")
+    node, weight = np.polynomial.legendre.leggauss(20)
+    within = ((2.0 * np.arange(8) - 7.0)[:, None] + node).ravel() / 8.0
+    angle = curves.pieces.centre[..., None] + curves.pieces.half[..., None] * within
+    curve, piece, _ = np.indices(angle.shape)
+    value = curves.values(curve.ravel(), piece.ravel(), angle.ravel()).reshape(angle.shape)
+    share = curves.pieces.half[..., None] * np.tile(weight / 8.0, 8) / TURN
+    for constant in (0.0, 1e3 - 2e3j):
+        exact = np.sqrt(np.sum(np.abs(value + constant) ** 2 * share, axis=(1, 2)))
+        found = np.sqrt(curves.variance + np.abs(curves.mean + constant) ** 2)
+        assert np.all(np.abs(found - exact) <= curves.rms_error + 1e-14 * curves.pieces.size)
+    if most > 1:
+        assert np.all(curves.rms_error <= 1e-9 * curves.pieces.size)
+
+
 def test_designs_together_are_as_designs_alone() -> None:
     # regression: one function for rows of a sweep and for single answers
     turn, _, _ = _driven(1, STYLES[0])

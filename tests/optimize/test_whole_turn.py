@@ -87,6 +87,15 @@ def test_root_mean_squares_are_smaller_than_peaks() -> None:
     assert rms.objective < peak.objective
 
 
+@pytest.mark.parametrize("rod", [1.01, 1.0001])
+def test_root_mean_squares_of_rods_hardly_longer_than_the_crank_are_proven(rod: float) -> None:
+    found, proof = answered(one_throw(rod), bearing_weight=1, bearing_measure="rms", least_mass=False, **ALONE)
+    assert found.main_bearings is not None
+    told = max(each.after.rms_N for each in found.main_bearings.bearings if each.after is not None)
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= told <= proof.objective
+
+
 def test_force_and_bearings_are_weighed_together() -> None:
     machine = inline_six()
     both, together = answered(machine, bearing_weight=1)

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from optimizer.arrays import Complex, Real
 from optimizer.curve import floor
+from optimizer.fourier import FourierCurves
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.cuts import Found, Unkept, over_turn
 from optimizer.program.over_turn import Goal, OverTurn
@@ -126,6 +127,25 @@ def test_the_root_mean_square_of_one_curve_is_centred() -> None:
     # independent: the mean square of samples
     series = quantity.response.at(ANGLES) + quantity.response.offset(best.point.unbalance)
     assert best.goals[-1].value == pytest.approx(np.sqrt(np.mean(np.abs(series) ** 2)), rel=1e-6)
+
+
+class Uncertain(FourierCurves):
+    """Curves whose mean squares are known to a hundredth of their size."""
+
+    rms_error = np.array([0.01])
+
+
+def test_what_a_root_mean_square_may_be_off_by_opens_the_gap() -> None:
+    """Analytic: what is known to +-0.01 is proven no better than that, and never told smaller than it may be."""
+    program = bearings(0, count=1, webs=1, measure="rms", limits=wide(1))
+    (quantity,) = program.quantities
+    curves = quantity.response.curves
+    assert isinstance(curves, FourierCurves)
+    response = replace(quantity.response, curves=Uncertain(curves.order, curves.coefficient))
+    best = found(replace(program, quantities=(replace(quantity, response=response),)), 1e-9)
+    least = np.sqrt(response.variance)
+    assert best.goals[-1].value == pytest.approx(least + 0.01, rel=1e-9)
+    assert best.goals[-1].lower_bound == pytest.approx(least - 0.01, rel=1e-9)
 
 
 @pytest.mark.parametrize("seed", range(2))
