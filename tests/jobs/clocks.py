@@ -12,13 +12,13 @@ import json
 import sys
 import tempfile
 import time
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from pathlib import Path
 
 from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
-from tests.jobs.process import Service
+from tests.jobs.process import Service, service
 from tests.jobs.serving import TIDY
 from tests.jobs.sweeps import analyses
 
@@ -71,15 +71,9 @@ class Clock:
         }
 
 
-@contextmanager
-def service(folder: Path, clock: Clock) -> Iterator[Service]:
-    found = Service(folder, 0.1, {**clock.environment, TIDY: "0.5"}, results_keep_days="30")
-    try:
-        yield found.wait()
-    finally:
-        if found.process.poll() is None:
-            found.process.terminate()
-        found.close()
+def by(clock: Clock, folder: Path) -> AbstractContextManager[Service]:
+    """A service that goes by a clock."""
+    return service(folder, delay_s=0.1, more={**clock.environment, TIDY: "0.5"}, results_keep_days="30")
 
 
 def off(running: Service) -> float:
@@ -118,7 +112,7 @@ def require(running: Service, sweep: str) -> None:
 def jump(folder: Path, jump_s: int) -> None:
     """A sweep is done, one runs while the clock jumps, one starts in the other time and is killed there; then back."""
     clock = Clock(folder / "clock")
-    with service(folder, clock) as running:
+    with by(clock, folder) as running:
         kept = submit(running)
         require(running, kept)
         forth = submit(running)
@@ -130,7 +124,7 @@ def jump(folder: Path, jump_s: int) -> None:
         wait_for_rows(running, back, 1)
         running.kill()
     clock.jump(0)
-    with service(folder, clock) as running:
+    with by(clock, folder) as running:
         wait_for(running, 0)
         for sweep in (back, kept, forth):
             require(running, sweep)
@@ -140,7 +134,7 @@ def apart(folder: Path, apart_s: int) -> None:
     """Two services that live in different times share a sweep."""
     here, there = Clock(folder / "here"), Clock(folder / "there")
     there.jump(apart_s)
-    with service(folder, here) as one, service(folder, there) as two:
+    with by(here, folder) as one, by(there, folder) as two:
         wait_for(two, apart_s)
         sweep = submit(one)
         require(two, sweep)
