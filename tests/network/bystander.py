@@ -254,7 +254,7 @@ def main() -> int:
             each = (f"{path} {quantile_ms(times, 0.99):.0f}" for path, times in outcome.seconds.items())
             print(f"    p99 [ms]: {', '.join(each)}", flush=True)
             failures += outcome.refused + (outcome.held_mb > CEILING_MB)
-        faults = [line for line in target.log().splitlines() if '"level": "ERROR"' in line]
+        faults = target.faults()
         asyncio.run(target.ask("DELETE", target.sweep))  # type: ignore[attr-defined]
     print(f"{failures} refused or over {CEILING_MB:g} MB, {len(faults)} faults logged", *faults, sep="\n")
     return 1 if failures or faults else 0

@@ -64,8 +64,9 @@ def main() -> int:
                     print(f"    {operation.label}, {mode.value}: {str(error)[:1500]}")
             print(f"{operation.label:<36}{statuses.total():>6}  {dict(sorted(statuses.items()))}")
             total += statuses
-        faults = target.log().count('"level": "ERROR"')
-    print(f"{total.total()} requests, {failures} failures, {faults} faults logged: {dict(sorted(total.items()))}")
+        faults = target.faults()
+    print(f"{total.total()} requests, {failures} failures: {dict(sorted(total.items()))}")
+    print(f"{len(faults)} faults logged", *faults, sep="\n")
     return 1 if failures or faults else 0
 
 

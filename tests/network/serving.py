@@ -42,6 +42,10 @@ class Service:
         self._log.flush()
         return Path(self._log.name).read_text()
 
+    def faults(self) -> list[str]:
+        """What it has logged as an error, line by line."""
+        return [line for line in self.log().splitlines() if '"ERROR"' in line]
+
     def workers(self) -> list[psutil.Process]:
         """The processes that compute answers: children of the one that they are forked from."""
         children = psutil.Process(self.process.pid).children()

@@ -27,4 +27,4 @@ def test_a_bystander_is_answered(pressed: Service, press: object) -> None:
     outcome = asyncio.run(beside(pressed, press, 150, 2.0))  # type: ignore[arg-type]
     assert outcome.refused == 0, outcome.statuses
     assert outcome.held_mb < CEILING_MB
-    assert [line for line in pressed.log().splitlines() if '"ERROR"' in line] == []
+    assert pressed.faults() == []
