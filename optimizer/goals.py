@@ -15,23 +15,18 @@ from optimizer.curve import TurnResponse
 from optimizer.errors import MissingInput
 from optimizer.formulate import RESPONSES, ceilings, weights
 from optimizer.limits import limits
-from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans_influence
-from optimizer.mechanics.layout import Layout, stacked
-from optimizer.mechanics.shaft_curves import Influence, bearing_loads, bending_moments, shaking
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.cut import Quantity
 from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
 from optimizer.program.statement import combined, weighted_peak
 from optimizer.response import Response
+from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.answers import CeilingField, MachineLimit
 from schemas.base import FieldProblem
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import Fidelity, Objective, OptimizeRequest
-
-INFLUENCES: dict[str, Influence] = {
-    "simple_spans": simple_spans_influence,
-    "continuous": continuous_beam_influence,
-}
 
 
 @dataclass(frozen=True)
@@ -192,11 +187,6 @@ def _in_order(objective: Objective, groups: dict[str, tuple[Group, ...]]) -> tup
         rows = tuple(row for group in every for row in group.rows)
         every = [Group(rows, tuple(each for group in every for each in group.weighed))]
     return (Goal("all", tuple(every)),), ()
-
-
-def bearing_places(machine: ReciprocatingMachine) -> Real:
-    """Planes of the main bearings (B,) m."""
-    return stacked([bearing.position_m for bearing in machine.bearings])
 
 
 def _missing_sizes(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:

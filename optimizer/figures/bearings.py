@@ -10,7 +10,6 @@ from optimizer.figures.peaks import (
     bearing_and_bending_curves,
     bearing_curves,
     bearing_influence,
-    bearing_places,
     bracket,
     of_shaft,
 )
@@ -18,6 +17,7 @@ from optimizer.mechanics.angles import turned
 from optimizer.mechanics.shaft_curves import ShaftCurves, planes
 from optimizer.pieces import Bracket
 from optimizer.scene import Prepared
+from optimizer.shaft import bearing_places
 from schemas.drive import Bearing
 from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.machine import ReciprocatingMachine
@@ -27,7 +27,7 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    stations = _stations(scene)
+    stations = _stations(scene, machine)
     found = bearing_and_bending_curves(scene, stations)
     floor = np.array([each.circle.radius for each in floors(found.curves, FLOOR_TOLERANCE)]) * scene.omega_squared
     before = of_shaft(scene, found, None)
@@ -61,9 +61,9 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     )
 
 
-def _stations(scene: Prepared) -> Real:
+def _stations(scene: Prepared, machine: ReciprocatingMachine) -> Real:
     """Planes in which the bending moment along the shaft has a corner, and so its maximum."""
-    return np.unique(np.concatenate([planes(scene.layout), bearing_places(scene)]))
+    return np.unique(np.concatenate([planes(scene.layout), bearing_places(machine)]))
 
 
 def _loads(

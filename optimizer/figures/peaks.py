@@ -5,12 +5,11 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans_influence
-from optimizer.mechanics.layout import stacked
-from optimizer.mechanics.shaft_curves import Influence, ShaftCurves, bending_influence, planes, shaft_curves
+from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves
 from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
 from optimizer.pieces import Bracket
 from optimizer.scene import Prepared
+from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.machine import ReciprocatingMachine
 
 #: of a bracket, relative to the peak; and of a floor
@@ -60,7 +59,8 @@ def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
 
 def bearing_influence(scene: Prepared) -> Real:
     """Loads of the main bearings for unit loads in all planes, (..., B, L)."""
-    return _model(scene)(bearing_places(scene), planes(scene.layout))
+    influence = INFLUENCES[scene.request.fidelity.shaft]
+    return influence(bearing_places(_reciprocating(scene)), planes(scene.layout))
 
 
 def bearing_curves(scene: Prepared) -> ShaftCurves:
@@ -70,7 +70,8 @@ def bearing_curves(scene: Prepared) -> ShaftCurves:
 
 def bearing_and_bending_curves(scene: Prepared, stations: Real) -> ShaftCurves:
     """Loads of the B main bearings and bending moments at stations (S,), over omega^2: B + S curves, found together."""
-    moments = bending_influence(scene.layout, bearing_places(scene), _model(scene), stations)
+    influence = INFLUENCES[scene.request.fidelity.shaft]
+    moments = bending_influence(scene.layout, bearing_places(_reciprocating(scene)), influence, stations)
     both = np.concatenate([bearing_influence(scene), moments], axis=-2)
     return shaft_curves(scene.results["whole_turn"], scene.layout, both)
 
@@ -85,15 +86,10 @@ def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None) -> 
     return Bracket(angle, value * square, lower * square, upper * square)
 
 
-def bearing_places(scene: Prepared) -> Real:
-    """(..., B) m."""
+def _reciprocating(scene: Prepared) -> ReciprocatingMachine:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    return stacked([bearing.position_m for bearing in machine.bearings])
-
-
-def _model(scene: Prepared) -> Influence:
-    return simple_spans_influence if scene.request.fidelity.shaft == "simple_spans" else continuous_beam_influence
+    return machine
 
 
 def _extremes(scene: Prepared, curves: TurnCurves) -> Extremes:
