@@ -98,12 +98,19 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
 
 
 def _wrench(layout: Layout, co: Complex, counter: Complex, position: Real) -> Wrench:
-    """Sum of forces in planes; couples are summed about the centre, where the arms are short.
-
-    Moving them to the reference plane afterwards costs no digits where the force vanishes.
-    """
-    arm = position - layout.centre_plane[..., None]
-    shift = layout.centre_plane - layout.reference_plane
+    """Sum of forces in planes, with their couples about the reference plane."""
     force = Phasors(total(co), total(counter))
-    couple = Phasors(total(arm * co), total(arm * counter))
-    return Wrench(force, couple + force * shift)
+    return Wrench(
+        force, Phasors(_couple(layout, co, position, force.co), _couple(layout, counter, position, force.counter))
+    )
+
+
+def _couple(layout: Layout, forces: Complex, position: Real, force: Complex) -> Complex:
+    """Couple of forces (..., n) about the reference plane (...).
+
+    Where their sum ``force`` vanishes it is the same about any plane, and is summed about the centre, where the arms
+    are short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
+    """
+    pure = total((position - layout.centre_plane[..., None]) * forces)
+    about = total((position - layout.reference_plane[..., None]) * forces)
+    return np.where(force == 0, pure, about)

@@ -115,6 +115,13 @@ def test_a_batch_is_the_same_as_one_machine_at_a_time() -> None:
         )
 
 
+def test_a_short_arm_beside_a_long_span_keeps_its_digits_analytic() -> None:
+    # a large mass next to the reference plane, next to nothing far away: the couple is 1 kg m times 1e-13 m
+    far = throw(0, z=60.0, rotating_kg=1e-30)
+    found = rotating(layout(machine(throw(0, z=1e-13, rotating_kg=1.0 / RADIUS), far, reference_plane_m=0.0)))
+    assert found.moment.co == pytest.approx(1e-13, rel=1e-14)
+
+
 def test_responses_are_what_the_counterweights_do() -> None:
     rng = np.random.default_rng(12)
     for style in ("v", "plane", "cw", "any"):
