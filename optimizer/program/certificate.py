@@ -150,8 +150,10 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     ends = np.sum(limits.max_mass, axis=-1) > limits.max_total_mass
     if not np.any(ends):
         return np.zeros(ends.shape)
-    slope = _minorant(statement, multipliers, statement.ceilings.cap).slope
-    return knapsack_price(limits.radius * limits.support(-slope) - mass_cost, limits)
+    minorant = _minorant(statement, multipliers, statement.ceilings.cap)
+    # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
+    support = limits.support(-minorant.slope) + minorant.slope_rounding
+    return knapsack_price(limits.radius * support - mass_cost, limits)
 
 
 def knapsack_price(gain: Real, limits: Limits) -> Real:
