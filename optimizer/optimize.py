@@ -1,5 +1,6 @@
 """From request to answer: machine -> responses -> program -> counterweights -> report."""
 
+import logging
 import time
 from dataclasses import replace
 
@@ -19,10 +20,13 @@ from optimizer.formulate import RESPONSES, ceilings, smallest_peak
 from optimizer.outputs import OUTPUTS, prepare
 from optimizer.outputs import fields as answered
 from optimizer.own_solver import own_solver
-from optimizer.program.optima import optima
+from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.optima import Optima, optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
+from optimizer.program.solution import CEILING_ROUNDING
+from optimizer.program.statement import Statement
 from optimizer.scene import Prepared
 from schemas.answers import (
     Certificate,
@@ -38,6 +42,7 @@ from schemas.base import FieldProblem
 from schemas.proof import InfeasibilityMultipliers, Multipliers
 from schemas.requests import OptimizeRequest
 
+_LOG = logging.getLogger(__name__)
 #: outputs that every answer holds, and what it holds too where bearings or bending count
 _ALWAYS = ("residual",)
 _OF_THE_SHAFT = "main_bearings"
@@ -173,6 +178,18 @@ def finite_or_null(value: Real | float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
+def _conflict(request: OptimizeRequest, best: Certified, most: Real, solver: Solver) -> tuple[Statement, Optima]:
+    """The program and the proof that its ceilings conflict, whatever the limits ``most`` (1, K) let the webs carry."""
+    program = replace(best.program, limits=replace(best.program.limits, max_mass=most))
+    if np.all(objective_lower_bound(program.excess(), best.found.conflict) > CEILING_ROUNDING):
+        return program, best.found
+    found = optima(program, request.accuracy.relative_gap, False, solver)
+    if np.all(found.unreachable):
+        return program, found
+    _LOG.error("a conflict of ceilings is proven for less than the reach that its answer names")
+    return best.program, best.found
+
+
 def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solver: Solver) -> dict[str, object]:
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
     machine, square, allowed = request.machine, best.omega_squared, ceilings(request.objective)
@@ -188,7 +205,7 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solv
         smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
     impossible = [name for name in allowed if bound[name] > allowed[name]]
     closest = counterweights(machine, best.mass_kg[0], best.angle_deg[0])
-    (proof,) = named_proofs(best.program, best.found, square, request.objective.least_mass)
+    (proof,) = named_proofs(*_conflict(request, best, most, solver), square, request.objective.least_mass)
     return {
         "counterweights": (),
         "total_mass_kg": None,
