@@ -7,6 +7,8 @@ from collections import Counter
 import pytest
 from hypothesis import settings
 
+from tests.verification.every import check_every_answer
+
 # no test may touch the jobs of whoever runs it; processes that tests start inherit this
 _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
 os.environ["COUNTERWEIGHT_DATA_DIR"] = _DATA.name
@@ -18,6 +20,9 @@ os.environ["COUNTERWEIGHT_ALLOWED_HOSTS"] = "testserver"
 settings.register_profile("quick", deadline=None, derandomize=True, max_examples=30)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
+
+# a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
+check_every_answer()
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

@@ -139,10 +139,6 @@ def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: 
     after = machine.responses(weights)
     for name, cap in statement.caps.items():
         size = statement.sizes[name]
-        if size.low <= 0:
-            # nothing is there and nothing allowed: what each of the counterweights does
-            arms = (ONE if name == "force" else abs(one.position - machine.plane) for one in weights)
-            size = total(one.product * machine.square * arm for one, arm in zip(weights, arms))
         excess[name] = largest(abs(after[name][0]) - cap, ZERO)
         room = size * real(CEILING) - excess[name]
         yield "ceilings", place, room if kept or room.high >= 0 else None, size

@@ -168,7 +168,21 @@ class Statement:
         limits = {name: goal / f"{name}_ceiling_{unit}" for name, unit in NAMES.items() if capped}
         #: ceiling less the phasor against the shaft, and the size of the ceiling
         self.caps = {n: most.number(least=0) - abs(machine.before[n][1]) for n, most in limits.items() if most}
-        self.sizes = {name: largest(abs(machine.before[name][0]), abs(cap)) for name, cap in self.caps.items()}
+        self.sizes = {
+            name: self._size(largest(abs(machine.before[name][0]), abs(cap)), name) for name, cap in self.caps.items()
+        }
+
+    def _size(self, size: Number, name: str) -> Number:
+        """What a ceiling is measured by; if nothing is there and nothing allowed, what the rows call for does to it."""
+        if size.low > 0:
+            return size
+        arms = [abs(web.position - self.machine.plane) for web in self.machine.webs]
+        most = {"force": ONE, "moment": largest(ZERO, *arms)}
+        most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
+        moving = [one for one in self.terms.values() if abs(one.factor).low > 0]
+        called = [abs(one.start) / (abs(one.factor) * most[one.response]) for one in moving]
+        size = most[name] * largest(ZERO, *called)
+        return size if size.low > 0 else self.machine.square
 
     def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, Number]]]:
         """A floor, and vectors whose lengths it adds; each with the factor of the phasor with the shaft in it."""

@@ -1,11 +1,13 @@
 """Requests at the edges of what the schema accepts are answered like any other."""
 
+import random
+
 import pytest
 
 from optimizer.pareto.pareto import pareto
 from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
-from tests.hard.bodies import tried
+from tests.hard.bodies import body, tried
 from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
 from tests.sweep.single import sweep
 from tests.verification.checking import optimized
@@ -39,3 +41,9 @@ def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> No
 @pytest.mark.parametrize("number", range(200))
 def test_random_bodies_raise_nothing(number: int) -> None:
     tried(number)
+
+
+@pytest.mark.parametrize("number", [228, 345, 610, 1124, 1840])
+def test_what_the_checker_once_refuted(number: int) -> None:
+    # a price of the budget below a gain, a conflict proven for less than the reach, a ceiling of 0 on nothing
+    optimized(body(random.Random(f"0/{number}")))
