@@ -1,0 +1,123 @@
+"""Shares: what one client may hold, and what is said when it would hold more."""
+
+import asyncio
+import json
+from collections.abc import Sequence
+from typing import Any
+
+import pytest
+
+from schemas.problem import Problem
+from service.guard.shares import Holding, OverShare, Shares
+from service.http.pacing import PIECE_BYTES, Pacing
+from service.settings import Settings
+from tests.network.load import start_sweep
+from tests.network.serving import request, service
+
+MB = 1_000_000
+
+
+def shares(**given: int) -> Shares:
+    return Shares(Settings(**given))  # type: ignore[arg-type]
+
+
+def test_a_client_has_its_share_and_all_have_theirs() -> None:
+    found = shares(row_streams=3, row_streams_each=2)
+    found.take("rows", "a", 2)
+    with pytest.raises(OverShare, match="Too many streams of rows"):
+        found.take("rows", "a", 1)
+    found.take("rows", "b", 1)
+    # one is assured to everybody, though all are taken
+    found.take("rows", "c", 1)
+    with pytest.raises(OverShare):
+        found.take("rows", "b", 1)
+    assert [found.held("rows", who) for who in "abc"] == [2, 1, 1]
+    # of another kind there is as much as before
+    found.take("events", "a", 5)
+    found.give("rows", "a", 2)
+    found.take("rows", "b", 1)
+
+
+def test_what_a_request_holds_ends_with_it() -> None:
+    found = shares(held_mb_each=2)
+    one = Holding(found, "a")
+    one.take("answers", 2 * MB)
+    with pytest.raises(OverShare):
+        Holding(found, "a").take("answers", 1)
+    one.give("answers", MB)
+    one.take("rows")
+    one.end()
+    assert (found.held("answers", "a"), found.held("rows", "a")) == (0, 0)
+
+
+def answered(held: Holding, parts: Sequence[bytes]) -> list[dict[str, Any]]:
+    """What is sent of an answer in some parts, by a client that takes everything."""
+    sent: list[dict[str, Any]] = []
+
+    async def app(scope: Any, receive: Any, send: Any) -> None:
+        await send({"type": "http.response.start", "status": 200, "headers": []})
+        for number, part in enumerate(parts, 1):
+            await send({"type": "http.response.body", "body": part, "more_body": number < len(parts)})
+
+    async def send(message: Any) -> None:
+        sent.append(dict(message))
+
+    async def receive() -> Any:
+        raise AssertionError("nobody reads")
+
+    asyncio.run(Pacing(app)({"type": "http", "path": "/x", "state": {"holding": held}}, receive, send))
+    return sent
+
+
+@pytest.mark.parametrize("size", [0, 1, PIECE_BYTES, PIECE_BYTES + 1, 5 * PIECE_BYTES])
+def test_an_answer_is_whole_whatever_its_pieces(size: int) -> None:
+    found = shares()
+    body = bytes(k % 251 for k in range(size))
+    start, *pieces = answered(Holding(found, "a"), [body])
+    assert start["status"] == 200
+    assert b"".join(piece["body"] for piece in pieces) == body
+    assert max(len(piece["body"]) for piece in pieces) <= PIECE_BYTES
+    assert [piece.get("more_body", False) for piece in pieces] == [True] * (len(pieces) - 1) + [False]
+    assert found.held("answers", "a") == 0
+
+
+def test_an_answer_over_the_share_is_answered_429_in_its_place() -> None:
+    found = shares(held_mb_each=2)
+    other = Holding(found, "a")
+    other.take("answers", 2 * MB)
+    start, body = answered(Holding(found, "a"), [bytes(MB), b"more"])
+    said = Problem.model_validate_json(body["body"])
+    assert (start["status"], said.title, said.instance) == (429, "Over share", "/x")
+    assert (b"retry-after", b"1") in start["headers"]
+    assert found.held("answers", "a") == 2 * MB
+    # a small one is not counted, and one that has begun is not broken off
+    for parts in ([bytes(PIECE_BYTES)], [b"begun", bytes(MB)]):
+        start, *pieces = answered(Holding(found, "a"), parts)
+        assert start["status"] == 200
+        assert b"".join(piece["body"] for piece in pieces) == b"".join(parts)
+    # another client is not concerned
+    assert answered(Holding(found, "b"), [bytes(MB)])[0]["status"] == 200
+
+
+def test_streams_over_the_share_of_a_client_are_refused_until_one_has_ended() -> None:
+    async def statuses() -> list[int]:
+        path = f"{await start_sweep(target)}/events"
+        found = []
+        async with target.connection() as (reader, writer):
+            writer.write(request("GET", path))
+            await reader.readuntil(b"\r\n\r\n")
+            refused = await target.ask("GET", path)
+            assert json.loads(refused.body)["title"] == "Over share"
+            assert refused.headers["retry-after"] == "1"
+            found.append(refused.status)
+        while True:
+            async with asyncio.timeout(60), target.connection() as (reader, writer):
+                writer.write(request("HEAD", path))
+                head = await reader.readuntil(b"\r\n\r\n")
+            found.append(int(head.split()[1]))
+            if found[-1] == 200:
+                return found
+            await asyncio.sleep(0.1)
+
+    with service(event_streams_each=1) as target:
+        assert asyncio.run(statuses())[:1] == [429]
