@@ -11,7 +11,7 @@ from optimizer.analyze import analyze
 from optimizer.catalogue import catalogue
 from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
-from optimizer.program import solution
+from optimizer.program import cuts, solution
 from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
 from schemas.outputs import OutputName
@@ -62,6 +62,18 @@ def test_the_request_its_answer_and_the_infeasible_one() -> None:
     agrees(infeasible, found)
 
 
+def test_the_whole_turn() -> None:
+    request, shown, infeasible = blocks(section(API, "The whole turn"))
+    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+    # analytic: an allowance is a share of the moment without counterweights, weighed by the span of 0.16 m
+    found = optimize(OptimizeRequest.model_validate({**request, "objective": {}}))
+    (external,) = shown["certificate"]["goals"]
+    moment = found.residual.before.moment.peak_Nm / 0.16
+    assert external["limit"] - external["lower_bound"] == pytest.approx(0.01 * moment, abs=0.02)
+    request["objective"]["bearing_ceiling_N"] = 1000
+    agrees(infeasible, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+
+
 def test_what_a_shadow_price_promises() -> None:
     """Analytic: below the optimum mass every kilogram takes R omega^2 = 877.3 N off the peak."""
     request, *_ = blocks(section(API, "POST /v1/optimize"))
@@ -75,10 +87,10 @@ def test_what_a_shadow_price_promises() -> None:
 
 def test_the_methods_of_the_certificate() -> None:
     listed = re.findall(
-        r"`((?:interior point|cone program|closed form), [^`]+)` ?[|,]", section(API, "POST /v1/optimize")
+        r"`((?:interior point|cone program|closed form|cuts), [^`]+)` ?[|,]", section(API, "POST /v1/optimize")
     )
     finer = [precision.name for precision in finer_numbers.PRECISIONS]
-    assert listed == [solution.INTERIOR_POINT, solution.CONE_PROGRAM, *finer, solution.CLOSED_FORM]
+    assert listed == [solution.INTERIOR_POINT, solution.CONE_PROGRAM, *finer, solution.CLOSED_FORM, cuts.METHOD]
 
 
 def test_the_machine_with_gas() -> None:
