@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from optimizer.arrays import Complex, Real
 from optimizer.curve import TurnResponse, floor, peaks
-from optimizer.fourier import FourierCurves
 from optimizer.pieces import Index
+from tests.curves.fourier import FourierCurves
 
 TURN = 2.0 * np.pi
 

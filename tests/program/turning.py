@@ -5,12 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from optimizer.curve import TurnResponse
-from optimizer.fourier import FourierCurves
 from optimizer.program.cut import Quantity
 from optimizer.program.limits import Limits
 from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
 from optimizer.program.statement import Row, weighted_peak
 from optimizer.response import Phasors, Response
+from tests.curves.fourier import FourierCurves
 from tests.program.cases import random_limits
 
 ORDERS = np.arange(-6.0, 7.0)

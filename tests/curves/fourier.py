@@ -1,4 +1,4 @@
-"""Curves that are finite Fourier series: of a few orders, as balance shafts and single orders make them."""
+"""Curves that are finite Fourier series, whose peaks, means and floors are known or soon found by other means."""
 
 from dataclasses import dataclass
 from functools import cached_property
