@@ -14,6 +14,7 @@ CautionCode = Literal[
     "span_of_a_far_web",
     "bearing_load_grows",
     "bending_moment_grows",
+    "peak_not_closed",
 ]
 
 

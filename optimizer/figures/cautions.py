@@ -1,6 +1,6 @@
 """Warnings of an answer: what is right as it stands and may still be taken for something else."""
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,6 +12,7 @@ from optimizer.formulate import span
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.scene import Prepared
 from schemas.answers import Residual
+from schemas.base import Model
 from schemas.caution import Caution, CautionCode
 from schemas.dynamics import MainBearings
 from schemas.machine import ReciprocatingMachine
@@ -24,8 +25,10 @@ _NOTABLE = 1e-3
 _BARE = 0.5
 #: webs that make the span so many times that of the throws decide it
 _FAR = 2.0
-#: loads that differ by less than this share are alike
+#: loads that differ by less than this share are alike; so are the ends of a closed bracket
 _ALIKE = 1e-6
+#: a peak that cancels to this share of what it is the sum of is rounding
+_CANCELLED = 1e-9
 
 
 class Told(NamedTuple):
@@ -185,6 +188,53 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
                 )
 
 
+def _not_closed(told: Told) -> Iterator[Caution]:
+    """Peaks over the turn of which less is proven than a designer takes for granted."""
+    force, moment = _sizes(told.scene)
+    for output, field in told.fields.items():
+        for unit, size in (("N", force), ("Nm", moment)):
+            brackets = [found for name, found in _values(field) if name.endswith(f"_bracket_{unit}")]
+            wide = [found for found in brackets if _width(found) > _ALIKE * max(np.abs(found))]
+            if not wide:
+                continue
+            # of the same unit: what cancels between rows or bearings is as large in each of them
+            most = max(float(np.max(np.abs(found), initial=size)) for name, found in _values(field) if _of(name, unit))
+            open_ = [found for found in wide if _width(found) > _CANCELLED * most]
+            if open_:
+                low, high = max(open_, key=_width)
+                yield Caution(
+                    code="peak_not_closed",
+                    message=f"A peak of {output} is proven only to lie between {low:.6g} and {high:.6g} "
+                    f"{_SPOKEN[unit]}: it is too steep to be followed further.",
+                    pointer="/machine",
+                )
+
+
+_SPOKEN = {"N": "N", "Nm": "N m"}
+
+
+def _width(bracket: Sequence[float]) -> float:
+    return bracket[1] - bracket[0]
+
+
+def _of(name: str, unit: str) -> bool:
+    return name.endswith(f"_{unit}")
+
+
+def _values(field: Any) -> Iterator[tuple[str, Any]]:
+    """Names and contents of all fields of numbers in the models of an answer."""
+    if isinstance(field, Model):
+        for name in type(field).model_fields:
+            content = getattr(field, name)
+            if isinstance(content, float) or (isinstance(content, tuple) and content and isinstance(content[0], float)):
+                yield name, content
+            else:
+                yield from _values(content)
+    elif isinstance(field, tuple):
+        for item in field:
+            yield from _values(item)
+
+
 #: what is looked at, in the order of the answer
 Watch = Callable[[Told], Iterator[Caution]]
-WATCHES: tuple[Watch, ...] = (_no_gas, _second_order, _bare_crank, _component_grows, _far_web, _loads_grow)
+WATCHES: tuple[Watch, ...] = (_no_gas, _second_order, _bare_crank, _component_grows, _far_web, _loads_grow, _not_closed)

@@ -32,6 +32,7 @@ def test_brackets_are_closed_and_above_all_samples(hard: Hard) -> None:
             (total, piston.peak_tension_bracket_N, size),
             (-total, tuple(-one for one in piston.peak_compression_bracket_N[::-1]), size),
         ]
+    assert "peak_not_closed" not in [caution.code for caution in found.warnings]
     for samples, (low, high), size in brackets:
         assert np.max(samples) <= high + 1e-10 * size
         assert low <= high <= low + 1e-8 * abs(low) + 1e-12 * size

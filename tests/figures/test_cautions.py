@@ -5,11 +5,13 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer import pieces
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from tests.analyze.driven import random_driven
 from tests.builders import RADIUS, inline, machine, row, throw, web
 
 
@@ -111,6 +113,33 @@ def test_rows_without_cylinders_are_told_where_gas_would_count() -> None:
     assert (told.code, told.pointer) == ("no_gas", "/machine/throws/0/rows/0/cylinder")
     assert told.message.startswith("2 rows")
     assert analyze(AnalyzeRequest.model_validate({**asked, "outputs": ["kinematics"]})).warnings == ()
+
+
+TURNING = ["rod_loads", "torque", "main_bearings", "piston_force", "overturning"]
+
+
+def test_peaks_that_are_left_open_are_told_and_those_that_are_closed_are_not(monkeypatch: pytest.MonkeyPatch) -> None:
+    # analytic: where nothing is looked at more closely, brackets stay as wide as the pieces leave them
+    asked = AnalyzeRequest.model_validate({"machine": random_driven(3), "outputs": TURNING})
+    assert "peak_not_closed" not in _codes(analyze(asked))
+    monkeypatch.setattr(pieces, "_MOST_PARTS", 0)
+    answer = analyze(asked)
+    told = [caution.message for caution in answer.warnings if caution.code == "peak_not_closed"]
+    assert {message.split()[3] for message in told} == set(TURNING)
+    low, high = answer.torque.peak_bracket_Nm
+    assert high > low * (1.0 + 1e-6)
+    assert f"A peak of torque is proven only to lie between {low:.6g} and {high:.6g} N m" in " ".join(told)
+
+
+def test_a_peak_that_cancels_is_no_open_one() -> None:
+    # analytic: opposed pistons in one plane load their pins alike and oppositely, and the bearings with rounding
+    throws = [throw(angle, row(angle, length_m=1.0)) for angle in (33.0, 213.0)]
+    bearings = [{"name": "A", "position_m": -1.0}, {"name": "B", "position_m": 4.0}]
+    made = machine(*throws, bearings=bearings)
+    answer = analyze(AnalyzeRequest.model_validate({"machine": made.model_dump(), "outputs": ["main_bearings"]}))
+    low, high = answer.main_bearings.bearings[0].before.peak_bracket_N
+    assert high > low * (1.0 + 1e-6)
+    assert _codes(answer) == ["no_gas"]
 
 
 def test_an_infeasible_answer_has_no_rates() -> None:
