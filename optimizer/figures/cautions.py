@@ -50,9 +50,9 @@ def cautions(scene: Prepared, unbalance: Complex | None, fields: Mapping[str, An
     return tuple(caution for watch in WATCHES for caution in watch(told))
 
 
-def _four(value: float) -> str:
-    """Four digits without an exponent, as forces and moments are read: 107600, not 1.076e+05."""
-    return f"{float(f'{value:.4g}'):.15g}"
+def _plain(value: float, digits: int = 4) -> str:
+    """Some digits without an exponent, as forces and moments are read: 107600, not 1.076e+05."""
+    return f"{float(f'{value:.{digits}g}'):.15g}"
 
 
 def _sizes(scene: Prepared) -> tuple[float, float]:
@@ -92,8 +92,8 @@ def _second_order(told: Told) -> Iterator[Caution]:
         if twice > left and twice > _NOTABLE * size:
             yield Caution(
                 code="second_order_remains",
-                message=f"A {what} of {_four(twice)} {unit} remains at twice the shaft speed, more than the "
-                f"{_four(left)} {unit} at the speed itself: no counterweight on the crank changes it.",
+                message=f"A {what} of {_plain(twice)} {unit} remains at twice the shaft speed, more than the "
+                f"{_plain(left)} {unit} at the speed itself: no counterweight on the crank changes it.",
                 pointer="/machine/throws",
             )
 
@@ -136,8 +136,8 @@ def _component_grows(told: Told) -> Iterator[Caution]:
             if after > before + _NOTABLE * size:
                 yield Caution(
                     code="component_grows",
-                    message=f"The {what} along {axis} grows from {_four(before)} to {_four(after)} {unit}: weigh that "
-                    "direction more if it matters.",
+                    message=f"The {what} along {axis} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
+                    "that direction more if it matters.",
                     pointer=f"/objective/direction_weights/{axis}",
                 )
 
@@ -156,8 +156,8 @@ def _far_web(told: Told) -> Iterator[Caution]:
         far = max(range(len(machine.webs)), key=lambda k: abs(machine.webs[k].position_m - middle))
         yield Caution(
             code="span_of_a_far_web",
-            message=f"The moment is weighed with the span {_four(whole)} m of throws and webs, which web "
-            f"{machine.webs[far].name} makes {_four(whole / own)} times that of the throws: give moment_weight.",
+            message=f"The moment is weighed with the span {_plain(whole)} m of throws and webs, which web "
+            f"{machine.webs[far].name} makes {_plain(whole / own)} times that of the throws: give moment_weight.",
             pointer=f"/machine/webs/{far}/position_m",
         )
 
@@ -183,7 +183,7 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
             if now > than * (1.0 + _ALIKE):
                 yield Caution(
                     code=code,
-                    message=f"The largest {what} is {_four(now)} {unit}, above the {_four(than)} {unit} {of}.",
+                    message=f"The largest {what} is {_plain(now)} {unit}, above the {_plain(than)} {unit} {of}.",
                     pointer="/objective" if isinstance(scene.request, OptimizeRequest) else "/counterweights",
                 )
 
@@ -204,7 +204,7 @@ def _not_closed(told: Told) -> Iterator[Caution]:
                 low, high = max(open_, key=_width)
                 yield Caution(
                     code="peak_not_closed",
-                    message=f"A peak of {output} is proven only to lie between {low:.6g} and {high:.6g} "
+                    message=f"A peak of {output} is proven only to lie between {_plain(low, 7)} and {_plain(high, 7)} "
                     f"{_SPOKEN[unit]}: it is too steep to be followed further.",
                     pointer="/machine",
                 )

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from optimizer.arrays import Complex, Real
 from optimizer.curve import floor
-from optimizer.fourier import FourierCurves
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.cuts import Found, Unkept, over_turn
 from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.solution import CEILING_ROUNDING
+from tests.curves.fourier import FourierCurves
 from tests.program.cases import random_point
 from tests.program.turning import bearings, force_and_moment, largest, quantities, wide
 
