@@ -80,6 +80,7 @@ class Response:
         answers out of line with itself.
     order : how often the vectors turn while the shaft turns once.
     sense : +1 if the co-rotating vector turns with the shaft, -1 if against it.
+    scenario : name of the scenario whose response it is; None of the machine as it is given.
     """
 
     name: str
@@ -88,6 +89,7 @@ class Response:
     influence: Real | Complex
     order: int = 1
     sense: int = 1
+    scenario: str | None = None
 
     def spread(self, leading: tuple[int, ...]) -> "Response":
         """The same of as many machines as the leading axes say; what is common to all is not copied."""

@@ -93,12 +93,17 @@ def nothing_proven(statement: Statement) -> Multipliers:
 
 @dataclass(frozen=True)
 class _Minorant:
-    """constant + sum_k Re(conj(slope_k) u_k), and what they may be off by."""
+    """constant + sum_k (Re(conj(slope_k) u_k) + spread_k |u_k|), and what they may be off by."""
 
     constant: Real  # (...)
     constant_size: Real  # (...) sum of magnitudes that the rounding of the constant is a share of
     slope: Complex  # (..., K)
     slope_rounding: Real  # (..., K)
+    spread: Real | float = 0.0  # (..., K) no more than it is
+
+    def support(self, limits: Limits) -> Real:
+        """What a kilogram metre on each web can lower it by, or more (..., K); below 0 it only raises it."""
+        return limits.support(-self.slope) + self.slope_rounding - self.spread
 
 
 def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Real:
@@ -152,8 +157,7 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
         return np.zeros(ends.shape)
     minorant = _minorant(statement, multipliers, statement.ceilings.cap)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
-    support = limits.support(-minorant.slope) + minorant.slope_rounding
-    return knapsack_price(limits.radius * support - mass_cost, limits)
+    return knapsack_price(limits.radius * minorant.support(limits) - mass_cost, limits)
 
 
 def knapsack_price(gain: Real, limits: Limits) -> Real:
@@ -203,7 +207,19 @@ def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Min
         axis=-1,
     )
     size = np.sum(np.abs(fixed), axis=-1)
-    return _Minorant(np.sum(fixed, axis=-1), size, *_slope(statement, multipliers, size))
+    slope, rounding = _slope(statement, multipliers, size)
+    return _Minorant(np.sum(fixed, axis=-1), size, slope, rounding, spread(statement, multipliers))
+
+
+def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
+    """What a bound rises by, or less, for a kilogram metre on each web because counterweights scatter (..., K)."""
+    norms, ceilings = statement.norms, statement.ceilings.norms
+    if not norms.scatter and not ceilings.scatter:
+        return 0.0
+    of_terms = norms.scatter * multipliers.row[..., statement.row, None] * np.abs(norms.influence)
+    of_ceilings = ceilings.scatter * np.abs(multipliers.ceiling)[..., None] * np.abs(ceilings.influence)
+    each: Real = np.sum(of_terms, axis=-2) + np.sum(of_ceilings, axis=-2)
+    return each * (1.0 - _EPS * (_EACH + statement.row.size + multipliers.ceiling.shape[-1]))
 
 
 def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple[Complex, Real]:
@@ -239,7 +255,6 @@ def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) ->
     One kilogram on web k gains at best R_k sigma_k - cost; the rounding of the slope is a gain too, so that it counts
     as far as the limits let the web reach. With a budget the webs are filled in falling order of that gain.
     """
-    support = limits.support(-minorant.slope) + minorant.slope_rounding
-    gain = np.maximum(limits.radius * support - mass_cost, 0.0)
+    gain = np.maximum(limits.radius * minorant.support(limits) - mass_cost, 0.0)
     gained = np.sum(gain * limits.filled(gain), axis=-1)
     return -gained * (1.0 + _EPS * (_EACH + 2 * gain.shape[-1]))

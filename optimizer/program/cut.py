@@ -22,6 +22,21 @@ _WITHIN = np.array([-0.75, -0.25, 0.25, 0.75])
 _DUST = 1e-13
 
 
+class Scatter(NamedTuple):
+    """What the unbalance of every counterweight may be off by, in any direction."""
+
+    share: float = 0.0  # of itself
+    unbalance: float = 0.0  # kg m, whatever the counterweight
+
+    def of(self, influence: Real | Complex, u: Complex) -> float:
+        """What |c + influence @ u| grows by at most: all counterweights (K,) off in the direction in which it grows."""
+        return float(np.sum(np.abs(influence) * (self.share * np.abs(u) + self.unbalance))) if any(self) else 0.0
+
+
+#: counterweights as they should be
+EXACT = Scatter()
+
+
 class Cut(NamedTuple):
     """floor + |constant + influence @ u|, which the quantity is never below."""
 
@@ -30,9 +45,9 @@ class Cut(NamedTuple):
     floor: float = 0.0
     angle_deg: float | None = None  # of the shaft, where the cut belongs to one
 
-    def at(self, u: Complex) -> float:
+    def at(self, u: Complex, scatter: Scatter) -> float:
         """What it comes to with an unbalance (K,)."""
-        return self.floor + float(abs(self.constant + np.sum(self.influence * u)))
+        return self.floor + float(abs(self.constant + np.sum(self.influence * u))) + scatter.of(self.influence, u)
 
 
 class Reached(NamedTuple):
@@ -49,6 +64,7 @@ class Quantity:
 
     response: TurnResponse
     measure: Literal["peak", "rms"] = "peak"
+    scenario: str | None = None  # whose response it is; None is the machine as it is given
 
     @property
     def name(self) -> str:
@@ -63,13 +79,18 @@ class Quantity:
         """The cut of the peak at an angle [rad], where the curve has a value."""
         return Cut(value, self.response.influence, angle_deg=float(np.rad2deg(angle)))
 
-    def rms(self, u: Complex) -> Reached:
+    def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Reached:
+        """The peak where counterweights scatter, from what it is where they do not."""
+        more = scatter.of(self.response.influence, u)
+        return Reached(lower + more, upper + more, cut)
+
+    def rms(self, u: Complex, scatter: Scatter) -> Reached:
         """The root mean square: with the angle of the vector (|mean + H u|, sqrt(V)) its cut is it.
 
         Both are off by no more than is known of mean and variance.
         """
         mean, influence = self.response.mean, self.response.influence
-        moved = abs(mean + self.response.offset(u))
+        moved = abs(mean + self.response.offset(u)) + scatter.of(influence, u)
         value = float(np.hypot(moved, self.spread))
         along, across = (moved / value, self.spread / value) if value > 0 else (1.0, 0.0)
         off = self.response.rms_error
@@ -110,16 +131,17 @@ class Samples:
                 found.append(tuple(quantity.cut(float(angle[k]), complex(value[k])) for k in support))
         return tuple(found)
 
-    def reached(self, u: Complex) -> tuple[Reached, ...]:
+    def reached(self, u: Complex, scatter: Scatter) -> tuple[Reached, ...]:
         """The largest sample of every quantity, in place of its peak."""
         found = []
         for quantity, (angle, value) in zip(self.quantities, self._places, strict=True):
             if quantity.measure == "rms":
-                found.append(quantity.rms(u))
+                found.append(quantity.rms(u, scatter))
                 continue
             size = np.abs(value + quantity.response.offset(u))
             k = int(np.argmax(size))
-            found.append(Reached(float(size[k]), float(size[k]), quantity.cut(float(angle[k]), complex(value[k]))))
+            cut = quantity.cut(float(angle[k]), complex(value[k]))
+            found.append(quantity.peak(u, scatter, float(size[k]), float(size[k]), cut))
         return tuple(found)
 
 
@@ -133,7 +155,7 @@ def _cleared(quantity: Quantity, values: Complex) -> Complex:
 
 
 def reached(
-    quantities: Sequence[Quantity], u: Complex, tolerance: Real, cancelled: Sequence[bool]
+    quantities: Sequence[Quantity], u: Complex, tolerance: Real, cancelled: Sequence[bool], scatter: Scatter
 ) -> tuple[Reached, ...]:
     """What quantities come to with an unbalance (K,) kg m.
 
@@ -147,9 +169,9 @@ def reached(
     for q, quantity in enumerate(quantities):
         if quantity.measure == "peak" and cancelled[q]:
             size = abs(quantity.response.offset(u))
-            found[q] = Reached(size, size, quantity.cut(0.0, 0j))
+            found[q] = quantity.peak(u, scatter, size, size, quantity.cut(0.0, 0j))
     if turning:
         bracket = peaks([quantities[q].response for q in turning], u, tolerance[turning])
         for q, angle, value, lower, upper in zip(turning, *(part.tolist() for part in bracket), strict=True):
-            found[q] = Reached(lower, upper, quantities[q].cut(angle, value))
-    return tuple(found[q] if q in found else quantity.rms(u) for q, quantity in enumerate(quantities))
+            found[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
+    return tuple(found[q] if q in found else quantity.rms(u, scatter) for q, quantity in enumerate(quantities))

@@ -22,7 +22,7 @@ from optimizer.program.reference.assembled import NoPoint, Target, solved
 from optimizer.program.reference.modelling import Stage as CostStage
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
-from optimizer.program.statement import CEILING_TOLERANCE, Norms, Statement
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 #: cuts of a quantity that are kept from one round to the next
 _MOST_CUTS = 16
@@ -47,6 +47,8 @@ _LOWERED, _RAISED = 2e-10, CEILING_TOLERANCE - 2e-10
 _NARROWEST = 1e-12
 #: relative width of the brackets of a point that may be the answer
 _CLOSE = 1e-12
+#: shares of several sums, which are to sum to no more than 1
+_MEAN = 1.0 - 64 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -97,6 +99,7 @@ class Pool:
 
     def __init__(self, program: OverTurn) -> None:
         self.cuts: list[list[Cut]] = [list(cuts) for cuts in program.first]
+        self.scatter = program.scatter
 
     def count(self) -> int:
         return sum(len(cuts) for cuts in self.cuts)
@@ -105,7 +108,7 @@ class Pool:
         """Take the cut of every quantity whose true value is above what matters; whether any was new."""
         new = False
         for cuts, each, least in zip(self.cuts, found.reached, matters, strict=True):
-            known = max(cut.at(u) for cut in cuts)
+            known = max(cut.at(u, self.scatter) for cut in cuts)
             if each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps):
                 cuts.append(each.cut)
                 new = True
@@ -115,7 +118,7 @@ class Pool:
         """Keep what is largest at a point."""
         for q, cuts in enumerate(self.cuts):
             if len(cuts) > _MOST_CUTS:
-                self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u))[:_MOST_CUTS]
+                self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u, self.scatter))[:_MOST_CUTS]
 
 
 class Search:
@@ -194,8 +197,7 @@ class Search:
 
     def _apart(self, statement: Statement, u: Complex, values: Values) -> bool:
         """Whether a point comes to more than its statement says by more than samples leave open."""
-        of_group = statement.largest(statement.rows(np.abs(statement.norms.at(u))))
-        said = np.bincount(self.program.goal_of, of_group)
+        said = self.program.of_goals(statement.largest(statement.rows(statement.norms.sizes(u))))
         over = float(np.max((values.goals - said) / self.program.units))
         return over > _SAMPLED or values.excess > _SAMPLED
 
@@ -221,7 +223,7 @@ class Search:
         ----------
         margins : multiple of what is kept back so that the point keeps what it has to.
         """
-        program, goal_of = self.program, self.program.goal_of
+        program, goal_of, case_of = self.program, self.program.goal_of, self.program.case_of
         posed = times(statement, 1.0 / self.unit[goal_of])
         mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
         lowered = -_RAISED if self.raised else margins * _LOWERED
@@ -229,12 +231,16 @@ class Search:
         stage: CostStage = "mass" if self.of_mass else "objective"
         data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
         highest = posed.largest(posed.floor)
-        targets = [
-            Target(goal_of == n, (aimed / self.unit[n] - float(np.sum(highest[goal_of == n]))) / scaling.objective)
-            for n, aimed in enumerate(self.kept.most - margins * self.kept.margin)
-        ]
-        weighed = goal_of == len(program.goals) - 1
-        found = solved(data, tolerance, _TIME_LIMIT_S, weighed, targets)
+        aimed = self.kept.most - margins * self.kept.margin
+
+        def sums(n: int, most: float) -> list[Target]:
+            """The sums of a goal, none above a level."""
+            chosen = [case_of == case for case in np.flatnonzero(program.goal_of_case == n)]
+            return [Target(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
+
+        targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
+        last = len(program.goals) - 1
+        found = solved(data, tolerance, _TIME_LIMIT_S, goal_of == last, targets, sums(last, 0.0))
         if isinstance(found, NoPoint):
             return None
         u = program.limits.into(scaling.unbalance(posed, found.solution))
@@ -247,10 +253,11 @@ class Search:
         """What is proven of the last goal without a solver, whatever the goals before it come to."""
         began = time.perf_counter()
         statement = self.program.statement(self.pool.cuts)
-        last = self.program.goal_of == len(self.program.goals) - 1
-        alone, cuts = times(statement, last.astype(float)), tuple(map(len, self.pool.cuts))
+        last = np.flatnonzero(self.program.goal_of_case == len(self.program.goals) - 1)
+        cuts = tuple(map(len, self.pool.cuts))
         proofs = [
             Proof(float(objective_lower_bound(alone, each)), alone, each, 0.0, cuts)
+            for alone in (times(statement, (self.program.case_of == case).astype(float)) for case in last)
             for each in resting_multipliers(alone)
         ]
         self.certify_s += time.perf_counter() - began
@@ -259,11 +266,11 @@ class Search:
     def _proofs(self, statement: Statement, u: Complex, found: Multipliers) -> Iterator[Proof]:
         """Bounds by the multipliers of the solver and by sharper ones."""
         counted = self.kept.counted
-        if len(self.program.goals) > 1:
+        charge = float(np.sum(counted))
+        if self.program.goal_of_case.size > 1:
             statement, found, charges = self._charged(statement, found)
-        else:
-            charges = np.ones(counted.size)
-        charge = float(np.sum(charges[: counted.size] * counted))
+            kept = self.program.goal_of_case < counted.size
+            charge = float(np.sum(charges[kept] * counted[self.program.goal_of_case[kept]]))
         sharper = mass_multipliers if self.of_mass else objective_multipliers
         for multipliers in sharper(statement, u, found):
             if self.of_mass:
@@ -274,25 +281,29 @@ class Search:
                 yield Proof(bound, statement, multipliers, charge, tuple(map(len, self.pool.cuts)))
 
     def _charged(self, statement: Statement, found: Multipliers) -> tuple[Statement, Multipliers, Real]:
-        """The statement whose groups have the prices of their goals, where each group's multipliers sum to 1."""
-        goal_of = self.program.goal_of
-        price = np.zeros(len(self.program.goals))
-        np.maximum.at(price, goal_of, np.add.reduceat(np.maximum(found.row, 0.0), statement.first_rows))
-        unit = 1.0 if self.of_mass else price[-1] / self.unit[-1]
+        """The statement whose groups have the prices of their sums, where each group's multipliers sum to 1."""
+        case_of, goal_of_case = self.program.case_of, self.program.goal_of_case
+        price = np.zeros(goal_of_case.size)
+        np.maximum.at(price, case_of, np.add.reduceat(np.maximum(found.row, 0.0), statement.first_rows))
+        last = goal_of_case == len(self.program.goals) - 1
+        unit = 1.0 if self.of_mass else float(np.sum(price[last])) / self.unit[-1]
         if not unit > 0:
             return statement, nothing_proven(statement), price
-        charges = price / self.unit / unit
-        each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[goal_of]
+        charges = price / self.unit[goal_of_case if self.unit.size > 1 else 0] / unit
+        if np.count_nonzero(last) > 1:
+            # the largest sum is no less than their mean, whatever the rounding of the shares
+            charges[last] *= _MEAN
+        each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[case_of]
         multipliers = Multipliers(
             found.term * each[statement.group][statement.row], found.row * each[statement.group], found.ceiling / unit
         )
-        return times(statement, charges[goal_of]), multipliers, charges
+        return times(statement, charges[case_of]), multipliers, charges
 
     def _matters(self, statement: Statement, u: Complex) -> Real:
         """(quantities,) above which a quantity changes anything."""
         program = self.program
         least = np.full(len(program.quantities), np.inf)
-        level = statement.largest(statement.rows(np.abs(statement.norms.at(u))))
+        level = statement.largest(statement.rows(statement.norms.sizes(u)))
         for group, reached in zip(program.groups, level.tolist(), strict=True):
             for each in group.weighed:
                 least[each.quantity] = min(least[each.quantity], (reached - each.offset) / each.weight)
@@ -340,5 +351,9 @@ def times(statement: Statement, factor: Real) -> Statement:
         return statement
     of_row = factor[statement.group]
     of_term = of_row[statement.row]
-    norms = Norms(statement.norms.constant * of_term, statement.norms.influence * of_term[:, None])
+    norms = replace(
+        statement.norms,
+        constant=statement.norms.constant * of_term,
+        influence=statement.norms.influence * of_term[:, None],
+    )
     return replace(statement, norms=norms, floor=statement.floor * of_row)

@@ -206,4 +206,5 @@ def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
     if not np.any(far_limits(statement)):
         return program
     levels = np.append(most, inside.values.goals[most.size]) / program.units
-    return replace(program, limits=bounded(statement, 2.0 * float(np.sum(levels))).limits)
+    # no point that is no larger has a larger sum in any case
+    return replace(program, limits=bounded(statement, 2.0 * float(np.sum(levels[program.goal_of_case]))).limits)

@@ -10,7 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.program.certificate import Multipliers
+from optimizer.program.certificate import Multipliers, spread
 from optimizer.program.statement import Statement
 
 #: a limit is touched when it is nearer than this share of itself
@@ -42,10 +42,17 @@ def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers)
     stacked = np.concatenate([usable.term, usable.ceiling])
     scale = np.max(np.abs(influence), axis=1, keepdims=True)
     scale = np.where(scale > 0, scale, 1.0)
-    basis, size, _ = np.linalg.svd(influence / scale, full_matrices=False)
-    basis = basis[:, size > 1e-12 * size[0]]
+    basis, size, across = np.linalg.svd(influence / scale, full_matrices=False)
+    known = size > 1e-12 * size[0]
+    basis = basis[:, known]
     weighted = stacked * scale[:, 0]
     stacked = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
+    more = spread(statement, usable)
+    if np.any(more):
+        # where counterweights scatter, a kilogram metre gains what it costs: conj(H) y = -spread u/|u|
+        towards = u[interior] / np.where(u[interior] != 0, np.abs(u[interior]), 1.0)
+        worth = -np.broadcast_to(more, u.shape)[interior] * towards
+        stacked = stacked + (basis @ ((across[known] @ worth) / size[known])) / scale[:, 0]
     terms = usable.term.size
     allowed = usable.row[statement.row]
     over = float(np.max(np.abs(stacked[:terms]) / np.where(allowed > 0, allowed, np.inf), initial=1.0))
@@ -60,7 +67,7 @@ def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> I
     usable = solver.admissible(statement)
     norms, limited = statement.norms, statement.ceilings.norms
     slope = usable.term @ np.conj(norms.influence) + usable.ceiling @ np.conj(limited.influence)
-    worth = statement.limits.radius * statement.limits.support(-slope)
+    worth = statement.limits.radius * (statement.limits.support(-slope) - spread(statement, usable))
     untouched = np.abs(u) < statement.limits.reach * (1.0 - TOUCHED)
     most = float(np.max(worth[untouched], initial=0.0))
     if most > 1.0:

@@ -1,6 +1,7 @@
 """The program with quantities that are known by cuts: bearing peaks beside force and moment, root mean squares.
 
 minimise    P_n(u) = sum_g max( rows of the group, w_q Q_q(u) of its quantities )      the last goal, or the mass
+            or the largest of several such sums
 subject to  P_i(u) <= most_i for the goals before it, ceilings on responses and on quantities, limits
 
 With finitely many cuts of every quantity it is a statement whose objective and ceilings no u exceeds: what is proven
@@ -15,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.cut import Cut, Quantity, Reached, Samples, reached
+from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Samples, Scatter, reached
 from optimizer.program.limits import Limits
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import PARTS, Ceilings, Names, Norms, Row, Statement, Term, WeightedPeak, limited
@@ -45,11 +46,12 @@ class Group(NamedTuple):
 
 
 class Goal(NamedTuple):
-    """A sum of groups that is to be small."""
+    """A sum of groups that is to be small, or the largest of several such sums."""
 
     name: str
     groups: tuple[Group, ...]
     unit: float | None = None  # what gaps are measured by; by default the yardstick
+    cases: tuple[int, ...] = ()  # sum to which each group belongs, in rising order from 0; by default one
 
 
 class Values(NamedTuple):
@@ -78,6 +80,7 @@ class OverTurn:
     ceilings: tuple[tuple[Response, float], ...]
     limited: tuple[tuple[int, float], ...]
     limits: Limits
+    scatter: Scatter = EXACT
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
@@ -88,6 +91,23 @@ class OverTurn:
     def goal_of(self) -> np.ndarray:
         """(groups,) goal to which a group belongs."""
         return np.repeat(np.arange(len(self.goals)), [len(goal.groups) for goal in self.goals])
+
+    @cached_property
+    def case_of(self) -> np.ndarray:
+        """(groups,) sum to which a group belongs, of those of all goals."""
+        cases = [np.array(goal.cases or [0] * len(goal.groups), dtype=int) for goal in self.goals]
+        first = np.cumsum([0, *(int(each[-1]) + 1 for each in cases)])
+        return np.concatenate([each + start for each, start in zip(cases, first, strict=False)])
+
+    @cached_property
+    def goal_of_case(self) -> np.ndarray:
+        """(cases,) goal to which a sum belongs."""
+        return self.goal_of[np.searchsorted(self.case_of, np.arange(self.case_of[-1] + 1))]
+
+    def of_goals(self, of_groups: Real) -> Real:
+        """(goals,) the largest sums of what groups (groups,) come to."""
+        sums = np.bincount(self.case_of, of_groups)
+        return np.maximum.reduceat(sums, np.searchsorted(self.goal_of_case, np.arange(len(self.goals))))
 
     @cached_property
     def samples(self) -> Samples:
@@ -108,7 +128,8 @@ class OverTurn:
     @cached_property
     def _resting(self) -> tuple[Reached, ...]:
         still = np.zeros(self.limits.radius.shape, complex)
-        return reached(self.quantities, still, np.full(len(self.quantities), _FINE), self.samples.cancelled)
+        width = np.full(len(self.quantities), _FINE)
+        return reached(self.quantities, still, width, self.samples.cancelled, self.scatter)
 
     @cached_property
     def yardsticks(self) -> Real:
@@ -123,7 +144,7 @@ class OverTurn:
         posed = self.statement(self.first)
         reach = np.minimum(self.limits.reach, natural_reach(posed))
         of_term = np.sum(np.abs(posed.norms.influence) * reach, axis=-1)
-        change = np.bincount(self.goal_of[posed.group[posed.row]], of_term, len(self.goals))
+        change = self.of_goals(np.bincount(posed.group[posed.row], of_term, len(self.groups)).astype(float))
         return np.where(rest > 0, rest, change)
 
     @cached_property
@@ -144,7 +165,13 @@ class OverTurn:
     @cached_property
     def _exact_ceilings(self) -> Ceilings:
         """The ceilings on responses."""
-        return limited(self.ceilings, self._objective(self.first).norms, self.limits.radius.size)
+        exact = limited(self.ceilings, self._objective(self.first).norms, self.limits.radius.size)
+        norms = replace(exact.norms, scatter=self.scatter.share)
+        return replace(exact, norms=norms, cap=exact.cap - self._astray(norms))
+
+    def _astray(self, norms: Norms) -> Real:
+        """What terms grow by, whatever the counterweights."""
+        return self.scatter.unbalance * np.sum(np.abs(norms.influence), axis=-1)
 
     def alone(self, n: int) -> "OverTurn":
         """The program of one of the goals alone."""
@@ -159,15 +186,17 @@ class OverTurn:
         norms = Norms(
             np.append(exact.norms.constant, [cut.constant for _, _, cut in chosen]),
             np.concatenate([exact.norms.influence, *(cut.influence[None] for _, _, cut in chosen)]),
+            self.scatter.share,
         )
         # an excess is a share of the quantity's size, not of its cuts'
         size = dict(zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True))
         ceilings = Ceilings(
             (*exact.names, *(self.quantities[q].name for q, _, _ in chosen)),
             norms,
-            np.append(exact.cap, [cap - cut.floor for _, cap, cut in chosen]),
+            np.append(exact.cap, [cap - cut.floor for _, cap, cut in chosen] - self._astray(norms)[exact.cap.size :]),
             np.append(exact.size, [size[q, cap] for q, cap, _ in chosen]),
             angles_deg=(*(None for _ in exact.names), *(cut.angle_deg for _, _, cut in chosen)),
+            scenarios=(*(exact.scenarios or ()), *(self.quantities[q].scenario for q, _, _ in chosen)),
         )
         return replace(posed, ceilings=ceilings)
 
@@ -179,11 +208,12 @@ class OverTurn:
                 terms.add(n, row)
             for each in group.weighed:
                 for cut in cuts[each.quantity]:
-                    terms.add_cut(n, self.quantities[each.quantity].name, cut, each)
+                    terms.add_cut(n, self.quantities[each.quantity], cut, each)
         influence: Real | Complex = np.stack(terms.influence)  # type: ignore[assignment]  # real or complex
-        norms = Norms(np.array(terms.constant, dtype=complex), influence)
+        norms = Norms(np.array(terms.constant, dtype=complex), influence, self.scatter.share)
         none = limited((), norms, self.limits.radius.size)
-        owner, group_of, floor = np.array(terms.row), np.array(terms.group), np.array(terms.floor)
+        owner, group_of = np.array(terms.row), np.array(terms.group)
+        floor = np.array(terms.floor) + np.bincount(owner, self._astray(norms)).astype(float)
         return Statement(norms, owner, group_of, floor, none, self.limits, Names(tuple(terms.names), tuple(terms.rows)))
 
     def values(self, u: Complex, width: float) -> Values:
@@ -193,9 +223,10 @@ class OverTurn:
         ----------
         width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
-        about = np.array([max(each.lower, _TINY) for each in self.samples.reached(u)])
+        about = np.array([max(each.lower, _TINY) for each in self.samples.reached(u, self.scatter)])
         tolerance = np.maximum(width * self._shares / about, 1e-15)
-        return self._values(u, reached(self.quantities, u, tolerance, self.samples.cancelled), self.sizes)
+        found = reached(self.quantities, u, tolerance, self.samples.cancelled, self.scatter)
+        return self._values(u, found, self.sizes)
 
     @cached_property
     def _shares(self) -> Real:
@@ -211,19 +242,21 @@ class OverTurn:
 
     def sampled(self, u: Complex) -> Values:
         """What an unbalance comes to at the samples, which is less."""
-        return self._values(u, self.samples.reached(u), self.sizes)
+        return self._values(u, self.samples.reached(u, self.scatter), self.sizes)
 
     def _values(self, u: Complex, found: tuple[Reached, ...], sizes: Real) -> Values:
         largest = [
             max(
-                [_sum(row, u) for row in group.rows]
+                [_sum(row, u, self.scatter) for row in group.rows]
                 + [each.offset + each.weight * found[each.quantity].upper for each in group.weighed]
             )
             for group in self.groups
         ]
-        over = [float(response.to(u).peak) - cap for response, cap in self.ceilings]
+        over = [
+            float(response.to(u).peak) + self.scatter.of(response.influence, u) - cap for response, cap in self.ceilings
+        ]
         over += [found[q].upper - cap for q, cap in self.limited]
-        return Values(np.bincount(self.goal_of, largest).astype(float), np.array(over) / sizes, found)
+        return Values(self.of_goals(np.array(largest)), np.array(over) / sizes, found)
 
     def excess_scales(self, cuts: Sequence[int]) -> Real:
         """What the rows of the program of the smallest excess are divided by, with so many cuts of every quantity."""
@@ -236,7 +269,7 @@ class OverTurn:
         for (response, cap), size in zip(self.ceilings, self.sizes.tolist(), strict=False):
             norms = Norms(response.baseline.co[..., None] / size, response.influence[..., None, :] / size)
             floor = np.asarray((np.abs(response.baseline.counter) - cap) / size)
-            rows.append(Row(response.name, (WeightedPeak(response.name, floor, norms),)))
+            rows.append(Row(response.name, (WeightedPeak(response.name, floor, norms, response.scenario),)))
         sizes = self.sizes[len(self.ceilings) :].tolist()
         weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
         goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),), 1.0)
@@ -261,16 +294,18 @@ class _Terms:
             self.constant += peak.norms.constant.tolist()
             self.influence += list(peak.norms.influence)
             self.row += [len(self.rows)] * count
-            self.names += [Term(peak.name, part) for part in PARTS[:count]]
+            self.names += [Term(peak.name, part, None, peak.scenario) for part in PARTS[:count]]
         self._end(group, row.name, float(sum(peak.floor for peak in row.peaks)))
 
-    def add_cut(self, group: int, name: str, cut: Cut, weighed: Weighed) -> None:
+    def add_cut(self, group: int, quantity: Quantity, cut: Cut, weighed: Weighed) -> None:
+        name = quantity.name
         self.constant.append(weighed.weight * cut.constant)
         self.influence.append(weighed.weight * cut.influence)
         self.row.append(len(self.rows))
-        self.names.append(Term(name, "co", cut.angle_deg))
+        self.names.append(Term(name, "co", cut.angle_deg, quantity.scenario))
         # of a root mean square the cuts have no angle
         called = f"{name} {len(self.rows)}" if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
+        called = called if quantity.scenario is None else f"{called} in {quantity.scenario}"
         self._end(group, called, weighed.offset + weighed.weight * cut.floor)
 
     def _end(self, group: int, name: str, floor: float) -> None:
@@ -279,5 +314,7 @@ class _Terms:
         self.rows.append(name)
 
 
-def _sum(row: Row, u: Complex) -> float:
-    return float(sum(peak.floor + np.sum(np.abs(peak.norms.at(u))) for peak in row.peaks))
+def _sum(row: Row, u: Complex, scatter: Scatter) -> float:
+    return float(
+        sum(peak.floor + np.sum(np.abs(peak.norms.at(u))) + scatter.of(peak.norms.influence, u) for peak in row.peaks)
+    )

@@ -99,6 +99,9 @@ def bounded(statement: Statement, level: float) -> Statement:
 def _mass(statement: Statement, far: np.ndarray, level: float) -> float:
     """Mass with which the far webs carry whatever they carry in the lightest optimum, kg."""
     limits = statement.limits.only(far)
+    scattered = _scattered(statement, far, level)
+    if scattered is not None:
+        return scattered
     rows, most = _responses(statement, far, level)
     if not np.any(most):
         return 0.0
@@ -106,6 +109,27 @@ def _mass(statement: Statement, far: np.ndarray, level: float) -> float:
     plain = np.all(limits.free) and len(most) <= 2
     mass = _MARGIN * (_in_planes(influence, most) if plain else _in_sectors(influence, limits, most))
     return mass if np.isfinite(mass) else LARGEST
+
+
+def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | None:
+    """The same where counterweights scatter by a share of themselves, None where they do not.
+
+    Then a row, and a limited response, grows with the mass of every web that it feels, whichever way it points; a web
+    that none feels is of no use.
+    """
+    norms, ceilings = statement.norms, statement.ceilings
+    if not norms.scatter and not ceilings.norms.scatter:
+        return None
+    highest = statement.largest(statement.floor)
+    others = np.sum(highest) - highest
+    left = level - (statement.floor + others[statement.group])
+    each = norms.scatter * (statement.membership @ np.abs(norms.influence))[:, far]
+    each = np.concatenate([each, ceilings.norms.scatter * np.abs(ceilings.norms.influence)[:, far]])
+    left = np.maximum(np.concatenate([left, ceilings.cap + CEILING_TOLERANCE * ceilings.size]), 0.0)
+    most = np.where(each > 0, left[:, None] / np.where(each > 0, each, 1.0), np.inf) / statement.limits.radius[far]
+    of_webs = np.min(most, axis=0)
+    mass = _MARGIN * float(np.max(of_webs[np.isfinite(of_webs)], initial=0.0))
+    return min(mass, LARGEST)
 
 
 def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real]:

@@ -141,6 +141,8 @@ def scale(
         mass=reach / limits.radius / mass_unit,
         budget=reach / limits.radius / limits.max_total_mass if budget else np.zeros_like(reach),
         target=np.array([(target - np.sum(highest)) / unit]),
+        spread=norms.scatter * np.abs(norms.influence) / unit * reach,
+        ceiling_spread=ceilings.norms.scatter * np.abs(ceilings.norms.influence) / ceilings.size[:, None] * reach,
     )
     return data, Scaling(unit, reach, unit if stage == "objective" else mass_unit)
 

@@ -27,14 +27,22 @@ PARTS: tuple[Part, ...] = ("co", "counter")
 
 @dataclass(frozen=True)
 class Norms:
-    """Terms |c_j + H_j u|."""
+    """Terms |c_j + H_j u|; where counterweights scatter, each the largest of all that they may come to."""
 
     constant: Complex  # (..., J)
     influence: Real | Complex  # (..., J, K)
+    scatter: float = 0.0  # share of its unbalance that every counterweight may be off by, in any direction
 
     def at(self, u: Complex) -> Complex:
         """Vectors c_j + H_j u, (..., J)."""
         return self.constant + np.sum(self.influence * u[..., None, :], axis=-1)
+
+    def sizes(self, u: Complex) -> Real:
+        """Sizes of the terms (..., J), all counterweights off in the direction in which the term grows."""
+        sizes = np.abs(self.at(u))
+        if not self.scatter:
+            return sizes
+        return sizes + self.scatter * np.sum(np.abs(self.influence) * np.abs(u)[..., None, :], axis=-1)
 
     @property
     def largest_influence(self) -> Real:
@@ -44,7 +52,7 @@ class Norms:
 
     def only(self, webs: np.ndarray) -> "Norms":
         # in the usual order in memory, in which sums are the same to the last bit
-        return Norms(self.constant, self.influence[..., webs].copy())
+        return replace(self, influence=self.influence[..., webs].copy())
 
 
 @dataclass(frozen=True)
@@ -57,6 +65,7 @@ class WeightedPeak:
     name: str  # of the response
     floor: Real  # (...)
     norms: Norms
+    scenario: str | None = None  # whose response it is
 
 
 @dataclass(frozen=True)
@@ -69,10 +78,11 @@ class Ceilings:
     size: Real  # (..., I) > 0, what an excess is measured by
     tolerance: float = CEILING_TOLERANCE  # up to which they count as kept, as a share of the size
     angles_deg: tuple[float | None, ...] | None = None  # (I,) at which a response is limited; None is over the turn
+    scenarios: tuple[str | None, ...] | None = None  # (I,) whose response is limited; None is the machine as given
 
     def excess(self, u: Complex) -> Real:
         """How far each response is above its ceiling, relative to its size; <= 0 if met."""
-        return (np.abs(self.norms.at(u)) - self.cap) / self.size
+        return (self.norms.sizes(u) - self.cap) / self.size
 
     def raised(self, share: float) -> "Ceilings":
         """Every ceiling higher by a share of its size, which is taken from the tolerance."""
@@ -88,6 +98,7 @@ class Term(NamedTuple):
     response: str
     part: Part
     angle_deg: float | None = None  # of the shaft, where it is the response at one angle
+    scenario: str | None = None  # whose response it is; None is the machine as it is given
 
 
 class Names(NamedTuple):
@@ -116,7 +127,7 @@ class Statement:
 
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
-        rows = self.rows(np.abs(self.norms.at(u)))
+        rows = self.rows(self.norms.sizes(u))
         # one group is what is asked most, and a point is evaluated twenty times for an answer
         return np.max(rows, axis=-1) if self.group[-1] == 0 else np.sum(self.largest(rows), axis=-1)
 
@@ -151,6 +162,7 @@ class Statement:
     def rounding(self, u: Complex) -> Real:
         """What the objective may change by where masses and angles are rounded (...)."""
         size = np.sum(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
+        size = (1.0 + self.norms.scatter) * size
         return _ROUNDING * (size + np.sum(np.abs(self.norms.constant), axis=-1))
 
     def mass(self, u: Complex) -> Real:
@@ -160,7 +172,7 @@ class Statement:
     def excess(self) -> "Statement":
         """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
         size, constant = self.ceilings.size, self.ceilings.norms.constant
-        norms = Norms(constant / size, self.ceilings.norms.influence / size[..., None])
+        norms = Norms(constant / size, self.ceilings.norms.influence / size[..., None], self.ceilings.norms.scatter)
         none = Ceilings((), Norms(constant[..., :0], norms.influence[..., :0, :]), size[..., :0], size[..., :0])
         called = self.ceilings.names
         names = Names(tuple(Term(name, "co") for name in called), called)
@@ -209,11 +221,11 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     if not np.any(q):
         alone = total((p * f)[..., None, None])
         norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
-        return WeightedPeak(response.name, p * np.abs(b), norms)
+        return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
     terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)
     constant = total(np.stack(terms, axis=-1).reshape(*terms[0].shape, 2, 2))
     influence = np.stack([p, q], axis=-1)[..., None] * response.influence[..., None, :]
-    return WeightedPeak(response.name, np.zeros_like(p), Norms(constant, influence))
+    return WeightedPeak(response.name, np.zeros_like(p), Norms(constant, influence), response.scenario)
 
 
 class Row(NamedTuple):
@@ -273,7 +285,8 @@ def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: 
     # where both vanish: what the unbalance that the objective calls for does to the response
     called_for = np.max(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
     size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
-    return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, np.where(size > SMALLEST, size, 1.0))
+    size, scenarios = np.where(size > SMALLEST, size, 1.0), tuple(response.scenario for response, _ in ceilings)
+    return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, size, scenarios=scenarios)
 
 
 def _join(norms: Sequence[Norms]) -> Norms:

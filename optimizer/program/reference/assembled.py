@@ -189,6 +189,7 @@ def solved(
     time_limit_s: float,
     weighed: np.ndarray | None = None,
     targets: Sequence[Target] = (),
+    sums: Sequence[Target] = (),
 ) -> Assembled | NoPoint:
     """Solve a scaled program of any groups, with its multipliers in the form of :class:`ConeProgram`.
 
@@ -199,6 +200,8 @@ def solved(
     data : stage "objective" minimises levels, stage "mass" the mass.
     weighed : (groups,) bool, those whose levels are minimised in stage "objective"; all by default.
     targets : what other groups may come to.
+    sums : sums of groups, the largest of which is minimised where there are several: the most that each may come to
+        is above its own by the same.
     """
     shape = data.shape
     webs, groups = shape.webs, shape.groups[-1] + 1
@@ -206,14 +209,15 @@ def solved(
     alone = (np.bincount(row, minlength=group.size) == 1)[row]
     together = np.flatnonzero(~alone)
     norms, levels = 3 * webs, 3 * webs + together.size
-    program = Assembly(levels + groups)
+    most_of_sums = levels + groups
+    program = Assembly(most_of_sums + (len(sums) > 1))
     # all rows of one term: |a_j| <= level_g - floor_r
     single, both = np.flatnonzero(alone), np.concatenate([alone, alone])
     above = np.zeros((single.size, groups))
     above[np.arange(single.size), group[row[single]]] = 1.0
     direct = program.cones(
         -data.floor[row[single]],
-        (dense(levels, above),),
+        (dense(levels, above), dense(2 * webs, -data.spread[single])),
         data.constant[:, alone].ravel(),
         (dense(0, data.matrix[both]),),
     )
@@ -222,25 +226,34 @@ def solved(
     membership = (row[together][None, :] == summed[:, None]).astype(float)
     above = np.zeros((summed.size, groups))
     above[np.arange(summed.size), group[summed]] = 1.0
-    rows = program.nonnegative(-data.floor[summed], dense(norms, -membership), dense(levels, above))
+    rows = program.nonnegative(
+        -data.floor[summed],
+        dense(norms, -membership),
+        dense(levels, above),
+        dense(2 * webs, -membership @ data.spread[together]),
+    )
     cones = program.cones(
         np.zeros(together.size),
         (diagonal(norms, np.ones(together.size)),),
         data.constant[:, ~alone].ravel(),
         (dense(0, data.matrix[~both]),),
     )
-    caps = program.cones(data.ceiling_cap, (), data.ceiling_constant.ravel(), (dense(0, data.ceiling_matrix),))
+    off = (dense(2 * webs, -data.ceiling_spread),)
+    caps = program.cones(data.ceiling_cap, off, data.ceiling_constant.ravel(), (dense(0, data.ceiling_matrix),))
     add_limits(program, data)
     add_discs(program, data)
     if targets:
         most = np.array([target.most for target in targets])
-        sums = np.stack([target.groups for target in targets]).astype(float)
-        charged = program.nonnegative(most, dense(levels, -sums))
+        charged = program.nonnegative(most, dense(levels, -_membership(targets)))
     cost = np.zeros(program.columns)
     if shape.stage == "mass":
         cost[2 * webs : 3 * webs] = data.mass
     else:
-        cost[levels:] = 1.0 if weighed is None else weighed.astype(float)
+        cost[levels:most_of_sums] = 1.0 if weighed is None else weighed.astype(float)
+    if len(sums) > 1 and shape.stage == "objective":
+        cost[levels:most_of_sums], cost[most_of_sums] = 0.0, 1.0
+        most = np.array([each.most for each in sums])
+        program.nonnegative(most, dense(levels, -_membership(sums)), dense(most_of_sums, np.ones((len(sums), 1))))
     found = program.solve(cost, tolerance, time_limit_s)
     if isinstance(found, NoPoint):
         return found
@@ -249,4 +262,9 @@ def solved(
     row_multiplier[row[single]], row_multiplier[summed] = dual[direct][::_PLANE], dual[rows]
     term[single], term[together] = vector_duals(dual[direct]), vector_duals(dual[cones])
     solution = ScaledSolution(v[:webs], v[webs : 2 * webs], row_multiplier, term, vector_duals(dual[caps]), "assembled")
-    return Assembled(solution, v[levels:], dual[charged] if targets else np.zeros(0))
+    return Assembled(solution, v[levels:most_of_sums], dual[charged] if targets else np.zeros(0))
+
+
+def _membership(sums: Sequence[Target]) -> Real:
+    """(sums, groups) 1 where a group belongs to a sum."""
+    return np.stack([each.groups for each in sums]).astype(float)

@@ -61,6 +61,9 @@ class ScaledData:
     mass: Real  # (K,) mass at full reach
     budget: Real  # (K,) the same relative to the budget
     target: Real  # (1,)
+    #: what terms (J, K) and ceilings (I, K) grow by where a web is at full reach; without a modelling layer alone
+    spread: Real
+    ceiling_spread: Real
 
 
 class ScaledSolution(NamedTuple):

@@ -1,0 +1,166 @@
+"""Programs of several cases, and of counterweights that scatter: what they reach and what they prove."""
+
+from dataclasses import replace
+
+import cvxpy as cp
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optimizer.arrays import Complex
+from optimizer.program.cut import Scatter
+from optimizer.program.cuts import Found, Unkept, over_turn
+from optimizer.program.limits import Limits
+from optimizer.program.misplaced import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
+from optimizer.program.over_turn import Goal, Group, OverTurn
+from optimizer.program.statement import Row, weighted_peak
+from optimizer.response import Phasors, Response
+from tests.program.cases import random_limits, random_point
+from tests.program.turning import bearings, wide
+
+
+def responses(rng: np.random.Generator, webs: int, scenario: str | None) -> list[Response]:
+    """A force and a moment."""
+    found = []
+    for name, influence in (("force", np.ones(webs)), ("moment", rng.uniform(-1, 1, webs))):
+        co, counter = rng.normal(size=(2, 2)) @ [1, 1j]
+        pair = Phasors(np.asarray(co), np.asarray(counter))
+        found.append(Response(name, "N", pair, influence, scenario=scenario))
+    return found
+
+
+def several(seed: int, cases: int = 3, webs: int = 4, limits: Limits | None = None) -> OverTurn:
+    """The largest, over some cases, of the peak force plus the peak moment, each a group by itself."""
+    rng = np.random.default_rng(seed)
+    every = [responses(rng, webs, str(case)) for case in range(cases)]
+    groups = tuple(Group(rows=(Row(one.name, (weighted_peak(one, 1.0),)),)) for case in every for one in case)
+    goal = Goal("all", groups, cases=tuple(n for n, case in enumerate(every) for _ in case))
+    return OverTurn((), (goal,), (), (), random_limits(rng, webs, bool(seed % 2), False) if limits is None else limits)
+
+
+def best(program: OverTurn, least_mass: bool = False, gap: float = 1e-6) -> Found:
+    found = over_turn(program, gap, least_mass, ())
+    assert isinstance(found, Found)
+    return found
+
+
+def modelled(program: OverTurn) -> float:
+    """Independent: the same program in the modelling layer, with the scatter as a term of its own."""
+    limits, scatter = program.limits, program.scatter
+    webs = limits.radius.size
+    u = cp.Variable(webs, complex=True)
+    sums: dict[int, list[cp.Expression]] = {}
+    for group, case in zip(program.groups, program.case_of.tolist(), strict=True):
+        rows = []
+        for row in group.rows:
+            total = 0.0
+            for peak in row.peaks:
+                off = np.abs(peak.norms.influence[0])
+                total = total + peak.floor + cp.abs(peak.norms.constant[0] + peak.norms.influence[0] @ u)
+                total = total + scatter.share * off @ cp.abs(u) + scatter.unbalance * np.sum(off)
+            rows.append(total)
+        sums.setdefault(case, []).append(cp.maximum(*rows, rows[0]))
+    turned = cp.multiply(np.conj(limits.centre), u)
+    across = cp.multiply(limits.half_angle_cos, cp.abs(cp.imag(turned)))
+    within = across - cp.multiply(limits.half_angle_sin, cp.real(turned)) <= np.where(limits.free, 1e3, 0.0)
+    rules = [cp.abs(u) / limits.radius <= limits.max_mass, within]
+    goal = cp.max(cp.hstack([cp.sum(cp.hstack(each)) for each in sums.values()]))
+    return float(cp.Problem(cp.Minimize(goal), rules).solve(solver=cp.CLARABEL))
+
+
+@pytest.mark.parametrize("share", [0.0, 0.05])
+@pytest.mark.parametrize("seed", range(4))
+def test_the_largest_of_sums_is_what_the_modelling_layer_finds(seed: int, share: float) -> None:
+    program = replace(several(seed), scatter=Scatter(share, 0.02 if share else 0.0))
+    found, rest = best(program), float(program.yardsticks[0])
+    assert found.proof.bound == pytest.approx(modelled(program), abs=1e-6 * rest)
+    assert found.goals[-1].value - found.proof.bound <= 1e-6 * rest
+
+
+@settings(max_examples=15)
+@given(seed=st.integers(0, 10**6), share=st.sampled_from([0.0, 1e-6, 0.03, 3.0]), turn=st.booleans())
+def test_no_point_is_below_the_bound_whatever_errors_it_suffers(seed: int, share: float, turn: bool) -> None:
+    """What is proven of the worst case holds for the worst case of every point, and of no point is more found."""
+    rng = np.random.default_rng(seed)
+    program = bearings(seed, count=3, webs=3, measure="rms" if seed % 3 == 0 else "peak") if turn else several(seed)
+    program = replace(program, scatter=Scatter(share, 0.01))
+    found = best(program, least_mass=True, gap=1e-4)
+    exact = replace(program, scatter=Scatter())
+    assert found.proof.bound <= found.point.values.goals[-1] * (1 + 1e-12)
+    for _ in range(4):
+        u = random_point(rng, program.limits)
+        worst = float(program.values(u, 1e-9).goals[0])
+        assert found.proof.bound <= worst * (1 + 1e-12)
+        off = _errors(rng, u, program.scatter)
+        assert float(exact.values(u + off, 1e-9).goals[0]) <= worst * (1 + 1e-9)
+
+
+def _errors(rng: np.random.Generator, u: Complex, scatter: Scatter) -> Complex:
+    """Errors of the largest size that is allowed, in any direction."""
+    turns = np.exp(1j * rng.uniform(0, 2 * np.pi, (2, u.size)))
+    return scatter.share * np.abs(u) * turns[0] + scatter.unbalance * turns[1]
+
+
+def test_one_norm_comes_to_what_is_said_at_worst() -> None:
+    """Analytic: |1 + u|, u between -1.2 and 0, costs |u|/10 more: u = -1 and 0.1 remain, where nominally nothing does."""
+    response = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1))
+    program = OverTurn(
+        (), (Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),)),), (), (), wide(1)
+    )
+    for share, at, value in ((0.0, -1.0, 0.0), (0.1, -1.0, 0.1), (0.99, -1.0, 0.99), (1.5, 0.0, 1.0)):
+        found = best(replace(program, scatter=Scatter(share)))
+        assert found.goals[-1].value == pytest.approx(value, abs=1e-6)
+        assert found.point.unbalance[0] == pytest.approx(at, abs=2e-6)
+
+
+@pytest.mark.parametrize("share", [1e-9, 0.035])
+def test_webs_without_limit_have_a_reach_within_which_the_worst_case_is_as_good(share: float) -> None:
+    """Metamorphic: without a limit nothing is better than with one of ten times the mass that is needed."""
+    near = replace(several(3, limits=wide(4, 60.0)), scatter=Scatter(share))
+    far = replace(near, limits=replace(near.limits, max_mass=np.full(4, np.inf)))
+    first, second = best(near), best(far)
+    rest = float(near.yardsticks[0])
+    assert np.all(np.isfinite(second.limits.max_mass))
+    assert second.goals[-1].value == pytest.approx(first.goals[-1].value, abs=1e-6 * rest)
+    if share > 1e-3:
+        assert second.goals[-1].value - second.proof.bound <= 1e-6 * rest
+
+
+def test_ceilings_hold_in_the_worst_case() -> None:
+    """Analytic: |1 + u| + |u|/10 <= 0.3 is kept from u = -7/9 on; at most 0.09 cannot be."""
+    response = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1), scenario="hot")
+    goal = Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),))
+    kept = OverTurn((), (goal,), ((response, 0.3),), (), wide(1), Scatter(0.1))
+    free = replace(response, baseline=Phasors(np.asarray(0j), np.asarray(2.0 + 0j)))
+    still = Goal("all", (Group(rows=(Row("force", (weighted_peak(replace(free, influence=np.zeros(1)), 1.0),)),)),))
+    found = best(replace(kept, goals=(still,)), least_mass=True)
+    assert found.point.unbalance[0] == pytest.approx(-7 / 9, abs=1e-6)
+    assert found.mass_proof is not None
+    assert found.mass_proof.bound == pytest.approx(7 / 9 / 0.2, rel=1e-5)
+    unkept = over_turn(replace(kept, ceilings=((response, 0.09),)), 1e-6, True, ())
+    assert isinstance(unkept, Unkept)
+    assert unkept.proof.statement.names.terms[0].scenario == "hot"
+
+
+@pytest.mark.parametrize("webs", [0, 1, 3, 8])
+def test_the_worst_of_all_counterweights_off_together(webs: int) -> None:
+    """Independent: every corner of the errors of mass; of the angle a fine search over the direction."""
+    rng = np.random.default_rng(webs)
+    norms = Norms(rng.normal(size=(3, 2)) @ [1, 1j], rng.normal(size=(3, webs)))
+    u = rng.normal(size=(webs, 2)) @ [1, 1j]
+    signs = np.array(np.meshgrid(*[[-1.0, 1.0]] * webs)).reshape(webs, -1).T if webs else np.zeros((1, 0))
+    worst = np.max([np.abs(norms.at(u * (1 + 0.3 * each))) for each in signs], axis=0)
+    assert worst_by_mass(norms, u, 0.3) == pytest.approx(worst, rel=1e-12)
+    corners = mass_corners(norms.influence * u)
+    assert np.max(np.abs(norms.at(u)[:, None] + 0.3 * corners), axis=-1) == pytest.approx(worst, rel=1e-12)
+    for angle in np.deg2rad([1.0, 25.0]):
+        towards = np.linspace(-np.pi, np.pi, 20001)
+        vectors = norms.influence * u
+        off = np.mod(towards[:, None, None] - np.angle(vectors) + np.pi, 2 * np.pi) - np.pi
+        reached = (np.exp(-1j * towards)[:, None] * norms.constant).real
+        reached = reached + np.sum(np.abs(vectors) * np.cos(np.maximum(np.abs(off) - angle, 0.0)), axis=-1)
+        assert worst_by_angle(norms, u, angle) == pytest.approx(np.max(reached, axis=0), rel=1e-6)
+        outline = np.abs(norms.at(u)[:, None] + angle_corners(vectors, angle)) if webs else np.zeros((3, 1))
+        about = np.max(outline, axis=-1)
+        assert np.all((about >= worst_by_angle(norms, u, angle) * (1 - 1e-12)) | (webs == 0))
