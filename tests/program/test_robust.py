@@ -103,7 +103,7 @@ def _errors(rng: np.random.Generator, u: Complex, scatter: Scatter) -> Complex:
 
 
 def test_one_norm_comes_to_what_is_said_at_worst() -> None:
-    """Analytic: |1 + u|, u between -1.2 and 0, costs |u|/10 more: u = -1 and 0.1 remain, where nominally nothing does."""
+    """Analytic: |1 + u| + share |u| is least at u = -1, where the share remains, or at rest if that is above 1."""
     response = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1))
     program = OverTurn(
         (), (Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),)),), (), (), wide(1)
