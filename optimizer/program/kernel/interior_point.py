@@ -13,9 +13,9 @@ analytic centre of {P <= target} is on the path of the first stage, with multipl
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from optimizer.arrays import Real
+from optimizer.program.kernel.compiling import kernel
 from optimizer.program.kernel.lanes import Lanes, new_work, state_size, views
 from optimizer.program.kernel.newton import (
     direction,
@@ -66,19 +66,19 @@ class Task(NamedTuple):
     reached: Real  # (N,) its gap and residual
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _to_lane(row, packed, t):  # type: ignore[no-untyped-def]
     for i in range(row.size):
         packed[i, t] = row[i]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _from_lane(packed, t, row):  # type: ignore[no-untyped-def]
     for i in range(row.size):
         row[i] = packed[i, t]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
     """Program n into lane t."""
     cones, webs = programs.influence.shape[1:]
@@ -103,7 +103,7 @@ def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
         one.mass[at], one.budget[at] = task.cost[n, k], programs.budget[n, k]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def start(one, state, t):  # type: ignore[no-untyped-def]
     """Lane t to a point inside all limits, and above all norms; ceilings may be violated."""
     rows, lanes = one.floor.shape
@@ -145,7 +145,7 @@ def start(one, state, t):  # type: ignore[no-untyped-def]
         state.rho[r, t] = state.rest[2, t] - state.rho[r, t]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def restart(one, state, t):  # type: ignore[no-untyped-def]
     """Lane t from a point of the first stage to the second: every multiplier at the price of the objective."""
     s, z = state.s, state.z
@@ -163,7 +163,7 @@ def restart(one, state, t):  # type: ignore[no-untyped-def]
     state.rest[1, t] *= price
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
     """A stage of every program: steps until the gap is at most the tolerance, or no longer falls."""
     number, cones, webs = programs.influence.shape
@@ -278,7 +278,7 @@ def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
         take_step(one, state, work)
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
     """Both stages of N programs.
 
@@ -335,7 +335,7 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
     return v, p, prices, mass_unit
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
     """The unit of mass and the largest value of the second stage, from what the first one found."""
     number, cones, webs = programs.influence.shape
@@ -359,7 +359,7 @@ def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
         task.target[n] = target + share[n] * (1.0 - _KEPT_BACK) - _OPEN * task.reached[n]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def _keep(task, v, p, price):  # type: ignore[no-untyped-def]
     number, cones = p.shape[:2]
     webs, rows = v.shape[2], price.shape[1]

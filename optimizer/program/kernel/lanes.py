@@ -8,9 +8,9 @@ of the peaks (J terms, then ceilings), C = K + Q, R rows, n unknowns that are fa
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 
 from optimizer.arrays import Real
+from optimizer.program.kernel.compiling import kernel
 
 
 class Lanes(NamedTuple):
@@ -87,7 +87,7 @@ class Work(NamedTuple):
     always: Real  # (L,) 1: limits that are there without any web
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def new_work(webs, cones, terms, rows, lanes):  # type: ignore[no-untyped-def]
     kl, ql, cl = webs * lanes, cones * lanes, (webs + cones) * lanes
     # unknowns: (y_x, y_y) of terms, rows, (mu, y_x, y_y) of ceilings, budget
@@ -138,12 +138,12 @@ def new_work(webs, cones, terms, rows, lanes):  # type: ignore[no-untyped-def]
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def state_size(webs, cones, rows):  # type: ignore[no-untyped-def]
     return 15 * webs + 6 * cones + 2 * rows + 3
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
     """A packed state (S, L) as its parts."""
     lanes, every = packed.shape[1], webs + cones
@@ -161,7 +161,7 @@ def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
     )
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def spread(values, every):  # type: ignore[no-untyped-def]
     """The same values (L,) for every web or cone."""
     lanes = values.size
@@ -170,7 +170,7 @@ def spread(values, every):  # type: ignore[no-untyped-def]
             every[k * lanes + t] = values[t]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def add_products(one, other, total):  # type: ignore[no-untyped-def]
     lanes = total.size
     for k in range(one.size // lanes):
@@ -178,7 +178,7 @@ def add_products(one, other, total):  # type: ignore[no-untyped-def]
             total[t] += one[k * lanes + t] * other[k * lanes + t]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def raise_to_size(values, largest):  # type: ignore[no-untyped-def]
     lanes = largest.size
     for k in range(values.size // lanes):
@@ -186,7 +186,7 @@ def raise_to_size(values, largest):  # type: ignore[no-untyped-def]
             largest[t] = max(largest[t], abs(values[k * lanes + t]))
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def lower(values, lowest):  # type: ignore[no-untyped-def]
     lanes = lowest.size
     for k in range(values.size // lanes):
@@ -194,13 +194,13 @@ def lower(values, lowest):  # type: ignore[no-untyped-def]
             lowest[t] = min(lowest[t], values[k * lanes + t])
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def move(step, change, value):  # type: ignore[no-untyped-def]
     for k in range(value.size):
         value[k] += step[k] * change[k]
 
 
-@njit(cache=True, error_model="numpy")
+@kernel
 def product(wanted, one, other, found):  # type: ignore[no-untyped-def]
     for k in range(found.size):
         found[k] = wanted[k] * one[k] * other[k]
