@@ -11,7 +11,7 @@ from optimizer.figures.counterweights import counterweights, masses_and_angles, 
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_excess, physical
-from optimizer.formulate import RESPONSES, ceilings
+from optimizer.formulate import RESPONSES, given_ceilings
 from optimizer.goals import Goals, goals
 from optimizer.limits import TOUCHED
 from optimizer.mechanics.whole_turn import WholeTurn
@@ -193,7 +193,11 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     machine, square = request.machine, scene.omega_squared
     alone = replace(asked.program, ceilings=(), limited=())
-    groups = {each.name: Group(rows=(Row(each.name, (weighted_peak(each, 1.0),)),)) for each in scene.responses}
+    components = [each for each, _ in asked.program.ceilings if each.name not in RESPONSES]
+    groups = {
+        each.name: Group(rows=(Row(each.name, (weighted_peak(each, 1.0),)),))
+        for each in (*scene.responses, *components)
+    }
     # of quantities those that the conflict is about
     scales = asked.program.excess_scales(found.proof.cuts)
     at_fault = _at_fault(found)
@@ -207,20 +211,24 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
         least = {name: _least(alone, group) for name, group in groups.items()}
     value = {name: each.goals[0].value * square for name, each in least.items()}
     bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
+    given = given_ceilings(request.objective)
+    of_components = [each.name for each in components]
     peaks = tuple(
         SmallestPeak(
             response=name,
-            ceiling_field=each.field,
-            ceiling=each.ceiling,
+            ceiling_field=field,
+            ceiling=ceiling,
             smallest=value[name],
             lower_bound=bound[name],
+            multipliers=_proof(least[name], square),
         )
-        for each in limited
-        for name in [alone.quantities[each.quantity].name]
+        for name, field, ceiling in (
+            *((each.name, each.field, allowed) for each, allowed in given if each.name in of_components),
+            *((alone.quantities[each.quantity].name, each.field, each.ceiling) for each in limited),
+        )
     )
-    allowed = ceilings(request.objective)
-    exact = {each.name: each.ceiling_field for each in RESPONSES.values() if each.name in allowed}
-    impossible = [field for name, field in exact.items() if bound[name] > allowed[name]]
+    exact = {ceiling.name: ceiling.field for ceiling, _ in given}
+    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
     impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
     together = [field for name, field in exact.items() if name in at_fault] + [each.field for each in limited]
     mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)

@@ -4,8 +4,9 @@ The only place that translates the fields of the contract that name responses; e
 Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -32,6 +33,30 @@ def span(machine: Machine) -> Reals:
     return np.where(length <= SMALLEST, 1.0, length)[()]
 
 
+Axis = Literal["x", "y"]
+
+
+@dataclass(frozen=True)
+class Ceiling:
+    """A hard limit on a peak."""
+
+    name: str  # of the response that it limits
+    unit: str  # of the response
+    allowed: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
+    field: CeilingField  # of the request
+    limit: MachineLimit  # what it is called where it is touched
+    axis: Axis | None = None  # of the component that it limits; None is the whole vector
+
+
+class Component(NamedTuple):
+    """A component of a response that an objective can limit."""
+
+    axis: Axis
+    ceiling: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
+    ceiling_field: CeilingField  # of the request
+    limit: MachineLimit  # what a touched ceiling is called
+
+
 @dataclass(frozen=True)
 class Weighable:
     """A response that an objective can weigh and limit."""
@@ -43,6 +68,14 @@ class Weighable:
     ceiling: Callable[[Objective], float | None]  # [unit of the response]; a number or a column
     ceiling_field: CeilingField  # of the request
     limit: MachineLimit  # what a touched ceiling is called
+    components: tuple[Component, ...] = ()  # that have ceilings of their own
+
+    @property
+    def limits(self) -> Iterator[Ceiling]:
+        """Its ceilings, that of the whole vector first."""
+        yield Ceiling(self.name, self.unit, self.ceiling, self.ceiling_field, self.limit)
+        for axis, ceiling, field, limit in self.components:
+            yield Ceiling(f"{self.name}:{axis}", self.unit, ceiling, field, limit, axis)
 
 
 FORCE = Weighable(
@@ -53,6 +86,10 @@ FORCE = Weighable(
     ceiling=lambda objective: objective.force_ceiling_N,
     ceiling_field="force_ceiling_N",
     limit="force_ceiling",
+    components=(
+        Component("x", lambda objective: objective.force_ceiling_x_N, "force_ceiling_x_N", "force_ceiling_x"),
+        Component("y", lambda objective: objective.force_ceiling_y_N, "force_ceiling_y_N", "force_ceiling_y"),
+    ),
 )
 MOMENT = Weighable(
     name="moment",
@@ -64,6 +101,10 @@ MOMENT = Weighable(
     ceiling=lambda objective: objective.moment_ceiling_Nm,
     ceiling_field="moment_ceiling_Nm",
     limit="moment_ceiling",
+    components=(
+        Component("x", lambda objective: objective.moment_ceiling_x_Nm, "moment_ceiling_x_Nm", "moment_ceiling_x"),
+        Component("y", lambda objective: objective.moment_ceiling_y_Nm, "moment_ceiling_y_Nm", "moment_ceiling_y"),
+    ),
 )
 #: what can be weighed, in the order of the answer; one more is one more entry
 RESPONSES: dict[str, Weighable] = {each.name: each for each in (FORCE, MOMENT)}
@@ -84,10 +125,27 @@ def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
     return {each.name: each.weight(machine, objective) for each in RESPONSES.values()}
 
 
+def given_ceilings(objective: Objective) -> list[tuple[Ceiling, float]]:
+    """Hard limits on the peaks that an objective gives, with the largest peaks allowed: N and N m."""
+    all_of = ((each, each.allowed(objective)) for response in RESPONSES.values() for each in response.limits)
+    return [(each, allowed) for each, allowed in all_of if allowed is not None]
+
+
 def ceilings(objective: Objective) -> Mapping[str, float]:
-    """Hard limits on the peaks, by response: N and N m."""
-    given = {each.name: each.ceiling(objective) for each in RESPONSES.values()}
-    return {name: ceiling for name, ceiling in given.items() if ceiling is not None}
+    """The same by response: the largest peaks allowed, N and N m."""
+    return {each.name: allowed for each, allowed in given_ceilings(objective)}
+
+
+def limited(responses: Sequence[Response], objective: Objective) -> list[tuple[Response, float]]:
+    """Responses, and components of them, that have a ceiling, with the largest peaks allowed: N and N m."""
+    by_name = {response.name: response for response in responses}
+    return [(_of(by_name, ceiling), allowed) for ceiling, allowed in given_ceilings(objective)]
+
+
+def _of(responses: Mapping[str, Response], ceiling: Ceiling) -> Response:
+    if ceiling.axis is None:
+        return responses[ceiling.name]
+    return responses[ceiling.name.removesuffix(f":{ceiling.axis}")].along(ceiling.axis)
 
 
 def shape_facts(machine: Machine, objective: Objective) -> tuple[np.ndarray, ...]:
@@ -106,14 +164,14 @@ def formulate(machine: Machine, objective: Objective, responses: Sequence[Respon
     """
     leading = np.shape(omega_squared)
     responses = [response.spread(leading) for response in responses]
-    wanted, allowed, across = weights(machine, objective), ceilings(objective), objective.direction_weights
+    wanted, across = weights(machine, objective), objective.direction_weights
     peaks = [
         weighted_peak(response, wanted[response.name], across.x, across.y)
         for response in responses
         if np.all(np.asarray(wanted[response.name]) > 0)
     ]
-    limited = [(response, allowed[response.name] / omega_squared) for response in responses if response.name in allowed]
-    return statement(combined(peaks, objective.combine), limited, limits(machine, leading))
+    caps = [(response, allowed / omega_squared) for response, allowed in limited(responses, objective)]
+    return statement(combined(peaks, objective.combine), caps, limits(machine, leading))
 
 
 def smallest_peak(response: Response, machine: Machine) -> Statement:

@@ -14,6 +14,7 @@ from optimizer.arrays import Real
 from optimizer.curve import TurnResponse
 from optimizer.errors import MissingInput
 from optimizer.formulate import RESPONSES, ceilings, weights
+from optimizer.formulate import limited as limited_responses
 from optimizer.limits import limits
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
@@ -81,8 +82,8 @@ def goals(request: OptimizeRequest, layout: Layout, responses: Sequence[Response
     chosen, allowances = _in_order(objective, groups)
     square = float(layout.omega**2)
     # of all orders the ceilings are among what is limited over the turn
-    allowed = ceilings(objective) if objective.orders == "first" else {}
-    exact = tuple((each, allowed[each.name] / square) for each in responses if each.name in allowed)
+    first = limited_responses(responses, objective) if objective.orders == "first" else ()
+    exact = tuple((each, allowed / square) for each, allowed in first)
     capped = tuple((each.quantity, each.ceiling / square) for each in limited)
     program = OverTurn(tuple(asked.quantities), chosen, exact, capped, limits(machine))
     return Goals(program, allowances, limited)

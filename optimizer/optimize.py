@@ -16,7 +16,7 @@ from optimizer.figures.first_order import first_order, smallest_peaks, smallest_
 from optimizer.figures.limits import shadow_prices as priced
 from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
-from optimizer.formulate import RESPONSES, ceilings, smallest_peak
+from optimizer.formulate import given_ceilings, limited, smallest_peak
 from optimizer.outputs import OUTPUTS, prepare
 from optimizer.outputs import fields as answered
 from optimizer.own_solver import own_solver
@@ -36,6 +36,7 @@ from schemas.answers import (
     MachineLimit,
     OptimizeAnswer,
     ShadowPrice,
+    SmallestPeak,
     Timing,
 )
 from schemas.base import FieldProblem
@@ -192,8 +193,10 @@ def _conflict(request: OptimizeRequest, best: Certified, most: Real, solver: Sol
 
 def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solver: Solver) -> dict[str, object]:
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
-    machine, square, allowed = request.machine, best.omega_squared, ceilings(request.objective)
-    peaks = {each.name: smallest_peak(each.spread(square.shape), machine) for each in scene.responses}
+    machine, square, given = request.machine, best.omega_squared, given_ceilings(request.objective)
+    components = {ceiling.name for ceiling, _ in given} - {each.name for each in scene.responses}
+    alone_too = [each for each, _ in limited(scene.responses, request.objective) if each.name in components]
+    peaks = {each.name: smallest_peak(each.spread(square.shape), machine) for each in (*scene.responses, *alone_too)}
     # one reach for all that is proven here
     reached = (best.program, *(within_reach(peak, solver) for peak in peaks.values()))
     most = np.max([each.limits.max_mass for each in reached], axis=0)
@@ -203,7 +206,7 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solv
         alone = optima(peak, 1e-9, False, solver)
         proofs[name] = named(peak, physical(peak, alone.multipliers, "objective", square).chosen(0))
         smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
-    impossible = [name for name in allowed if bound[name] > allowed[name]]
+    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
     closest = counterweights(machine, best.mass_kg[0], best.angle_deg[0])
     (proof,) = named_proofs(*_conflict(request, best, most, solver), square, request.objective.least_mass)
     return {
@@ -211,8 +214,20 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solv
         "total_mass_kg": None,
         "certificate": None,
         "infeasibility": Infeasibility(
-            conflict=tuple(each.ceiling_field for each in RESPONSES.values() if each.name in (impossible or allowed)),
+            conflict=tuple(impossible or (ceiling.field for ceiling, _ in given)),
             **smallest_peaks(smallest, bound),
+            smallest=tuple(
+                SmallestPeak(
+                    response=ceiling.name,
+                    ceiling_field=ceiling.field,
+                    ceiling=allowed,
+                    smallest=smallest[ceiling.name],
+                    lower_bound=bound[ceiling.name],
+                    multipliers=proofs[ceiling.name],
+                )
+                for ceiling, allowed in given
+                if ceiling.name in components
+            ),
             implied_max_mass_kg=implied_max_mass(machine, most)[0],
             closest=Closest(counterweights=closest, first_order=first_order(scene.first_order(best.unbalance[0]))),
             multipliers=InfeasibilityMultipliers(conflict=proof.conflict, **smallest_proofs(proofs)),

@@ -6,6 +6,7 @@ F(theta) = co e^{j s k theta} + counter e^{-j s k theta}, s the sense of rotatio
 """
 
 from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 
@@ -108,6 +109,15 @@ class Response:
         """
         change = np.sum(self.influence * unbalance, axis=-1)
         return Phasors(self.baseline.co + change, self.baseline.counter)
+
+    def along(self, axis: Literal["x", "y"]) -> "Response":
+        """Its component along an axis, which is the larger the longer co + e^{2j g} conj(counter): a single phasor.
+
+        Its name is that of the response with the axis behind it, force:x.
+        """
+        counter = np.conj(self.baseline.counter)
+        one = self.baseline.co + counter if axis == "x" else self.baseline.co - counter
+        return replace(self, name=f"{self.name}:{axis}", baseline=Phasors(one, np.zeros_like(one)))
 
     def over_turn(self, unbalance: Complex, turned_rad: Real) -> Complex:
         """Response with counterweights while the shaft turns (..., n).

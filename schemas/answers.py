@@ -7,7 +7,7 @@ from pydantic import Field
 from schemas.base import Answer, Model
 from schemas.caution import Caution
 from schemas.outputs import Order, OutputFields
-from schemas.proof import InfeasibilityMultipliers, Multipliers, ResponseName
+from schemas.proof import BoundMultipliers, InfeasibilityMultipliers, Multipliers, ResponseName
 from schemas.quantities import (
     Degrees,
     KilogramMetres,
@@ -24,10 +24,14 @@ WebLimit = Literal[
     "sector",
 ]
 CeilingField = Literal[
-    "force_ceiling_N", "moment_ceiling_Nm", "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm"
+    "force_ceiling_N", "force_ceiling_x_N", "force_ceiling_y_N",
+    "moment_ceiling_Nm", "moment_ceiling_x_Nm", "moment_ceiling_y_Nm",
+    "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm",
 ]  # fmt: skip
 MachineLimit = Literal[
-    "max_total_mass", "force_ceiling", "moment_ceiling", "bearing_ceiling", "specific_load_ceiling", "bending_ceiling"
+    "max_total_mass", "force_ceiling", "force_ceiling_x", "force_ceiling_y",
+    "moment_ceiling", "moment_ceiling_x", "moment_ceiling_y",
+    "bearing_ceiling", "specific_load_ceiling", "bending_ceiling",
 ]  # fmt: skip
 PriceUnit = Literal[
     "N/kg", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/deg", "N m/N", "N m/(N m)"
@@ -253,6 +257,9 @@ class SmallestPeak(Model):
     ceiling: float = Field(description="largest peak allowed, N or N m", examples=[9000.0])
     smallest: float = Field(description="smallest peak within the limits, all else left free", examples=[9120.4])
     lower_bound: float = Field(description="certified: no counterweights have a smaller one", examples=[9120.3])
+    multipliers: BoundMultipliers | None = Field(
+        None, description="the multipliers that prove the bound", examples=[{"rows": [{"name": "force:x", "value": 1}]}]
+    )
 
 
 class Infeasibility(Model):
@@ -274,7 +281,7 @@ class Infeasibility(Model):
         description="certified: no counterweights within the limits have a smaller peak moment", examples=[9747.0]
     )
     smallest: tuple[SmallestPeak, ...] = Field(
-        (), description="the same of every bearing load and bending moment that has a ceiling", examples=[[]]
+        (), description="the same of every component, bearing load and bending moment that has a ceiling", examples=[[]]
     )
     implied_max_mass_kg: dict[Name, Kilograms] = Field(
         description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"

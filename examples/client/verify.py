@@ -33,7 +33,7 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import NAMES, NOTHING, Machine, Mass, Responses, Statement
+from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Responses, Statement, phasors
 
 MASS = 1e-12  # of a limit: by which rounded masses may exceed it
 ANGLE = 1e-12  # degrees likewise
@@ -96,12 +96,12 @@ _FIGURES: dict[str, Callable[[Number, Number], Number]] = {
 
 
 def first_order(claim: str, place: Place, responses: Responses) -> Claims:
-    for name, phasors in responses.items():
+    for name, pair in responses.items():
         for figure, evaluate in _FIGURES.items():
             said = place / name / f"{figure}_{NAMES[name]}"
             if said:
-                yield near(claim, said, evaluate(*phasors))
-        axis, product = place / name / "major_axis_deg", phasors[0] * phasors[1]
+                yield near(claim, said, evaluate(*pair))
+        axis, product = place / name / "major_axis_deg", pair[0] * pair[1]
         if axis:
             # along e^{ja} both phasors point the same way: their product is along e^{2ja}
             way = direction(axis.double()) + BLUR
@@ -139,7 +139,7 @@ def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: 
     after = machine.responses(weights)
     for name, cap in statement.caps.items():
         size = statement.sizes[name]
-        excess[name] = largest(abs(after[name][0]) - cap, ZERO)
+        excess[name] = largest(abs(phasors(after, name)[0]) - cap, ZERO)
         room = size * real(CEILING) - excess[name]
         yield "ceilings", place, room if kept or room.high >= 0 else None, size
     return excess
@@ -249,7 +249,7 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
     plain = Machine(request / "machine", answer / "reference_plane_m", budget)
     exact = Machine(request / "machine", answer / "reference_plane_m", budget, exact=True)
     statement = Statement(exact, goal, {})
-    given = {f"{name}_ceiling_{NAMES[name]}": name for name in statement.caps}
+    given = {CEILINGS[name]: name for name in statement.caps}
     named = [one.text(*given) for one in said / "conflict"]
     if proofs / "conflict" and named:
         # strictly above 0: what is at most 0 proves nothing
@@ -264,6 +264,12 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
         if lowest and f"{name}_ceiling_{unit}" in named and len(named) < len(given):
             # this ceiling alone is out of reach
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
+    for one in said / "smallest":
+        name, lowest = (one / "response").text(*CEILINGS), one / "lower_bound"
+        alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
+        yield from proven("smallest", lowest, alone, one / "multipliers", implied, {}, priced)
+        if CEILINGS[name] in named and len(named) < len(given):
+            yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
     if said / "closest":
         weights, _ = yield from counterweights(plain, said / "closest" / "counterweights")
         yield from first_order("closest", said / "closest" / "first_order", plain.responses(weights))

@@ -34,7 +34,7 @@ from verify import (
     smallest,
 )
 from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Place, Unreadable, largest, read, real
-from verify_program import NAMES, Machine, Statement
+from verify_program import CEILINGS, NAMES, Machine, Statement
 
 __all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
 
@@ -153,7 +153,7 @@ def _row(request: Place, row: Place) -> Claims:
         if status != "infeasible" and weights[-1]["mass_kg"] is None:
             # a column that was not asked for
             raise NotCovered(row / f"mass_kg.{name}")
-    given = (f"{name}_ceiling_{unit}" for name, unit in NAMES.items())
+    given = [field for field in CEILINGS.values() if request / "objective" / field]
     peaks = {name: {f"peak_{unit}": (row / f"{name}_peak_{unit}").value} for name, unit in NAMES.items()}
     proofs = {**proof, **row.value, "multipliers": proof}
     found = {
@@ -162,7 +162,7 @@ def _row(request: Place, row: Place) -> Claims:
         "total_mass_kg": (row / "total_mass_kg").value,
         "residual": {"after": peaks},
         "certificate": proofs,
-        "infeasibility": {**proofs, "conflict": [field for field in given if request / "objective" / field]},
+        "infeasibility": {**proofs, "conflict": given},
     }
     yield from optimum(request, Place(found, *row.path))
 

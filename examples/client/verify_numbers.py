@@ -139,7 +139,8 @@ KNOWN = (
     " crank_radius_m crank_angle_deg rotating_mass_kg rows axis_deg offset_m reciprocating_mass_kg connecting_rod"
     " mass_kg reciprocating_share orbit_radius_m orbiting_mass_kg orbiting_position_m anti_rotation type count"
     " eccentric_mass_kg counterweight_radius_m max_mass_kg sector centre_deg half_angle_deg combine force_weight"
-    " moment_weight direction_weights x y force_ceiling_N moment_ceiling_Nm least_mass orders relative_gap "
+    " moment_weight direction_weights x y force_ceiling_N force_ceiling_x_N force_ceiling_y_N moment_ceiling_Nm"
+    " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap "
 )
 IDLE = (
     " name description length_m throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"

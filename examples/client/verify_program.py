@@ -52,6 +52,21 @@ NAMES = {"force": "N", "moment": "Nm"}
 Responses = Dict[str, Tuple[Number, Number]]
 
 
+#: ceilings by the response that they limit, a component of it as force:x
+CEILINGS = {
+    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{unit}" if axis else f"{name}_ceiling_{unit}"
+    for name, unit in NAMES.items()
+    for axis in ("", "x", "y")
+}
+
+
+def phasors(responses: Responses, name: str) -> tuple[Number, Number]:
+    """Of a response, or of a component of it, whose peak is the length of a single one: co +- conj(counter)."""
+    of, _, axis = name.partition(":")
+    co, counter = responses[of]
+    return (co, counter) if not axis else (co + counter.conjugate() * (ONE if axis == "x" else -ONE), ZERO)
+
+
 class Machine:
     """A machine in the units of the answer; its masses are exact, or known to their rounding."""
 
@@ -145,6 +160,11 @@ class Term(NamedTuple):
     start: Number
     factor: Number
 
+    @property
+    def moves(self) -> str:
+        """What counterweights add to it: force or moment."""
+        return self.response.partition(":")[0]
+
 
 class Bound(NamedTuple):
     """The rows times their multipliers are at least this; None: nothing is proven."""
@@ -162,15 +182,14 @@ class Statement:
         self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
         self.terms: dict[Key, Term] = {}
         for row, name, weight in ((r, name, weight) for r, each in rows.items() for name, weight in each.items()):
-            floor, lengths = self.peak(machine.before[name], weight)
+            floor, lengths = self.peak(phasors(machine.before, name), weight)
             self.floor[row] = self.floor[row] + floor
             self.terms.update({(name, part): Term(row, name, *length) for part, length in lengths.items()})
-        limits = {name: goal / f"{name}_ceiling_{unit}" for name, unit in NAMES.items() if capped}
+        limits = {name: goal / field for name, field in CEILINGS.items() if capped}
+        start = {name: phasors(machine.before, name) for name in CEILINGS}
         #: ceiling less the phasor against the shaft, and the size of the ceiling
-        self.caps = {n: most.number(least=0) - abs(machine.before[n][1]) for n, most in limits.items() if most}
-        self.sizes = {
-            name: self._size(largest(abs(machine.before[name][0]), abs(cap)), name) for name, cap in self.caps.items()
-        }
+        self.caps = {n: most.number(least=0) - abs(start[n][1]) for n, most in limits.items() if most}
+        self.sizes = {name: self._size(largest(abs(start[name][0]), abs(cap)), name) for name, cap in self.caps.items()}
 
     def _size(self, size: Number, name: str) -> Number:
         """What a ceiling is measured by; if nothing is there and nothing allowed, what the rows call for does to it."""
@@ -180,8 +199,8 @@ class Statement:
         most = {"force": ONE, "moment": largest(ZERO, *arms)}
         most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
         moving = [one for one in self.terms.values() if abs(one.factor).low > 0]
-        called = [abs(one.start) / (abs(one.factor) * most[one.response]) for one in moving]
-        size = most[name] * largest(ZERO, *called)
+        called = [abs(one.start) / (abs(one.factor) * most[one.moves]) for one in moving]
+        size = most[name.partition(":")[0]] * largest(ZERO, *called)
         return size if size.low > 0 else self.machine.square
 
     def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, Number]]]:
@@ -193,8 +212,11 @@ class Statement:
 
     def values(self, responses: Responses) -> dict[str, Number]:
         """Of every row."""
-        peaks = {row: [self.peak(responses[n], w) for n, w in names.items()] for row, names in self.rows.items()}
-        return {row: total(f + total(abs(v) for v, _ in v_.values()) for f, v_ in p) for row, p in peaks.items()}
+        found = dict.fromkeys(self.rows, ZERO)
+        for row, name, weight in ((r, name, weight) for r, each in self.rows.items() for name, weight in each.items()):
+            floor, lengths = self.peak(phasors(responses, name), weight)
+            found[row] = found[row] + floor + total(abs(vector) for vector, _ in lengths.values())
+        return found
 
     def bound(self, proof: Place, implied: Place, slack: dict[str, Number], cost: Number, believed: bool) -> Bound:
         """Of rows and cost * mass, for all within the limits that exceed no ceiling by more than slack.
@@ -202,7 +224,7 @@ class Statement:
         What the answer says that missing limits imply is believed, or shown to be of no account. Without rows
         of an objective the multipliers have those of the ceilings, and prove that they conflict.
         """
-        limits = {(name, "ceiling"): Term(name, name, self.machine.before[name][0], ONE) for name in self.caps}
+        limits = {(name, "ceiling"): Term(name, name, phasors(self.machine.before, name)[0], ONE) for name in self.caps}
         terms = {**self.terms, **limits}
         rows, y = self._multipliers(proof, terms)
         if cost is ZERO and total(rows.values()).low <= 0:
@@ -219,7 +241,7 @@ class Statement:
         least, slope = total(rows[name] * self.floor[name] for name in rows if self.floor), dict.fromkeys(NAMES, ZERO)
         for key, term in terms.items():
             least = least + y[key].along(term.start) * share
-            slope[term.response] = slope[term.response] + y[key] * term.factor * share
+            slope[term.moves] = slope[term.moves] + y[key] * term.factor * share
         for name, _ in limits:
             least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
         gains = {}
@@ -263,9 +285,9 @@ class Statement:
         slope = dict.fromkeys(NAMES, ZERO)
         chosen: dict[str, Key] = {}
         for key, one in terms.items():
-            slope[one.response] = slope[one.response] + y[key] * one.factor
+            slope[one.moves] = slope[one.moves] + y[key] * one.factor
             if one.factor.low > 0:
-                chosen.setdefault(one.response, key)
+                chosen.setdefault(one.moves, key)
         arms = {web.position.low: web.position - self.machine.plane for web in webs}
         if len(arms) == 1 and "force" in chosen:
             # on one plane it is enough that force and moment together do nothing
@@ -285,7 +307,7 @@ class Statement:
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
         arms = {"force": ONE, "moment": abs(web.position - self.machine.plane)}
-        does = total(abs(one.factor) * arms[one.response] for one in self.terms.values() if one.row == row)
+        does = total(abs(one.factor) * arms[one.moves] for one in self.terms.values() if one.row == row)
         return does * web.radius * self.machine.square
 
     def reachable(self, implied: Place) -> Number | None:

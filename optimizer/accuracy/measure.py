@@ -12,7 +12,7 @@ from optimizer.accuracy.effects import effects_ladder
 from optimizer.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
 from optimizer.accuracy.methods import POSITIONS, Task, methods
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
-from optimizer.formulate import ceilings, formulate, weights
+from optimizer.formulate import formulate, limited, weights
 from optimizer.outputs import prepare
 from optimizer.program.edge import Unreachable
 from optimizer.program.optima import optima
@@ -68,7 +68,6 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
 def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
     """The peaks and ceilings of :func:`optimizer.formulate.formulate`, as they pass over the turn."""
     wanted, across = weights(request.machine, request.objective), request.objective.direction_weights
-    allowed = ceilings(request.objective)
     return OverTheTurn(
         peaks=tuple(
             WeightedResponse(response, float(wanted[response.name]), across.x, across.y)
@@ -77,9 +76,8 @@ def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
         ),
         combine=request.objective.combine,
         ceilings=tuple(
-            (WeightedResponse(response, 1.0), allowed[response.name] / scene.omega_squared)
-            for response in scene.responses
-            if response.name in allowed
+            (WeightedResponse(response, 1.0), allowed / scene.omega_squared)
+            for response, allowed in limited(scene.responses, request.objective)
         ),
     )
 

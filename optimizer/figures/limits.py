@@ -6,7 +6,7 @@ from typing import NamedTuple, get_args
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.formulate import RESPONSES, Weighable, ceilings, weights
+from optimizer.formulate import RESPONSES, given_ceilings, limited, weights
 from optimizer.limits import MACHINE_LIMITS, TOUCHED, WEB_LIMITS
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.response import Response
@@ -45,11 +45,9 @@ def touched_limits(
     """
     nowhere = np.zeros_like(mass_kg)  # the angles of counterweights are no matter of the machine
     touched = [name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere)]
-    peaks = {each.name: each.to(unbalance).peak * omega_squared for each in responses}
-    return (
-        *touched,
-        *(each.limit for each, allowed in _given(objective) if peaks[each.name] >= allowed * (1.0 - TOUCHED)),
-    )
+    peaks = (each.to(unbalance).peak * omega_squared for each, _ in limited(responses, objective))
+    given = zip(given_ceilings(objective), peaks, strict=True)
+    return (*touched, *(each.limit for (each, allowed), peak in given if peak >= allowed * (1.0 - TOUCHED)))
 
 
 def shadow_prices(
@@ -100,13 +98,7 @@ def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_s
     for limit_name, limit in MACHINE_LIMITS.items():
         if limit.size(machine) < np.inf:
             yield Priced(limit_name, None, float(limit.price(machine, prices)), float(limit.size(machine)), limit.unit)
-    for (each, allowed), price in zip(_given(objective), prices.ceiling.tolist(), strict=True):
+    for (each, allowed), price in zip(given_ceilings(objective), prices.ceiling.tolist(), strict=True):
         unit = f"({each.unit})" if " " in each.unit else each.unit
         # an objective over omega^2 per ceiling over omega^2
         yield Priced(each.limit, None, price / omega_squared, allowed, unit)
-
-
-def _given(objective: Objective) -> list[tuple[Weighable, float]]:
-    """Responses with a ceiling, and the largest peaks allowed."""
-    allowed = ceilings(objective)
-    return [(each, allowed[each.name]) for each in RESPONSES.values() if each.name in allowed]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.formulate import ceilings
+from optimizer.formulate import limited
 from optimizer.limits import limits
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Norms, Statement, combined, statement, weighted_peak
@@ -81,8 +81,8 @@ class Trade:
 
 def trade(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: float) -> Trade:
     """The trade of a machine: direction weights and ceilings count, the weights of force and moment do not."""
-    across, allowed = objective.direction_weights, ceilings(objective)
-    caps = [(each, np.asarray(allowed[each.name] / omega_squared)) for each in responses if each.name in allowed]
+    across = objective.direction_weights
+    caps = [(each, np.asarray(allowed / omega_squared)) for each, allowed in limited(responses, objective)]
     force, moment = (weighted_peak(each, np.ones(()), np.asarray(across.x), np.asarray(across.y)) for each in responses)
     bounds = limits(machine)
     return Trade(

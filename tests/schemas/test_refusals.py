@@ -64,6 +64,8 @@ BODY: dict[str, Any] = {
         "direction_weights": {"x": 1, "y": 2},
         "force_ceiling_N": 1e6,
         "moment_ceiling_Nm": 1e6,
+        "force_ceiling_x_N": 1e6,
+        "moment_ceiling_y_Nm": 1e6,
         "least_mass": True,
     },
     "accuracy": {"relative_gap": 1e-6},

@@ -6,7 +6,8 @@ const GOALS = { external: "force and moment", bearings: "the largest bearing loa
 const MEASURES = { rms: "the largest root mean square of a bearing load", specific: "the largest specific bearing load" };
 
 export const CEILINGS = {
-  force_ceiling_N: "force", moment_ceiling_Nm: "moment", bearing_ceiling_N: "bearing loads",
+  force_ceiling_N: "force", force_ceiling_x_N: "force along x", force_ceiling_y_N: "force along y",
+  moment_ceiling_Nm: "moment", moment_ceiling_x_Nm: "moment along x", moment_ceiling_y_Nm: "moment along y", bearing_ceiling_N: "bearing loads",
   specific_load_ceiling_Pa: "specific bearing loads", bending_ceiling_Nm: "bending moment",
 };
 

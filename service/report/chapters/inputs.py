@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from optimizer.formulate import span, weights
+from optimizer.formulate import given_ceilings, span, weights
 from schemas.cylinder import Cylinder
 from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw
 from schemas.over_turn import ForceTable, TorqueTable
@@ -253,6 +253,11 @@ def _objective(request: OptimizeRequest) -> Table:
             ("weight of components along y", goal.direction_weights.y),
             ("ceiling of the peak force, N", "none" if goal.force_ceiling_N is None else goal.force_ceiling_N),
             ("ceiling of the peak moment, N m", "none" if goal.moment_ceiling_Nm is None else goal.moment_ceiling_Nm),
+            *(
+                (f"ceiling of the {each.name.replace(':', ' along ')}, {each.unit}", allowed)
+                for each, allowed in given_ceilings(goal)
+                if each.axis is not None
+            ),
             *(
                 (_OVER_THE_TURN[name], _told(getattr(goal, name)))
                 for name in (*goal.over_the_turn, *(("bearing_measure",) if goal.bearing_weight else ()))

@@ -10,7 +10,11 @@ from service.report.formula import formula
 
 _CEILINGS = {
     "force_ceiling_N": "the ceiling of the force",
+    "force_ceiling_x_N": "the ceiling of the force along x",
+    "force_ceiling_y_N": "the ceiling of the force along y",
     "moment_ceiling_Nm": "the ceiling of the moment",
+    "moment_ceiling_x_Nm": "the ceiling of the moment along x",
+    "moment_ceiling_y_Nm": "the ceiling of the moment along y",
     "bearing_ceiling_N": "the ceiling of the bearing loads",
     "specific_load_ceiling_Pa": "the ceiling of the specific bearing loads",
     "bending_ceiling_Nm": "the ceiling of the bending moments",
@@ -91,7 +95,7 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
     )
     if why.smallest:
         yield table(
-            "Bearing loads and bending moments by themselves, N and N m",
+            "What else has a ceiling by itself, N and N m",
             ["response", "#ceiling", "#smallest", "#certified not below"],
             [(each.response, each.ceiling, each.smallest, each.lower_bound) for each in why.smallest],
         )

@@ -6,6 +6,8 @@ import { figure, number } from "../format.js";
 const LIMITS = {
   max_mass: "mass", sector: "sector", max_total_mass: "limit of the total mass",
   force_ceiling: "ceiling of the force", moment_ceiling: "ceiling of the moment",
+  force_ceiling_x: "ceiling of the force along x", force_ceiling_y: "ceiling of the force along y",
+  moment_ceiling_x: "ceiling of the moment along x", moment_ceiling_y: "ceiling of the moment along y",
   bearing_ceiling: "ceiling of the bearing loads", specific_load_ceiling: "ceiling of the specific bearing loads",
   bending_ceiling: "ceiling of the bending moment",
 };
