@@ -111,7 +111,7 @@ def ask(url: str, path: str, body: Any = None) -> Any:
     """The same question without the page."""
     data = None if body is None else json.dumps(body).encode()
     call = urllib.request.Request(url + path, data, {"Content-Type": "application/json"})
-    with urllib.request.urlopen(call, timeout=60) as answer:
+    with urllib.request.urlopen(call, timeout=180) as answer:
         return json.load(answer)
 
 

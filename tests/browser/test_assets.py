@@ -14,7 +14,7 @@ from service.portal.assets import PLOTS, asset, names, page, release
 def _get(url: str, **headers: str) -> tuple[int, Message, bytes]:
     given = {name.replace("_", "-"): value for name, value in headers.items()}
     try:
-        with urllib.request.urlopen(urllib.request.Request(url, headers=given), timeout=30) as answer:
+        with urllib.request.urlopen(urllib.request.Request(url, headers=given), timeout=180) as answer:
             return answer.status, answer.headers, answer.read()
     except urllib.error.HTTPError as error:
         return error.code, error.headers, error.read()

@@ -49,7 +49,7 @@ def _code(portal: Portal, panel: str, language: str) -> str:
 def test_the_python_behind_a_panel_runs(portal: Portal) -> None:
     portal.open("2d12", ("torque",))
     code = _code(portal, "torque", "python") + "print(answer['torque']['mean_torque_Nm'])"
-    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60, check=True)
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=180, check=True)
     shown = portal.panel("torque").locator("tbody th").inner_text()
     assert f"{float(ran.stdout):,.0f}" == shown
 
@@ -57,7 +57,7 @@ def test_the_python_behind_a_panel_runs(portal: Portal) -> None:
 def test_the_curl_behind_a_panel_runs(portal: Portal, url: str) -> None:
     portal.open("single-vertical")
     ran = subprocess.run(
-        ["bash", "-c", _code(portal, "counterweights", "curl")], capture_output=True, timeout=60, check=True
+        ["bash", "-c", _code(portal, "counterweights", "curl")], capture_output=True, timeout=180, check=True
     )
     answer = ask(url, "/v1/optimize", ask(url, "/v1/examples/single-vertical"))
     assert f'"total_mass_kg":{answer["total_mass_kg"]}'.encode() in ran.stdout

@@ -31,7 +31,7 @@ def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_
         shutil.copy(file, tmp_path)
     environment = {**os.environ, "PYTHONPATH": ""}
     ran = subprocess.run(
-        [*command, name], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=60, check=False
+        [*command, name], cwd=tmp_path, env=environment, capture_output=True, text=True, timeout=180, check=False
     )
     assert ran.returncode == 0, ran.stderr
     # what head -c leaves without an end of line is no difference

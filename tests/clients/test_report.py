@@ -14,7 +14,7 @@ _HTML, _PDF = "text/html; charset=utf-8", "application/pdf"
 
 def post(url: str, body: Any, **headers: str) -> tuple[int, dict[str, str], bytes]:
     where = urlsplit(url)
-    connection = HTTPConnection(where.hostname or "", where.port, timeout=60)
+    connection = HTTPConnection(where.hostname or "", where.port, timeout=180)
     connection.request("POST", "/v1/report", json.dumps(body), {"Content-Type": "application/json", **headers})
     answer = connection.getresponse()
     content = answer.read()

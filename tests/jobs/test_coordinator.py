@@ -134,7 +134,7 @@ def test_a_cancelled_job_ends_soon_and_keeps_its_rows(house: House) -> None:
         house.files.stop(endless)
         done = house.store.get(job).done
         # the workers are free again
-        assert house.wait(house.submit(total=10), timeout=20).state == "done"
+        assert house.wait(house.submit(total=10), timeout=180).state == "done"
     assert house.rows(job).num_rows == done == house.store.get(job).done
     house.store.resume(job)
     with house.coordinator(threads(2)):

@@ -64,7 +64,7 @@ def test_damage_over_http_is_an_error_or_a_broken_answer(tmp_path: Path) -> None
         content = bytearray(files[-1].read_bytes())
         content[len(content) // 2] ^= 1
         files[-1].write_bytes(content)
-        with closing(http.client.HTTPConnection(*running.where, timeout=30)) as connection:
+        with closing(http.client.HTTPConnection(*running.where, timeout=180)) as connection:
             connection.request("GET", f"{path}/results?format=ndjson")
             answer = connection.getresponse()
             with pytest.raises(http.client.IncompleteRead):

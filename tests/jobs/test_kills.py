@@ -76,7 +76,7 @@ def test_it_stops_at_once_and_goes_on(tmp_path: Path) -> None:
     with service(tmp_path, delay_s=0.2) as running:
         _, headers, _ = running.send("POST", "/v1/sweeps", SWEEP)
         path = headers["location"]
-        with socket.create_connection(running.where, timeout=30) as stream:
+        with socket.create_connection(running.where, timeout=180) as stream:
             stream.sendall(f"GET {path}/events HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
             assert b"200 OK" in stream.recv(4096)
             while running.read(path)["done"] == 0:

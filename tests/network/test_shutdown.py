@@ -48,7 +48,7 @@ def test_requests_are_finished_streams_are_ended_sweeps_are_parked(ending: Servi
     quick, rest = asyncio.run(everything())
     assert quick.status == 200
     assert rest.endswith(b"0\r\n\r\n")
-    gone, alive = psutil.wait_procs(family, timeout=60)
+    gone, alive = psutil.wait_procs(family, timeout=180)
     assert gone
     # whose parent has ended may stay unburied where the first process of a container buries nobody
     assert [process for process in alive if process.is_running() and process.status() != psutil.STATUS_ZOMBIE] == []

@@ -62,7 +62,7 @@ def server() -> Iterator[tuple[str, int]]:
 
 
 def send(where: tuple[str, int], method: str, path: str, body: object = None, **headers: str) -> tuple[int, str, bytes]:
-    with closing(http.client.HTTPConnection(*where, timeout=30)) as connection:
+    with closing(http.client.HTTPConnection(*where, timeout=180)) as connection:
         connection.request(method, path, body, {"Content-Type": "application/json", **headers})  # type: ignore[arg-type]
         answer = connection.getresponse()
         return answer.status, answer.headers["Content-Type"], answer.read()
@@ -93,7 +93,7 @@ def test_a_large_body_is_refused_with_a_readable_answer(server: tuple[str, int],
 
 
 def test_a_client_that_hangs_up_early_leaves_no_traceback(server: tuple[str, int]) -> None:
-    with socket.create_connection(server, timeout=30) as connection:
+    with socket.create_connection(server, timeout=180) as connection:
         head = "POST /v1/optimize HTTP/1.0\r\nContent-Type: application/json\r\nContent-Length: 500\r\n\r\n{"
         connection.sendall(head.encode())
     assert status(server, "GET", "/healthz") == 200
@@ -111,7 +111,7 @@ def test_a_client_that_hangs_up_early_leaves_no_traceback(server: tuple[str, int
     ],
 )
 def test_odd_headers(server: tuple[str, int], odd: bytes) -> None:
-    with socket.create_connection(server, timeout=30) as connection:
+    with socket.create_connection(server, timeout=180) as connection:
         head = b"POST /v1/optimize HTTP/1.0\r\nContent-Length: 2\r\nConnection: close\r\nContent-Type: "
         connection.sendall(head + odd + b"\r\n\r\n{}")
         first = connection.makefile("rb").readline()
@@ -124,7 +124,7 @@ def test_an_orderly_end(ending: signal.Signals) -> None:
         where = address(process)
         assert status(where, "GET", "/healthz") == 200
         process.send_signal(ending)
-        _, said = process.communicate(timeout=30)
+        _, said = process.communicate(timeout=180)
     assert process.returncode in (0, -signal.SIGTERM)
     assert said == ""
 
@@ -133,7 +133,7 @@ def test_addresses_that_cannot_be_taken() -> None:
     def refused(*arguments: str, **environment: str) -> str:
         command = [sys.executable, "-m", "service", "serve", *arguments]
         env = {**os.environ, **environment}
-        done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, timeout=60)
+        done = subprocess.run(command, cwd=ROOT, env=env, capture_output=True, text=True, timeout=180)
         assert (done.returncode, done.stdout) == (2, "")
         assert "Traceback" not in done.stderr
         return done.stderr

@@ -44,7 +44,7 @@ def alone(folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
     for file in FILES:
         shutil.copy(file, folder)
     command = [sys.executable, "-E", "-s", "-S", "-W", "error", "verify.py", *arguments]
-    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=60, check=False)
+    return subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=180, check=False)
 
 
 def command(*arguments: str) -> Result:
