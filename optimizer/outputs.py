@@ -6,7 +6,7 @@ from typing import Any
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
 from optimizer.errors import MissingInput
-from optimizer.figures.balance_rate import balance_rate
+from optimizer.figures.balance_rate import BALANCE_RATE, balance_rate
 from optimizer.figures.bearings import MAIN_BEARINGS
 from optimizer.figures.cautions import cautions
 from optimizer.figures.dynamics import OVER_THE_TURN
@@ -26,6 +26,7 @@ OUTPUTS: dict[str, Output] = {
     output.name: output
     for output in (
         RESIDUAL,
+        BALANCE_RATE,
         HODOGRAPH,
         ORDERS,
         STAGES,

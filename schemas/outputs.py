@@ -1,5 +1,6 @@
 """All outputs: their fields in an answer, the names by which they are asked for, their columns in a sweep."""
 
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
 from pydantic import Field
@@ -159,8 +160,8 @@ class OutputFields(Model):
 if TYPE_CHECKING:
     OutputName = str
 else:
-    #: the residual, which every optimisation answers, and the fields above
-    OutputName = Literal["residual", *OutputFields.model_fields]
+    #: the residual and the balance rate, which every optimisation answers, and the fields above
+    OutputName = Literal["residual", "balance_rate", *OutputFields.model_fields]
 OutputNames = Annotated[tuple[OutputName, ...], Field(max_length=32), NotEmpty()]
 
 Kind = Literal["integer", "number", "text"]
@@ -176,9 +177,33 @@ class Column(NamedTuple):
     source: str | None = None  # JSON pointer in the base, of axes and webs
 
 
+#: orders and stages that are columns, and the units of these
+_ORDERS = (1, 2, 4, 6)
+STAGE_UNITS = {"I": "N", "II": "N m", "III": "N", "IV": "N m", "V": "N", "VI": "N m", "VII": "kg m", "VIII": "N"}
+
+
+def _order_columns(order: int) -> Iterator[Column]:
+    """Peaks and phasors of one order: F = co e^{j s k theta} + counter e^{-j s k theta}, as drawn at shaft angle 0."""
+    for quantity, short, unit in (("force", "N", "N"), ("moment", "Nm", "N m")):
+        of = f"{quantity} of order {order} with the counterweights"
+        yield Column(f"{quantity}_peak_{short}.order_{order}", "number", unit, f"peak {of}")
+        for sense in ("co", "counter"):
+            for part, axis in (("real", "x"), ("imag", "y")):
+                name = f"{quantity}_{sense}_rotating_{part}_{short}.order_{order}"
+                yield Column(name, "number", unit, f"{axis} of the {sense}-rotating phasor of the {of}")
+
+
+def _stage_columns(stage: str, unit: str) -> Iterator[Column]:
+    yield Column(f"stage_value.{stage}", "number", unit, f"value of balancing stage {stage}, without counterweights")
+    yield Column(f"stage_remaining.{stage}", "number", unit, f"what the counterweights leave of stage {stage}")
+
+
 #: what each comes to in a sweep; a sweep refuses an output that is not here
 OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
     "residual": (),
+    "balance_rate": (),
+    "orders": tuple(column for order in _ORDERS for column in _order_columns(order)),
+    "stages": tuple(column for stage, unit in STAGE_UNITS.items() for column in _stage_columns(stage, unit)),
     "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
     "piston_force": (Column("peak_piston_force_N", "number", "N", "largest piston force over the turn, magnitude"),),
     "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),
@@ -199,6 +224,35 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
     ),
     "main_bearings": (
         Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),
+        Column("peak_bending_Nm", "number", "N m", "largest bending moment inside the shaft, with the counterweights"),
     ),
     "pin_loads": (Column("peak_pin_load_N", "number", "N", "largest load of all anti-rotation pins"),),
 }
+
+
+class OfEach(NamedTuple):
+    """Columns that an output has for each of some parts of the machine; the name of the part follows after a dot."""
+
+    parts: Literal["throws", "bearings"]
+    columns: tuple[Column, ...]
+
+
+#: what some come to besides, part by part
+COLUMNS_OF_EACH: dict[str, OfEach] = {
+    "balance_rate": OfEach(
+        "throws",
+        (
+            Column("balance_rate", "number", None, "share of the rotating unbalance of this throw that is balanced"),
+            Column("balance_rate_sideways", "number", None, "what its counterweights do across the crank, as a share"),
+        ),
+    ),
+    "main_bearings": OfEach(
+        "bearings", (Column("bearing_peak_N", "number", "N", "largest load of this bearing, with the counterweights"),)
+    ),
+}
+
+
+def labels(names: Sequence[str | None]) -> tuple[str, ...]:
+    """What parts of a machine are called in names of columns: their names if all have one, else 0, 1, 2, ..."""
+    given = [name for name in names if name is not None]
+    return tuple(given) if len(given) == len(names) else tuple(str(number) for number in range(len(names)))

@@ -1,34 +1,38 @@
-"""Balance rates of the throws of one machine: how much of its own crank each pair of webs balances."""
+"""Balance rates of the throws: how much of its own crank each pair of webs balances."""
 
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.figures.output import Columns, Output
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.balance_rate import balance_rates, customary, web_shares
+from optimizer.mechanics.layout import stacked
+from optimizer.scene import Prepared
 from schemas.answers import BalanceRate
 from schemas.machine import Machine, ReciprocatingMachine
+from schemas.outputs import labels
 
 
 class Cranks(NamedTuple):
-    """Rotating unbalance of the throws, and which webs are theirs."""
+    """Rotating unbalance of the throws, and which webs are theirs; of one machine, or of many with leading axes."""
 
-    rotating: Complex  # (throws,) kg m, with the rotating shares of the rods
-    shares: Real  # (throws, webs)
+    rotating: Complex  # (..., throws) kg m, with the rotating shares of the rods
+    shares: Real  # (..., throws, webs)
 
     def rates(self, unbalance: Complex) -> Complex:
-        """Balance rate and, imaginary, its sideways part (throws,)."""
+        """Balance rate and, imaginary, its sideways part (..., throws), with counterweights (..., webs) kg m."""
         return balance_rates(self.rotating, self.shares, unbalance)
 
     @property
     def customary(self) -> Complex:
-        """Counterweights (webs,) kg m of a uniform rate of 1."""
+        """Counterweights (..., webs) kg m of a uniform rate of 1."""
         return customary(self.rotating, self.shares)
 
 
 def cranks(machine: ReciprocatingMachine) -> Cranks:
-    """Throws of one machine and their webs."""
+    """Throws of a machine and their webs; its fields may hold columns (n,)."""
     masses = [
         throw.rotating_mass_kg
         + sum(
@@ -38,10 +42,10 @@ def cranks(machine: ReciprocatingMachine) -> Cranks:
         )
         for throw in machine.throws
     ]
-    radii = np.array([throw.crank_radius_m for throw in machine.throws])
-    crank = direction(np.array([throw.crank_angle_deg for throw in machine.throws]))
-    places = (np.array([one.position_m for one in which]) for which in (machine.throws, machine.webs))
-    return Cranks(np.array(masses) * radii * crank, web_shares(*places))
+    radii = stacked([throw.crank_radius_m for throw in machine.throws])
+    crank = direction(stacked([throw.crank_angle_deg for throw in machine.throws]))
+    places = (stacked([one.position_m for one in which]) for which in (machine.throws, machine.webs))
+    return Cranks(stacked(masses) * radii * crank, web_shares(*places))
 
 
 def balance_rate(machine: Machine, unbalance: Complex | None) -> tuple[BalanceRate, ...]:
@@ -58,3 +62,23 @@ def balance_rate(machine: Machine, unbalance: Complex | None) -> tuple[BalanceRa
         )
         for number, (throw, rate) in enumerate(zip(machine.throws, rates, strict=True))
     )
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    machine = scene.machine
+    if not isinstance(machine, ReciprocatingMachine):
+        return {}
+    rates, found = cranks(machine).rates(unbalance), {}
+    for k, label in enumerate(labels([throw.name for throw in machine.throws])):
+        found[f"balance_rate.{label}"] = rates[..., k].real
+        found[f"balance_rate_sideways.{label}"] = rates[..., k].imag
+    return found
+
+
+BALANCE_RATE = Output(
+    "balance_rate",
+    "how much of its own crank each pair of webs balances",
+    (),
+    lambda scene, unbalance: balance_rate(scene.machine, unbalance),
+    Columns(_columns),
+)

@@ -8,27 +8,27 @@ from optimizer.figures.output import Columns, Output
 from optimizer.figures.peaks import (
     FLOOR_TOLERANCE,
     bearing_and_bending_curves,
-    bearing_curves,
     bearing_influence,
     bracket,
     of_shaft,
 )
 from optimizer.mechanics.angles import turned
-from optimizer.mechanics.shaft_curves import ShaftCurves, planes
+from optimizer.mechanics.shaft_curves import ShaftCurves, stations
 from optimizer.pieces import Bracket
 from optimizer.scene import Prepared
 from optimizer.shaft import bearing_places
 from schemas.drive import Bearing
 from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
 from schemas.machine import ReciprocatingMachine
+from schemas.outputs import labels
 
 
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     """Loads of the main bearings of one machine, and the bending moments of its shaft."""
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
-    stations = _stations(scene, machine)
-    found = bearing_and_bending_curves(scene, stations)
+    planes = stations(scene.layout, bearing_places(machine))
+    found = bearing_and_bending_curves(scene, planes)
     floor = np.array([each.circle.radius for each in floors(found.curves, FLOOR_TOLERANCE)]) * scene.omega_squared
     before = of_shaft(scene, found, None)
     after = None if unbalance is None else of_shaft(scene, found, unbalance)
@@ -50,20 +50,15 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
             for k, bearing in enumerate(machine.bearings)
         ),
         bending=BendingMoment(
-            position_m=tuple(stations.tolist()),
+            position_m=tuple(planes.tolist()),
             before_Nm=tuple(before.lower[count:].tolist()),
             after_Nm=None if after is None else tuple(after.lower[count:].tolist()),
             peak_Nm=float(shown.lower[count + worst]),
             peak_bracket_Nm=(float(shown.lower[count + worst]), float(np.max(shown.upper[count:]))),
-            peak_position_m=float(stations[worst]),
+            peak_position_m=float(planes[worst]),
             floor_Nm=float(np.max(floor[count:])),
         ),
     )
-
-
-def _stations(scene: Prepared, machine: ReciprocatingMachine) -> Real:
-    """Planes in which the bending moment along the shaft has a corner, and so its maximum."""
-    return np.unique(np.concatenate([planes(scene.layout), bearing_places(machine)]))
 
 
 def _loads(
@@ -103,7 +98,16 @@ def _over_area(load: float, bearing: Bearing) -> float | None:
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
-    return {"peak_bearing_load_N": np.max(of_shaft(scene, bearing_curves(scene), unbalance).lower, axis=-1)}
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    curves = bearing_and_bending_curves(scene, stations(scene.layout, bearing_places(machine)))
+    peak, count = of_shaft(scene, curves, unbalance).lower, len(machine.bearings)
+    names = labels([bearing.name for bearing in machine.bearings])
+    return {
+        "peak_bearing_load_N": np.max(peak[..., :count], axis=-1),
+        "peak_bending_Nm": np.max(peak[..., count:], axis=-1),
+        **{f"bearing_peak_N.{name}": peak[..., k] for k, name in enumerate(names)},
+    }
 
 
 MAIN_BEARINGS = Output(
@@ -111,5 +115,5 @@ MAIN_BEARINGS = Output(
     "main-bearing loads and bending of the shaft",
     ("shaft_loads", "whole_turn"),
     main_bearings,
-    Columns(_columns),
+    Columns(_columns, needs=("whole_turn",)),
 )

@@ -1,24 +1,45 @@
 """Phasors of force and moment by order, without and with counterweights."""
 
-from optimizer.arrays import Complex
+from optimizer.arrays import Complex, Real
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS
-from optimizer.figures.output import Output
+from optimizer.figures.output import Columns, Output
 from optimizer.figures.phasors import order_of
+from optimizer.mechanics.inertia import Wrench
 from optimizer.scene import Prepared
-from schemas.outputs import OrdersComparison
+from schemas.outputs import Order, OrdersComparison
+
+
+def _by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
+    """Force [N] and moment [N m] of every order; counterweights on the shaft change the first alone."""
+    results, square = scene.results, scene.layout.omega**2
+    higher = {2: results["second_order"], **results["higher_orders"]}
+    return {1: scene.first_order(unbalance), **{order: wrench.times(square) for order, wrench in higher.items()}}
 
 
 def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
-    """Orders 1, 2, 4 and 6 of one machine; counterweights on the shaft change the first alone."""
-    results, square = scene.results, scene.layout.omega**2
-    higher = {2: results["second_order"], **results["higher_orders"]}
-    others = tuple(order_of(number, wrench.times(square)) for number, wrench in higher.items())
-    return OrdersComparison(
-        before=(order_of(1, scene.first_order()), *others),
-        after=None if unbalance is None else (order_of(1, scene.first_order(unbalance)), *others),
-    )
+    """Orders 1, 2, 4 and 6 of one machine."""
+
+    def found(fitted: Complex | None) -> tuple[Order, ...]:
+        return tuple(order_of(order, wrench) for order, wrench in _by_order(scene, fitted).items())
+
+    return OrdersComparison(before=found(None), after=None if unbalance is None else found(unbalance))
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    found: dict[str, Real] = {}
+    for order, wrench in _by_order(scene, unbalance).items():
+        for quantity, unit, pair in (("force", "N", wrench.force), ("moment", "Nm", wrench.moment)):
+            found[f"{quantity}_peak_{unit}.order_{order}"] = pair.peak
+            for sense, phasor in (("co", pair.co), ("counter", pair.counter)):
+                found[f"{quantity}_{sense}_rotating_real_{unit}.order_{order}"] = phasor.real
+                found[f"{quantity}_{sense}_rotating_imag_{unit}.order_{order}"] = phasor.imag
+    return found
 
 
 ORDERS = Output(
-    "orders", "phasors at orders 1, 2, 4 and 6", (*FIRST_ORDER_EFFECTS, "second_order", "higher_orders"), orders
+    "orders",
+    "phasors at orders 1, 2, 4 and 6",
+    (*FIRST_ORDER_EFFECTS, "second_order", "higher_orders"),
+    orders,
+    Columns(_columns),
 )

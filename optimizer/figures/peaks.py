@@ -63,15 +63,10 @@ def bearing_influence(scene: Prepared) -> Real:
     return influence(bearing_places(_reciprocating(scene)), planes(scene.layout))
 
 
-def bearing_curves(scene: Prepared) -> ShaftCurves:
-    """Loads of the main bearings, over omega^2."""
-    return shaft_curves(scene.results["whole_turn"], scene.layout, bearing_influence(scene))
-
-
-def bearing_and_bending_curves(scene: Prepared, stations: Real) -> ShaftCurves:
-    """Loads of the B main bearings and bending moments at stations (S,), over omega^2: B + S curves, found together."""
+def bearing_and_bending_curves(scene: Prepared, corners: Real) -> ShaftCurves:
+    """Loads of the B main bearings and bending moments at corners (..., S), over omega^2: B + S curves together."""
     influence = INFLUENCES[scene.request.fidelity.shaft]
-    moments = bending_influence(scene.layout, bearing_places(_reciprocating(scene)), influence, stations)
+    moments = bending_influence(scene.layout, bearing_places(_reciprocating(scene)), influence, corners)
     both = np.concatenate([bearing_influence(scene), moments], axis=-2)
     return shaft_curves(scene.results["whole_turn"], scene.layout, both)
 

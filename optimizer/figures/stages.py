@@ -18,14 +18,14 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.figures.output import Output
+from optimizer.figures.output import Columns, Output
 from optimizer.figures.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
 from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
-from schemas.outputs import RuleOfThumb, Stage
+from schemas.outputs import STAGE_UNITS, Stage
 
 Balanceable = Literal["fully", "partly", "no"]
 
@@ -39,6 +39,14 @@ class _Heading(NamedTuple):
     quantity: str
     formula: str
     unit: str
+
+
+class _Shape(NamedTuple):
+    """What an engineer is told of a stage beside its size."""
+
+    plane: str
+    frequency: str
+    balanceable: Balanceable
 
 
 _ARMS = "every term times (z - z_ref)"
@@ -101,39 +109,58 @@ def stages(
         none to show (infeasible), which leaves ``remaining`` null.
     """
     square, speed = layout.omega**2, float(layout.omega)
-    unscaled = first
-    turning, first, second = (part.times(square) for part in (turning, first, second))
-    fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
-    left_turning, left_first = (None, None) if fitted is None else _superpose(turning, first, fitted)
-    left_second = None if fitted is None else second
+    value = amounts(layout, turning, first, second, None)
+    remaining = None if unbalance is None else amounts(layout, turning, first, second, unbalance)
     planes = layout.webs.position
     span = float(np.ptp(planes)) if planes.size else 0.0
+    rules = {_III: force_rules(first.force, float(square)), _IV: moment_rules(first.moment, float(square), span)}
+    turning, first, second = (part.times(square) for part in (turning, first, second))
+    fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
 
-    def stage(
-        heading: _Heading, order: int, before: Wrench, after: Wrench | None, rules: tuple[RuleOfThumb, ...] = ()
-    ) -> Stage:
-        pair = before.force if heading.unit == "N" else before.moment
-        left = None if after is None else (after.force if heading.unit == "N" else after.moment)
-        return Stage(
+    def shape(heading: _Heading, order: int, wrench: Wrench) -> _Shape:
+        pair = wrench.force if heading.unit == "N" else wrench.moment
+        return _Shape(_plane(pair), _frequency(order, speed), _balanceable(pair, order))
+
+    shapes = {
+        _I: shape(_I, 1, turning),
+        _II: shape(_II, 1, turning),
+        _III: shape(_III, 1, first),
+        _IV: shape(_IV, 1, first),
+        _V: shape(_V, 2, second),
+        _VI: shape(_VI, 2, second),
+        _VII: _Shape(_planes_of_iron(planes), _frequency(1, speed), "fully"),
+        _VIII: _summary(layout, turning.plus(first), second, fitted),
+    }
+    return tuple(
+        Stage(
             **heading._asdict(),
-            value=float(pair.peak),
-            plane=_plane(pair),
-            frequency=_frequency(order, speed),
-            balanceable=_balanceable(pair, order),
-            remaining=None if left is None else float(left.peak),
-            rules_of_thumb=rules,
+            **found._asdict(),
+            value=float(value[k]),
+            remaining=None if remaining is None else float(remaining[k]),
+            rules_of_thumb=rules.get(heading, ()),
         )
-
-    return (
-        stage(_I, 1, turning, left_turning),
-        stage(_II, 1, turning, left_turning),
-        stage(_III, 1, first, left_first, force_rules(unscaled.force, float(square))),
-        stage(_IV, 1, first, left_first, moment_rules(unscaled.moment, float(square), span)),
-        stage(_V, 2, second, left_second),
-        stage(_VI, 2, second, left_second),
-        _iron(layout, unbalance),
-        _summary(layout, turning.plus(first), second, fitted),
+        for k, (heading, found) in enumerate(shapes.items())
     )
+
+
+def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None) -> Real:
+    """What the eight stages come to with counterweights (..., webs) kg m, or without: (..., 8) in their units.
+
+    Parameters
+    ----------
+    layout : of one machine, or of many with leading axes (...).
+    turning, first, second : as for :func:`stages`.
+    """
+    square = layout.omega**2
+    missing = _missing(layout, unbalance)
+    turning, first, second = (part.times(square) for part in (turning, first, second))
+    both = turning.plus(first)
+    if unbalance is not None:
+        fitted = counterweights(layout, unbalance).times(square)
+        both = both.plus(fitted)
+        turning, first = _superpose(turning, first, fitted)
+    sizes = [pair.peak for part in (turning, first, second) for pair in part]
+    return np.stack([*sizes, missing, both.force.peak + second.force.peak], axis=-1)
 
 
 def _superpose(turning: Wrench, first: Wrench, fitted: Wrench) -> tuple[Wrench, Wrench]:
@@ -146,7 +173,8 @@ def _superpose(turning: Wrench, first: Wrench, fitted: Wrench) -> tuple[Wrench, 
 def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, Phasors]:
     size = np.abs(turning.co)
     # a denormal number has no direction that could be divided out
-    outward = turning.co / size if size > np.finfo(float).tiny else np.zeros_like(turning.co)
+    some = size > np.finfo(float).tiny
+    outward: Complex = np.where(some, turning.co / np.where(some, size, 1.0), 0j)
     opposed = np.clip(-(fitted.co * np.conj(outward)).real, 0.0, size)
     return (
         Phasors((size - opposed) * outward, turning.counter),
@@ -154,39 +182,34 @@ def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, 
     )
 
 
-def _iron(layout: Layout, unbalance: Complex | None) -> Stage:
-    """Stage VII: u1 and u2 of two planes that cancel all that turns with the shaft, before and after."""
+def _missing(layout: Layout, unbalance: Complex | None) -> Real:
+    """Stage VII: |u1| + |u2| of two planes that cancel all that turns with the shaft, (...) kg m."""
     # couples about the centre: a far reference plane would cost digits
     centred = replace(layout, reference_plane=layout.centre_plane)
-    before = rotating(centred).plus(reciprocating(centred, 1))
-    after = None if unbalance is None else before.plus(counterweights(centred, unbalance))
-    planes = layout.webs.position
-    low, high = (float(planes.min()), float(planes.max())) if planes.size else (0.0, 0.0)
+    wrench = rotating(centred).plus(reciprocating(centred, 1))
+    if unbalance is not None:
+        wrench = wrench.plus(counterweights(centred, unbalance))
+    force, couple = wrench.force.co, wrench.moment.co
+    planes, centre = layout.webs.position, layout.centre_plane
+    if planes.shape[-1] == 0:
+        return np.abs(force)
+    low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)
+    apart = high - low > ONE_PLANE_M
+    ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
+    return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))
+
+
+def _planes_of_iron(planes: Real) -> str:
+    """Where stage VII puts it."""
+    if planes.size == 0:
+        return "no webs, force only"
+    low, high = float(planes.min()), float(planes.max())
     if high - low > ONE_PLANE_M:
-        where = f"planes z = {low:.6g} m and z = {high:.6g} m"
-    else:
-        where = f"plane z = {low:.6g} m, force only" if planes.size else "no webs, force only"
-
-    def missing(wrench: Wrench) -> float:
-        force, couple = wrench.force.co, wrench.moment.co
-        if high - low <= ONE_PLANE_M:
-            return float(np.abs(force))
-        centre = float(layout.centre_plane)
-        first = couple - (high - centre) * force
-        second = couple - (low - centre) * force
-        return float((np.abs(first) + np.abs(second)) / (high - low))
-
-    return Stage(
-        **_VII._asdict(),
-        value=missing(before),
-        plane=where,
-        frequency=_frequency(1, float(layout.omega)),
-        balanceable="fully",
-        remaining=None if after is None else missing(after),
-    )
+        return f"planes z = {low:.6g} m and z = {high:.6g} m"
+    return f"plane z = {low:.6g} m, force only"
 
 
-def _summary(layout: Layout, first: Wrench, second: Wrench, fitted: Wrench | None) -> Stage:
+def _summary(layout: Layout, first: Wrench, second: Wrench, fitted: Wrench | None) -> _Shape:
     """Stage VIII: every force and moment of orders 1 and 2 together."""
     after = first if fitted is None else first.plus(fitted)
     names = ("first-order force", "first-order moment", "second-order force", "second-order moment")
@@ -197,13 +220,10 @@ def _summary(layout: Layout, first: Wrench, second: Wrench, fitted: Wrench | Non
     words = [f"{name} {pair.peak:.5g} {'N' if 'force' in name else 'N m'}, {_plane(pair)}" for name, _, _, pair in left]
     orders = sorted({order for _, order, _, _ in left})
     verdicts = {_balanceable(was, order) for _, order, was, _ in parts if was.peak > 0} or {"fully"}
-    return Stage(
-        **_VIII._asdict(),
-        value=float(first.force.peak + second.force.peak),
+    return _Shape(
         plane="; ".join(words) or "none",
         frequency=", ".join(_frequency(order, float(layout.omega)) for order in orders) or "none",
         balanceable=verdicts.pop() if len(verdicts) == 1 else "partly",
-        remaining=None if fitted is None else float(after.force.peak + second.force.peak),
     )
 
 
@@ -256,4 +276,13 @@ def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[Stage, ...]:
     return stages(scene.layout, turning, first, second, unbalance)
 
 
-STAGES = Output("stages", "the eight balancing stages", _PARTS, _figure)
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    turning, first, second = (scene.results[name] for name in _PARTS)
+    found: dict[str, Real] = {}
+    for name, fitted in (("value", None), ("remaining", unbalance)):
+        sizes = amounts(scene.layout, turning, first, second, fitted)
+        found |= {f"stage_{name}.{stage}": sizes[..., k] for k, stage in enumerate(STAGE_UNITS)}
+    return found
+
+
+STAGES = Output("stages", "the eight balancing stages", _PARTS, _figure, Columns(_columns))

@@ -63,10 +63,10 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
 
     Parameters as for :func:`bearing_loads`.
     """
-    stations = np.unique(np.concatenate([planes(layout), places]))
-    moment = bending_influence(layout, places, influence, stations)
+    corners = stations(layout, places)
+    moment = bending_influence(layout, places, influence, corners)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
-    names = [f"bending:{station!r}" for station in stations[some].tolist()]
+    names = [f"bending:{station!r}" for station in corners[some].tolist()]
     return shaft_curves(turn, layout, moment[some]).responses(names, "N m")
 
 
@@ -85,12 +85,28 @@ def shaking(turn: WholeTurn, layout: Layout) -> tuple[TurnResponse, TurnResponse
     return force, moment
 
 
-def bending_influence(layout: Layout, places: Real, influence: Influence, stations: Real) -> Real:
-    """Bending moments at stations (..., S) m for one unit of load in every plane, (..., S, L) m."""
+def stations(layout: Layout, places: Real) -> Real:
+    """Planes in which the bending moment along the shaft has a corner, and so its maximum, in rising z (..., S) m.
+
+    Those that coincide in all designs count once.
+
+    Parameters
+    ----------
+    places : (..., B) of the bearings, m.
+    """
+    loaded = planes(layout)
+    supported = np.broadcast_to(places, (*loaded.shape[:-1], places.shape[-1]))
+    every = np.sort(np.concatenate([loaded, supported], axis=-1), axis=-1)
+    apart = np.diff(every, axis=-1, prepend=-np.inf) > 0.0
+    return every[..., np.any(apart, axis=tuple(range(every.ndim - 1)))]
+
+
+def bending_influence(layout: Layout, places: Real, influence: Influence, corners: Real) -> Real:
+    """Bending moments at corners (..., S) m for one unit of load in every plane, (..., S, L) m."""
     loaded = planes(layout)
     reaction = influence(places, loaded).astype(complex)
     unit = np.broadcast_to(np.eye(loaded.shape[-1], dtype=complex), (*loaded.shape, loaded.shape[-1]))
-    return bending_moment(places, reaction, loaded, unit, stations).real
+    return bending_moment(places, reaction, loaded, unit, corners).real
 
 
 def planes(layout: Layout) -> Real:

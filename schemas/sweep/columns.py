@@ -2,7 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from schemas.outputs import OUTPUT_COLUMNS, Column
+from schemas.machine import Machine
+from schemas.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.target import Target, pointer
 
@@ -63,8 +64,20 @@ def _columns(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
         yield from _CERTIFICATE
     for output in base.outputs:
         yield from OUTPUT_COLUMNS[output]
+        yield from _of_each(base.machine, output)
     if optimizes:
         for k, web in enumerate(base.machine.webs):
             path = pointer(("machine", "webs", k))
             yield Column(f"mass_kg.{web.name}", "number", "kg", "mass of the counterweight on this web", path)
             yield Column(f"angle_deg.{web.name}", "number", "deg", "its angle as drawn at shaft angle 0", path)
+
+
+def _of_each(machine: Machine, output: str) -> Iterator[Column]:
+    """Columns of an output for each of the parts that it is about; none where the machine has no such parts."""
+    if output not in COLUMNS_OF_EACH:
+        return
+    parts, columns = COLUMNS_OF_EACH[output]
+    found = getattr(machine, parts, ())
+    for k, label in enumerate(labels([part.name for part in found])):
+        for column in columns:
+            yield column._replace(name=f"{column.name}.{label}", source=pointer(("machine", parts, k)))

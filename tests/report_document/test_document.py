@@ -178,4 +178,4 @@ def test_formulas(text: str, runs: list[tuple[str, str]]) -> None:
 
 def test_every_output_has_its_chapter() -> None:
     # the first order and the stages stand at places of their own
-    assert set(CHAPTERS) | {"residual", "stages"} == set(get_args(OutputName))
+    assert set(CHAPTERS) | {"residual", "stages", "balance_rate"} == set(get_args(OutputName))

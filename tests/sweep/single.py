@@ -12,6 +12,7 @@ from optimizer.optimize import optimize
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.sweep import run_chunk
 from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
+from schemas.outputs import Order
 from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
 from service.validation import InvalidRequest, check, pointer
@@ -129,6 +130,7 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
         yield "force_peak_N", None if after is None else after.force.peak_N
         yield "moment_peak_Nm", None if after is None else after.moment.peak_Nm
     yield from _drive_figures(answer)
+    yield from _balance_figures(request, answer)
 
 
 def _certificate_figures(certificate: Certificate) -> Any:
@@ -168,10 +170,46 @@ def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
     if answer.overturning is not None:
         yield "peak_overturning_Nm", answer.overturning.peak_Nm
     if answer.main_bearings is not None:
-        loads = [bearing.after for bearing in answer.main_bearings.bearings]
-        yield "peak_bearing_load_N", max(load.peak_N for load in loads) if all(loads) else None
+        peaks = {one.name: None if one.after is None else one.after.peak_N for one in answer.main_bearings.bearings}
+        fitted = None not in peaks.values()
+        yield "peak_bearing_load_N", max(peaks.values()) if fitted else None
+        yield "peak_bending_Nm", answer.main_bearings.bending.peak_Nm if fitted else None
+        for name, peak in peaks.items():
+            yield f"bearing_peak_N.{name}", peak
     if answer.pin_loads is not None:
         yield "peak_pin_load_N", answer.pin_loads.peak_N
+
+
+def _balance_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
+    """Orders, stages and balance rates, which are known without an angle."""
+    if answer.orders is not None:
+        fitted = {one.order: one for one in answer.orders.after or ()}
+        for one in answer.orders.before:
+            # counterweights change the first order alone; without them there is nothing with them
+            with_them = fitted.get(one.order, one if one.order > 1 else None)
+            yield from _order_figures(one.order, with_them)
+    for stage in answer.stages or ():
+        yield f"stage_value.{stage.stage}", stage.value
+        yield f"stage_remaining.{stage.stage}", stage.remaining if stage.stage not in ("V", "VI") else stage.value
+    if "balance_rate" in request.base.outputs:
+        throws = getattr(request.base.machine, "throws", ())
+        named = all(throw.name is not None for throw in throws)
+        for k, throw in enumerate(throws):
+            rate = answer.balance_rate[k] if answer.balance_rate else None
+            label = throw.name if named else k
+            yield f"balance_rate.{label}", None if rate is None else rate.rate
+            yield f"balance_rate_sideways.{label}", None if rate is None else rate.sideways
+
+
+def _order_figures(number: int, order: Order | None) -> Any:
+    for quantity, unit in (("force", "N"), ("moment", "Nm")):
+        of = None if order is None else getattr(order, quantity)
+        yield f"{quantity}_peak_{unit}.order_{number}", None if of is None else getattr(of, f"peak_{unit}")
+        for sense in ("co_rotating", "counter_rotating"):
+            phasor = None if of is None else getattr(of, sense)
+            for part in ("real", "imag"):
+                name = f"{quantity}_{sense}_{part}_{unit}.order_{number}"
+                yield name, None if phasor is None else getattr(phasor, f"{part}_{unit}")
 
 
 def numeric_paths(request: SweepRequest) -> list[str]:

@@ -12,7 +12,8 @@ from tests.analyze.driven import STYLES, random_driven
 from tests.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table
 
 GOAL = {"moment_weight": 1.5, "direction_weights": {"x": 1.0, "y": 0.8}}
-DRIVE = ["gas", "piston_force", "rod_loads", "torque", "flywheel", "overturning", "main_bearings"]
+TURN = ["gas", "piston_force", "rod_loads", "torque", "flywheel", "overturning", "main_bearings"]
+DRIVE = [*TURN, "orders", "stages", "balance_rate"]
 TABLE = {"angle_deg": [0, 90, 200, 360], "torque_Nm": [10, 12, 14, 10]}
 
 
