@@ -2,6 +2,7 @@
 
 import logging
 import time
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -20,7 +21,7 @@ from optimizer.formulate import given_ceilings, limited, smallest_peak
 from optimizer.outputs import OUTPUTS, prepare
 from optimizer.outputs import fields as answered
 from optimizer.own_solver import own_solver
-from optimizer.program.certificate import objective_lower_bound
+from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.optima import Optima, optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
@@ -40,7 +41,8 @@ from schemas.answers import (
     Timing,
 )
 from schemas.base import FieldProblem
-from schemas.proof import InfeasibilityMultipliers, Multipliers
+from schemas.proof import InfeasibilityMultipliers
+from schemas.proof import Multipliers as PrintedMultipliers
 from schemas.requests import OptimizeRequest
 
 _LOG = logging.getLogger(__name__)
@@ -146,7 +148,7 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict
         "certificate": Certificate(
             **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
             implied_max_mass_kg=implied_max_mass(machine, best.program.limits.max_mass)[0],
-            multipliers=Multipliers(objective=proofs.objective, mass=proofs.mass),
+            multipliers=PrintedMultipliers(objective=proofs.objective, mass=proofs.mass),
         ),
     }
 
@@ -179,16 +181,33 @@ def finite_or_null(value: Real | float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _conflict(request: OptimizeRequest, best: Certified, most: Real, solver: Solver) -> tuple[Statement, Optima]:
-    """The program and the proof that its ceilings conflict, whatever the limits ``most`` (1, K) let the webs carry."""
+def _conflict(
+    request: OptimizeRequest, best: Certified, most: Real, alone: Mapping[str, Multipliers], solver: Solver
+) -> tuple[Statement, Optima]:
+    """The program and the proof that its ceilings conflict, whatever the limits ``most`` (1, K) let the webs carry.
+
+    Parameters
+    ----------
+    alone : what proves the smallest peak of each response by itself under these limits. Where a ceiling is below it,
+        that is the proof of the conflict as well.
+    """
     program = replace(best.program, limits=replace(best.program.limits, max_mass=most))
-    if np.all(objective_lower_bound(program.excess(), best.found.conflict) > CEILING_ROUNDING):
-        return program, best.found
+    excess = program.excess()
+    by_one = (_of_one_ceiling(excess, n, alone[name]) for n, name in enumerate(program.ceilings.names))
+    for proof in (best.found.conflict, *by_one):
+        if np.all(objective_lower_bound(excess, proof) > CEILING_ROUNDING):
+            return program, replace(best.found, conflict=proof)
     found = optima(program, request.accuracy.relative_gap, False, solver)
     if np.all(found.unreachable):
         return program, found
     _LOG.error("a conflict of ceilings is proven for less than the reach that its answer names")
     return best.program, best.found
+
+
+def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
+    """The proof of a smallest peak (1, ...) as one of the smallest excess: all on the row of its own ceiling."""
+    only = (np.arange(excess.row.size) == ceiling).astype(float)[None]
+    return Multipliers(peak.term * only, peak.row * only, np.zeros_like(excess.ceilings.norms.constant))
 
 
 def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solver: Solver) -> dict[str, object]:
@@ -200,15 +219,16 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solv
     # one reach for all that is proven here
     reached = (best.program, *(within_reach(peak, solver) for peak in peaks.values()))
     most = np.max([each.limits.max_mass for each in reached], axis=0)
-    smallest, bound, proofs = {}, {}, {}
+    smallest, bound, multipliers, proofs = {}, {}, {}, {}
     for name, each in peaks.items():
         peak = replace(each, limits=replace(best.program.limits, max_mass=most))
         alone = optima(peak, 1e-9, False, solver)
+        multipliers[name] = alone.multipliers
         proofs[name] = named(peak, physical(peak, alone.multipliers, "objective", square).chosen(0))
         smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
     impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
     closest = counterweights(machine, best.mass_kg[0], best.angle_deg[0])
-    (proof,) = named_proofs(*_conflict(request, best, most, solver), square, request.objective.least_mass)
+    (proof,) = named_proofs(*_conflict(request, best, most, multipliers, solver), square, request.objective.least_mass)
     return {
         "counterweights": (),
         "total_mass_kg": None,

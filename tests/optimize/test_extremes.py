@@ -43,7 +43,8 @@ def test_random_bodies_raise_nothing(number: int) -> None:
     tried(number)
 
 
-@pytest.mark.parametrize("number", [228, 345, 610, 1124, 1840])
+@pytest.mark.parametrize("number", [228, 345, 610, 1124, 1840, 3366])
 def test_what_the_checker_once_refuted(number: int) -> None:
-    # a price of the budget below a gain, a conflict proven for less than the reach, a ceiling of 0 on nothing
+    # a price of the budget below a gain, a conflict proven for less than the reach (of both ceilings, and where one
+    # alone is out of reach), a ceiling of 0 on nothing
     optimized(body(random.Random(f"0/{number}")))
