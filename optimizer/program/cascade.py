@@ -15,7 +15,7 @@ from optimizer.arrays import Complex
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.compiled import suits_kernel
 from optimizer.program.edge import AMPLE, Unreachable, at_rest, proven_again, raised, smallest_excess
-from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
+from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS, PRECISIONS, Precision
 from optimizer.program.polish import lightened, polished
 from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, Found, enough, interior_point
@@ -62,7 +62,7 @@ def _under_ceilings(statement: Statement, asked: Asked, solver: Solver, quick: F
             return replace(found, certify_s=found.certify_s + nearest.certify_s)
     # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
     higher = raised(statement)
-    quick = interior_point(higher, asked)
+    quick = interior_point(higher, asked, inside=nearest.unbalance)
     found = quick.lightest if quick.certified else _by_all(higher, asked, solver, quick, nearest.unbalance)
     return proven_again(statement, replace(found, certify_s=found.certify_s + nearest.certify_s))
 
@@ -92,8 +92,10 @@ def _by_all(
         few = 0 < statement.limits.radius.size <= precision.most_webs
         if enough(found, asked) or not few or not suits_kernel(statement):
             break
-        fine = polished(statement, asked, interior_point(statement, asked, precision), inside)
-        fine = lightened(statement, asked, fine, precision)
+        fine = polished(statement, asked, interior_point(statement, asked, precision, inside), inside)
+        if precision is not FIFTY_DIGITS:
+            # to which no unit of mass is too coarse
+            fine = lightened(statement, asked, fine, precision)
         found = fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
     return found
 

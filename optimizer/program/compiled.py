@@ -56,7 +56,12 @@ def suits_kernel(statement: Statement) -> bool:
 
 
 def both_stages(
-    statement: Statement, share: Real, demand: Real, least_mass: bool, precision: Precision | None = None
+    statement: Statement,
+    share: Real,
+    demand: Real,
+    least_mass: bool,
+    precision: Precision | None = None,
+    at_least: Real | float = 0.0,
 ) -> BothStages:
     """Both stages of N statements of one shape, one leading axis (N,).
 
@@ -67,12 +72,14 @@ def both_stages(
     share : (N,) how far above the smallest objective an optimum may be, in units of the objective.
     demand : (N,) gap that is asked for; one above the share is met by less than the best.
     precision : solve in finer numbers, interpreted: a thousand times slower.
+    at_least : (N,) what the objective is known to come to under the ceilings, which may be far more than at rest.
     """
     if precision is not None:
         finest = precision.finest
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
-        return _judged(statement, share, demand, least_mass, _solve(statement, share, least_mass, finer, precision))
-    solved = _solve(statement, share, least_mass, _DOUBLE)
+        solved = _solve(statement, share, least_mass, finer, precision, at_least)
+        return _judged(statement, share, demand, least_mass, solved)
+    solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
     found = _judged(statement, share, demand, least_mass, solved)
     if not statement.ceilings.names or np.all(found.certified):
         return found
@@ -84,7 +91,10 @@ def both_stages(
         if not left.size:
             break
         part = statement.chosen(left)
-        points = solved.chosen(left) if tolerances is _DOUBLE else _solve(part, share[left], least_mass, tolerances)
+        if tolerances is _DOUBLE:
+            points = solved.chosen(left)
+        else:
+            points = _solve(part, share[left], least_mass, tolerances, at_least=part.objective(inside))
         again = _judged(part, share[left], demand[left], least_mass, points.pulled(part, inside))
         found.put(left[again.certified], again.chosen(again.certified))
         left, inside = left[~again.certified], inside[~again.certified]
@@ -162,7 +172,12 @@ class _Solved:
 
 
 def _solve(
-    statement: Statement, share: Real, least_mass: bool, tolerances: _Tolerances, precision: Precision | None = None
+    statement: Statement,
+    share: Real,
+    least_mass: bool,
+    tolerances: _Tolerances,
+    precision: Precision | None = None,
+    at_least: Real | float = 0.0,
 ) -> _Solved:
     if statement.limits.radius.shape[-1] == 0:
         # nothing to choose
@@ -176,7 +191,8 @@ def _solve(
     reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
     unit = np.sum(np.abs(norms.constant), axis=-1)
     reachable = np.sum(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
-    unit = np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0))
+    # a level far above where the search starts is hardly found
+    unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
     # interpreted numbers would warn where compiled ones end in a NaN, and the search with it
     with np.errstate(all="ignore"):
         v, cone, row, mass_unit = method(

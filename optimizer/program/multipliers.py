@@ -74,21 +74,27 @@ def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> I
         yield usable.times(np.asarray((1.0 - 8 * np.finfo(float).eps) / most))
 
 
-def supporting_multipliers(statement: Statement, u: Complex) -> Multipliers:
+def supporting_multipliers(statement: Statement, u: Complex) -> Iterator[Multipliers]:
     """Multipliers of the least mass for which every counterweight inside its limits is worth its mass exactly.
 
-    R_k w_k = -u_k / |u_k| for those webs, by least squares; w_k as in docs/mathematics.md section 5.
+    R_k w_k = -u_k / |u_k| for those webs, by least squares; w_k as in docs/mathematics.md section 5. First of terms
+    and ceilings together, then of the ceilings alone, which are all that holds up a mass that they call for.
     """
     inside = _interior(statement, u) & (np.abs(u) > TOUCHED * np.max(np.abs(u), initial=0.0))
+    if not np.any(inside):
+        return
     terms = statement.norms.constant.size
     influence = np.concatenate([statement.norms.influence[:, inside], statement.ceilings.norms.influence[:, inside]])
     size = np.max(np.abs(influence), axis=1, initial=0.0)
     size = np.where(size > 0, size, 1.0)
     worth = -u[inside] / np.abs(u[inside]) / statement.limits.radius[inside]
-    found = np.linalg.lstsq(np.conj(influence / size[:, None]).T, worth, rcond=None)[0] / size
-    row = np.zeros(statement.floor.size)
-    np.maximum.at(row, statement.row, np.abs(found[:terms]))
-    return Multipliers(found[:terms], row, found[terms:])
+    every = np.arange(size.size)
+    for part in (every, every[terms:]) if statement.ceilings.names else (every,):
+        found = np.zeros(size.size, complex)
+        found[part] = np.linalg.lstsq(np.conj(influence[part] / size[part, None]).T, worth, rcond=None)[0] / size[part]
+        row = np.zeros(statement.floor.size)
+        np.maximum.at(row, statement.row, np.abs(found[:terms]))
+        yield Multipliers(found[:terms], row, found[terms:])
 
 
 def _interior(statement: Statement, u: Complex) -> np.ndarray:

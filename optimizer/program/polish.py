@@ -32,7 +32,7 @@ def polished(statement: Statement, asked: Asked, found: Found, inside: Complex |
         smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
     if asked.least_mass and smallest.below_ceilings:
         counted = np.asarray(smallest.objective + asked.share)
-        candidates = [supporting_multipliers(statement, lightest.unbalance)] if np.any(lightest.unbalance) else []
+        candidates = list(supporting_multipliers(statement, lightest.unbalance))
         if lightest.mass_multipliers is not None:
             candidates += mass_multipliers(statement, lightest.unbalance, lightest.mass_multipliers)
         for multipliers in candidates:

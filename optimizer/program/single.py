@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.arrays import Complex
 from optimizer.program.compiled import MASS_ENOUGH, BothStages, both_stages, suits_kernel
 from optimizer.program.kernel.finer_numbers import Precision
 from optimizer.program.multipliers import resting_multipliers
@@ -29,15 +30,23 @@ class Found(NamedTuple):
     certified: bool
 
 
-def interior_point(statement: Statement, asked: Asked, precision: Precision | None = None) -> Found:
-    """What the interior point finds, compiled or in finer numbers; rest, where the program is none for it."""
+def interior_point(
+    statement: Statement, asked: Asked, precision: Precision | None = None, inside: Complex | None = None
+) -> Found:
+    """What the interior point finds, compiled or in finer numbers; rest, where the program is none for it.
+
+    Parameters
+    ----------
+    inside : a point that keeps the ceilings, or nearly so.
+    """
     radius = statement.limits.radius
     if radius.size == 0 or not suits_kernel(statement):
         resting = evaluated(statement, np.zeros(radius.shape, complex))
         resting = proven(statement, resting, resting_multipliers(statement))
         return Found(resting, resting, False)
     share, demand = np.array([asked.share]), np.array([asked.demand])
-    found = both_stages(statement.alone(), share, demand, asked.least_mass, precision)
+    at_least = 0.0 if inside is None else float(statement.objective(inside))
+    found = both_stages(statement.alone(), share, demand, asked.least_mass, precision, at_least)
     return only(statement, asked, found, precision.name if precision else INTERIOR_POINT)
 
 

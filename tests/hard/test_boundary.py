@@ -26,3 +26,14 @@ def test_many_webs_on_the_boundary() -> None:
         each for each in ladders(np.random.default_rng((0, 120)), (-1e-12, 1e-12)) if each.place == "reachable"
     )
     assert [one.status for one in reachable.asked] == ["optimal", "optimal"]
+
+
+@pytest.mark.parametrize(("number", "places"), [(141, {"reachable"}), (243, {"reachable", "at rest", "unlimited"})])
+def test_ceilings_that_cost_far_more_or_far_less_than_what_is_weighed(number: int, places: set[str]) -> None:
+    """An optimum of 367 times the objective at rest; a web of 1e-7 kg, whose mass the ceiling alone holds up."""
+    near = (-1e-8, -1e-9, 0.0, 1e-11, 1e-8)
+    found = [each for each in ladders(np.random.default_rng((0, number)), near) if each.place in places]
+    assert {each.place for each in found} == places
+    for ladder in found:
+        assert not ladder.faults, (ladder.place, ladder.faults)
+        assert {one.status for one in ladder.asked} <= {"optimal", "infeasible"}, ladder.place

@@ -125,10 +125,8 @@ class Solver:
         if start is not None:
             known = first.weighed(start.mass_lower_bound, start.mass_multipliers, start.mass_target)
             best = known.moved_to(statement, start.unbalance) if admit(best, start) else known
-        if np.any(best.unbalance):
-            multipliers = supporting_multipliers(statement, best.unbalance)
-            bound = float(mass_lower_bound(statement, multipliers, np.asarray(counted)))
-            best = best.weighed(bound, multipliers, counted)
+        for each in supporting_multipliers(statement, best.unbalance):
+            best = best.weighed(float(mass_lower_bound(statement, each, np.asarray(counted))), each, counted)
         for attempt in _MASS_ATTEMPTS:
             inner = max(target - attempt.target_margin * share, 0.5 * (target + first.lower_bound))
             clip = min(max(attempt.clip(natural, largest), needed), largest)
