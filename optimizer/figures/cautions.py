@@ -1,6 +1,7 @@
 """Warnings of an answer: what is right as it stands and may still be taken for something else."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -192,6 +193,8 @@ def _not_closed(told: Told) -> Iterator[Caution]:
     """Peaks over the turn of which less is proven than a designer takes for granted."""
     force, moment = _sizes(told.scene)
     for output, field in told.fields.items():
+        if not isinstance(field, Model) or not _bracketed(field.__class__):
+            continue
         for unit, size in (("N", force), ("Nm", moment)):
             brackets = [found for name, found in _values(field) if name.endswith(f"_bracket_{unit}")]
             wide = [found for found in brackets if _width(found) > _ALIKE * max(np.abs(found))]
@@ -215,6 +218,12 @@ _SPOKEN = {"N": "N", "Nm": "N m"}
 
 def _width(bracket: Sequence[float]) -> float:
     return bracket[1] - bracket[0]
+
+
+@cache
+def _bracketed(model: type[Model]) -> bool:
+    """Whether there are brackets anywhere in a model; most answers hold none, and are not looked through."""
+    return "_bracket_" in str(model.model_json_schema())
 
 
 def _of(name: str, unit: str) -> bool:
