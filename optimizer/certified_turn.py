@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import run
+from optimizer.figures import sensitivity
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import touched_limits
@@ -90,6 +91,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
                 )
             ),
             "shadow_prices": (),
+            "sensitivity": sensitivity.over_turn(asked.program, u, values, square),
             "certificate": certificate,
         },
     )

@@ -114,8 +114,13 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
     ----------
     tolerance : (responses,) or one for all, of upper - lower, relative to lower.
     """
-    asked = np.broadcast_to(tolerance, len(responses))
     offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
+    return peaks_about(responses, offset, tolerance)
+
+
+def peaks_about(responses: Sequence[TurnResponse], offset: Complex, tolerance: Reals) -> Bracket:
+    """Peaks (responses,) with what is added to each curve (responses,); a response may stand there more than once."""
+    asked = np.broadcast_to(tolerance, len(responses))
     number: Index = np.array([response.number for response in responses], dtype=np.intp)
     together: dict[int, list[int]] = {}
     for k, response in enumerate(responses):

@@ -17,6 +17,7 @@ from optimizer.figures.first_order import first_order, smallest_peaks, smallest_
 from optimizer.figures.limits import shadow_prices as priced
 from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
+from optimizer.figures.sensitivity import of_first_order
 from optimizer.formulate import given_ceilings, limited, smallest_peak
 from optimizer.outputs import OUTPUTS, prepare
 from optimizer.outputs import fields as answered
@@ -80,7 +81,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         status=str(best.status[0]),
         status_reason=str(best.reason[0]),
         **fields,
-        **answered(scene, None if unreachable else best.unbalance[0], _ALWAYS),
+        **answered(scene, None if unreachable else best.unbalance[0], _ALWAYS, fields),
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(
@@ -101,7 +102,7 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
     solving = time.perf_counter()
     best = certified_turn(request, scene)
     reporting = time.perf_counter()
-    figures = answered(scene, best.unbalance, always)
+    figures = answered(scene, best.unbalance, always, best.fields)
     end = time.perf_counter()
     return OptimizeAnswer(
         status=best.status,
@@ -145,6 +146,7 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict
         "total_mass_kg": mass,
         "active_limits": touched,
         "shadow_prices": _prices(request, scene, best, fitted, touched),
+        "sensitivity": of_first_order(best.program.chosen(0), u, scene.omega_squared),
         "certificate": Certificate(
             **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
             implied_max_mass_kg=implied_max_mass(machine, best.program.limits.max_mass)[0],

@@ -1,6 +1,7 @@
 """All outputs: what they need, and what they come to in an answer and in a sweep."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from types import MappingProxyType
 from typing import Any
 
 from optimizer.arrays import Complex, Real
@@ -57,20 +58,26 @@ def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
     return simulated(request, {name: OUTPUTS[name].needs for name in outputs}, request.angles.count)
 
 
-def fields(scene: Prepared, unbalance: Complex | None, always: tuple[str, ...] = ()) -> dict[str, Any]:
+def fields(
+    scene: Prepared,
+    unbalance: Complex | None,
+    always: tuple[str, ...] = (),
+    proven: Mapping[str, Any] = MappingProxyType({}),
+) -> dict[str, Any]:
     """Fields of the answer for the outputs of a scene without and with counterweights.
 
     Parameters
     ----------
     unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
     always : outputs that are answered whether they were asked for or not.
+    proven : fields of the answer that tell what is proven of counterweights that were chosen.
     """
     outputs = dict.fromkeys((*always, *scene.request.outputs))
     found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
         found["floor"] = floor(scene.first_order())
     found["balance_rate"] = balance_rate(scene.machine, unbalance)
-    found["warnings"] = cautions(scene, unbalance, found)
+    found["warnings"] = cautions(scene, unbalance, found, proven)
     return found
 
 

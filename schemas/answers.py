@@ -18,6 +18,7 @@ from schemas.quantities import (
     NewtonMetres,
     Newtons,
 )
+from schemas.robust import Sensitivity
 
 WebLimit = Literal[
     "max_mass",
@@ -322,6 +323,11 @@ class OptimizeAnswer(OutputFields, Answer):
         "machine's order and then the machine's limits; empty if infeasible, and where the objective looks at the "
         "whole turn",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
+    )
+    sensitivity: Sensitivity | None = Field(
+        None,
+        description="what one degree and one per cent on all counterweights together may cost; null if infeasible",
+        examples=[{"objective_rise_per_deg": 105.4, "objective_rise_per_percent": 60.4}],
     )
     residual: Residual = Field(description="first order before and after", examples=[{"before": {}, "after": {}}])
     floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 2498.7}])

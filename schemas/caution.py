@@ -15,6 +15,7 @@ CautionCode = Literal[
     "bearing_load_grows",
     "bending_moment_grows",
     "peak_not_closed",
+    "fragile_optimum",
 ]
 
 

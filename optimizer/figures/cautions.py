@@ -12,12 +12,13 @@ from optimizer.figures.peaks import bearing_and_bending_curves, of_shaft
 from optimizer.formulate import span
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.scene import Prepared
-from schemas.answers import Residual
+from schemas.answers import Certificate, Residual
 from schemas.base import Model
 from schemas.caution import Caution, CautionCode
 from schemas.dynamics import MainBearings
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
+from schemas.robust import Sensitivity
 from schemas.sweep import pointer
 
 #: a share of what the machine shakes with that is worth a word
@@ -28,6 +29,9 @@ _BARE = 0.5
 _FAR = 2.0
 #: loads that differ by less than this share are alike; so are the ends of a closed bracket
 _ALIKE = 1e-6
+#: an optimum of which little errors cost this share of what it gains is fragile; of a plain counterweight a degree
+#: costs 0.017 of it
+_FRAGILE = 0.5
 #: a peak that cancels to this share of what it is the sum of is rounding
 _CANCELLED = 1e-9
 
@@ -37,17 +41,20 @@ class Told(NamedTuple):
 
     scene: Prepared
     unbalance: Complex | None  # (webs,) kg m; None where there are none to show
-    fields: Mapping[str, Any]  # of the answer, by name
+    fields: Mapping[str, Any]  # of the answer, by name: of its outputs
+    proven: Mapping[str, Any]  # and of what is proven of the counterweights
 
 
-def cautions(scene: Prepared, unbalance: Complex | None, fields: Mapping[str, Any]) -> tuple[Caution, ...]:
+def cautions(
+    scene: Prepared, unbalance: Complex | None, fields: Mapping[str, Any], proven: Mapping[str, Any]
+) -> tuple[Caution, ...]:
     """All warnings of one machine, in a fixed order.
 
     Parameters
     ----------
-    fields : of the answer that has been made so far.
+    fields, proven : of the answer that has been made so far; what is proven only where counterweights were chosen.
     """
-    told = Told(scene, unbalance, fields)
+    told = Told(scene, unbalance, fields, proven)
     return tuple(caution for watch in WATCHES for caution in watch(told))
 
 
@@ -244,6 +251,37 @@ def _values(field: Any) -> Iterator[tuple[str, Any]]:
             yield from _values(item)
 
 
+def _fragile(told: Told) -> Iterator[Caution]:
+    """Counterweights of which little errors cost much of what they gain."""
+    certificate: Certificate | None = told.proven.get("certificate")
+    sensitivity: Sensitivity | None = told.proven.get("sensitivity")
+    if certificate is None or sensitivity is None:
+        return
+    gain = certificate.objective_without_counterweights - certificate.objective
+    for what, rise in (
+        ("One degree", sensitivity.objective_rise_per_deg),
+        ("One per cent of mass", sensitivity.objective_rise_per_percent),
+    ):
+        if gain > 0.0 and rise > _FRAGILE * gain:
+            yield Caution(
+                code="fragile_optimum",
+                message=f"{what} on all counterweights together may cost {_plain(rise)} of the {_plain(gain)} that "
+                "they gain: large ones balance one another. State tolerances, and what is best in their worst case is "
+                "found.",
+                pointer="/tolerances",
+            )
+            return
+
+
 #: what is looked at, in the order of the answer
 Watch = Callable[[Told], Iterator[Caution]]
-WATCHES: tuple[Watch, ...] = (_no_gas, _second_order, _bare_crank, _component_grows, _far_web, _loads_grow, _not_closed)
+WATCHES: tuple[Watch, ...] = (
+    _no_gas,
+    _second_order,
+    _bare_crank,
+    _component_grows,
+    _far_web,
+    _loads_grow,
+    _not_closed,
+    _fragile,
+)

@@ -20,6 +20,7 @@ SUFFIXES = {
     "_m": "m",
     "_kg": "kg",
     "_deg": "deg",
+    "_per_deg": "1/deg",
     "_rpm": "rpm",
     "_N": "N",
     "_Nm": "N m",
