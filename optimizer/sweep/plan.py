@@ -7,12 +7,12 @@ import pyarrow as pa
 from optimizer.errors import MissingInput
 from optimizer.outputs import missing_inputs
 from optimizer.sweep.table import result_schema
-from optimizer.sweep.variation import with_fields
 from optimizer.sweep.work import work_per_design
 from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest
 from schemas.rules import Path
 from schemas.sweep import Column, SweepColumn, SweepEstimate, SweepRequest
+from schemas.variation import with_fields
 
 #: seconds of work in a chunk: long against the cost of handing it out, short against the patience of a client
 _CHUNK_S = 1.0

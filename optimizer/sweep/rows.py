@@ -11,11 +11,11 @@ from optimizer.outputs import columns, input_rules
 from optimizer.program.reference.solver import Solver
 from optimizer.sweep.counterweights import given, optimal, shape_keys
 from optimizer.sweep.designs import axis_values
-from optimizer.sweep.variation import with_fields
 from optimizer.sweep.work import work_per_design
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, all_rules
 from schemas.sweep import SweepRequest, pointer
+from schemas.variation import with_fields
 
 Designs = NDArray[np.int64]
 #: rows times angles that are worked on at once, which bounds the memory

@@ -4,7 +4,7 @@ from schemas.outputs import Column
 from schemas.sweep.answers import JobState, SweepColumn, SweepEstimate, SweepLinks, SweepState
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.request import SweepRequest, TopFilter
-from schemas.sweep.target import Target, pointer
+from schemas.target import Target, pointer
 
 __all__ = [
     "MAX_DESIGNS",

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Sequence
 from schemas.machine import Machine
 from schemas.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep.target import Target, pointer
+from schemas.target import Target, pointer
 
 _ALWAYS = (
     Column(

@@ -13,7 +13,7 @@ from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
-from schemas.sweep.target import BadPointer, Target, find_target
+from schemas.target import BadPointer, Target, find_target
 
 MAX_AXES = 64
 #: parts of a request that an axis may vary

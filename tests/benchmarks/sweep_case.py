@@ -11,9 +11,9 @@ from optimizer.formulate import formulate
 from optimizer.outputs import prepare
 from optimizer.program.statement import Statement
 from optimizer.sweep.designs import axis_values
-from optimizer.sweep.variation import with_fields
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
+from schemas.variation import with_fields
 from tests.benchmarks.cases import eight_webs
 
 #: largest mass of a counterweight, kg: below what most of the designs call for

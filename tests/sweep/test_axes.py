@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 
 from schemas.sweep import SweepRequest
-from schemas.sweep.target import BadPointer, find_target
+from schemas.target import BadPointer, find_target
 from service.validation import InvalidRequest, check, pointer
 from tests.sweep.single import example, numeric_paths, sweep
 

@@ -7,7 +7,7 @@ import pytest
 
 from schemas.outputs import OUTPUT_COLUMNS
 from schemas.sweep import SweepRequest
-from schemas.sweep.target import find_target
+from schemas.target import find_target
 from tests.analyze.driven import STYLES, random_driven
 from tests.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table
 

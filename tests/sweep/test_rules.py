@@ -11,7 +11,7 @@ from optimizer.outputs import require_inputs
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.rules import Rule, first_of, larger
 from schemas.sweep import SweepRequest
-from schemas.sweep.target import find_target, pointer
+from schemas.target import find_target, pointer
 from service.validation import InvalidRequest, check
 from tests.analyze.driven import random_driven
 from tests.sweep.single import numeric_paths, put, sweep, table
