@@ -47,9 +47,22 @@ class Counterweight(Model):
     angle_deg: Degrees = Field(
         description="angle as drawn at shaft angle 0, from 0 up to 360; 0 where the mass is 0", examples=[180.0]
     )
+    position_m: Metres = Field(description="plane of the counterweight along the shaft", examples=[0.28])
+    radius_m: Metres = Field(description="radius of its centre of mass", examples=[0.25])
+    throw: int | None = Field(
+        description="number from 0 of the throw whose crank it belongs to; null where two are equally near",
+        examples=[0],
+    )
+    angle_from_crank_deg: Degrees | None = Field(
+        description="angle from that crank, from 0 up to 360: 180 is opposite it; null without crank or without mass",
+        examples=[180.0],
+    )
     mass_radius_kg_m: KilogramMetres = Field(description="mass times radius", examples=[6.125])
     x_kg_m: KilogramMetres = Field(description="x component of mass times radius", examples=[-6.125])
     y_kg_m: KilogramMetres = Field(description="y component of mass times radius", examples=[0.0])
+    centrifugal_force_N: Newtons = Field(
+        description="what has to hold it, at overspeed_rpm of the machine", examples=[16792.0]
+    )
     active_limits: tuple[WebLimit, ...] = Field(
         description="limits of this web that the counterweight touches", examples=[["max_mass"]]
     )
@@ -119,7 +132,7 @@ class Residual(Model):
 
 
 class BalanceRate(Model):
-    """How much of the rotating unbalance of a throw its own webs balance; a web belongs to the nearest throw."""
+    """How much of the rotating unbalance of a throw its own webs balance; theirs is `throw`, or else the nearest."""
 
     throw: int = Field(description="number of the throw in the machine, from 0", examples=[0])
     name: str | None = Field(description="name of the throw", examples=["1"])

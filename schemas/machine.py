@@ -104,6 +104,12 @@ class Web(Model):
         description="angles that the counterweight may take; null allows every angle",
         examples=[{"centre_deg": 180, "half_angle_deg": 60}],
     )
+    throw: Annotated[Count, Field(ge=0, lt=MAX_THROWS)] | None = Field(
+        None,
+        description="number from 0 of the throw whose crank the web belongs to; null is the nearest, and none where"
+        " two are equally near",
+        examples=[0],
+    )
 
 
 class Rotor(Ruled):
@@ -114,6 +120,9 @@ class Rotor(Ruled):
         None, max_length=2000, description="free text, such as which data are assumed", examples=["row spacing assumed"]
     )
     speed_rpm: Speed = Field(description="speed of the shaft", examples=[500.0])
+    overspeed_rpm: Annotated[Speed | None, Unit("rpm")] = Field(
+        None, description="highest speed that counterweights have to bear; null is speed_rpm", examples=[None]
+    )
     rotation: Literal["ccw", "cw"] = Field(
         "ccw", description="sense of rotation seen from +z looking at the origin", examples=["ccw"]
     )
@@ -132,6 +141,9 @@ class Rotor(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from _unique_names(("webs",), [web.name for web in self.webs])
+        if self.overspeed_rpm is not None:
+            slower = self.overspeed_rpm < self.speed_rpm
+            yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
 
 
 class ReciprocatingMachine(Rotor):
@@ -165,6 +177,10 @@ class ReciprocatingMachine(Rotor):
         yield from _unique_names(("throws",), [throw.name for throw in self.throws])
         for t, throw in enumerate(self.throws):
             yield from _throw_rules(("throws", t), throw)
+        for k, web in enumerate(self.webs):
+            if web.throw is not None:
+                beyond = web.throw >= len(self.throws)
+                yield Rule(beyond, ("webs", k, "throw"), f"the machine has {len(self.throws)} throw(s), counted from 0")
         if self.friction is not None:
             yield from self.friction.row_rules(rows)
         yield from _bearing_rules(self.bearings)
@@ -216,6 +232,8 @@ class ScrollMachine(Rotor):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
+        for k, web in enumerate(self.webs):
+            yield Rule(web.throw is not None, ("webs", k, "throw"), "a scroll has no throws")
         both = self.rotation_torque_Nm is not None and self.tangential_gas_force_N is not None
         yield Rule(both, ("rotation_torque_Nm",), "give either the torque or the gas force")
 

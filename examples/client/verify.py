@@ -117,7 +117,8 @@ def counterweights(machine: Machine, place: Place) -> Claims:
         one = by_name.get(web.name, Place({"mass_kg": 0, "angle_deg": 0}, *place.path))
         said, mass, angle = one / "mass_kg", (one / "mass_kg").number(), (one / "angle_deg").double()
         u = (direction(angle) + machine.blur) * mass * web.radius * machine.wide
-        figures = zip(("mass_radius_kg_m", "x_kg_m", "y_kg_m"), (mass * web.radius * machine.wide, *u.parts()))
+        exactly = mass * web.radius * machine.wide, *u.parts(), web.position, web.radius
+        figures = zip(("mass_radius_kg_m", "x_kg_m", "y_kg_m", "position_m", "radius_m"), exactly)
         yield from (near("counterweights", one / field, exact) for field, exact in figures if one / field)
         yield "max_mass", said, mass, abs(mass)
         if web.limit is not None:

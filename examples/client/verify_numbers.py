@@ -143,7 +143,7 @@ KNOWN = (
     " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap "
 )
 IDLE = (
-    " name description length_m throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
+    " name description length_m throw overspeed_rpm friction flywheel bearings cylinder cylinders rotation_torque_Nm"
     " tangential_gas_force_N drive_bearing pin_circle_radius_m outputs angles fidelity multipliers symmetric points"
     " total_mass_budgets_kg bearing_measure "
 )

@@ -31,6 +31,23 @@ class Cranks(NamedTuple):
         return customary(self.rotating, self.shares)
 
 
+def shares(machine: ReciprocatingMachine) -> Real:
+    """Which share of each web belongs to each throw, (..., throws, webs); fields of the machine may hold columns."""
+    throw, web = (stacked([one.position_m for one in which]) for which in (machine.throws, machine.webs))
+    if all(one.throw is None for one in machine.webs):
+        return web_shares(throw, web)
+    return web_shares(throw, web, stacked([np.nan if one.throw is None else one.throw for one in machine.webs]))
+
+
+def own_throws(machine: Machine) -> list[int | None]:
+    """Number of the throw whose crank each web of one machine belongs to; None where it is none alone."""
+    if not isinstance(machine, ReciprocatingMachine) or not machine.webs:
+        return [None] * len(machine.webs)
+    of_webs = shares(machine).T
+    first, alone = np.argmax(of_webs, axis=-1).tolist(), np.any(of_webs == 1.0, axis=-1).tolist()
+    return [throw if one else None for throw, one in zip(first, alone, strict=True)]
+
+
 def cranks(machine: ReciprocatingMachine) -> Cranks:
     """Throws of a machine and their webs; its fields may hold columns (n,)."""
     masses = [
@@ -44,8 +61,7 @@ def cranks(machine: ReciprocatingMachine) -> Cranks:
     ]
     radii = stacked([throw.crank_radius_m for throw in machine.throws])
     crank = direction(stacked([throw.crank_angle_deg for throw in machine.throws]))
-    places = (stacked([one.position_m for one in which]) for which in (machine.throws, machine.webs))
-    return Cranks(stacked(masses) * radii * crank, web_shares(*places))
+    return Cranks(stacked(masses) * radii * crank, shares(machine))
 
 
 def balance_rate(machine: Machine, unbalance: Complex | None) -> tuple[BalanceRate, ...]:

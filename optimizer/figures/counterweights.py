@@ -3,12 +3,13 @@
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.figures.balance_rate import own_throws
 from optimizer.limits import WEB_LIMITS, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from schemas.answers import Counterweight
-from schemas.machine import Machine
+from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 
 
@@ -52,17 +53,27 @@ def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[C
     """The counterweights of a machine, one for each web."""
     touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
     vectors = unbalance(mass_kg, angles_deg, stacked([web.counterweight_radius_m for web in machine.webs])).tolist()
+    throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
+    fastest = (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(
         Counterweight(
             web=web.name,
             mass_kg=mass,
             angle_deg=angle,
+            position_m=web.position_m,
+            radius_m=web.counterweight_radius_m,
+            throw=throw,
+            # twice, because a hair below 0 comes to 360
+            angle_from_crank_deg=None
+            if throw is None or mass == 0.0
+            else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
             mass_radius_kg_m=mass * web.counterweight_radius_m,
             x_kg_m=vector.real,
             y_kg_m=vector.imag,
+            centrifugal_force_N=mass * web.counterweight_radius_m * fastest**2,
             active_limits=tuple(name for name, webs in touched.items() if webs[k]),
         )
-        for k, (web, mass, angle, vector) in enumerate(
-            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, strict=True)
+        for k, (web, mass, angle, vector, throw) in enumerate(
+            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, own_throws(machine), strict=True)
         )
     )

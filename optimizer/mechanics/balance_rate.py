@@ -1,7 +1,8 @@
 """The balance rate: which share of the rotating unbalance of each throw its own webs balance.
 
-A web belongs to the nearest throw, and to those equally near in equal shares. Rate and sideways part are the real and
-imaginary part of -e^{-jd} sum u / (m_rot r), d the angle of the crank: 1 is the customary crank, 0 a bare one.
+A web belongs to the throw that it names or else to the nearest, and to those equally near in equal shares. Rate and
+sideways part are the real and imaginary part of -e^{-jd} sum u / (m_rot r), d the angle of the crank: 1 is the
+customary crank, 0 a bare one.
 """
 
 import numpy as np
@@ -12,18 +13,23 @@ from optimizer.arrays import Complex, Real
 _TIE = 1e-9
 
 
-def web_shares(throw: Real, web: Real) -> Real:
+def web_shares(throw: Real, web: Real, own: Real | None = None) -> Real:
     """Which share of each web belongs to each throw, (..., throws, webs).
 
     Parameters
     ----------
     throw, web : (..., throws) and (..., webs) places on z, m.
+    own : (..., webs) numbers from 0 of the throws that webs name; nan is the nearest, None that of all.
     """
     distance = np.abs(throw[..., :, None] - web[..., None, :])
     least = np.min(distance, axis=-2, keepdims=True)
     extent = np.max(np.abs(throw), axis=-1)[..., None, None] + np.max(distance, axis=(-2, -1), keepdims=True, initial=0)
     near = distance <= least + _TIE * extent
-    return near / np.sum(near, axis=-2, keepdims=True)
+    shares: Real = near / np.sum(near, axis=-2, keepdims=True)
+    if own is None:
+        return shares
+    named = own[..., None, :] == np.arange(throw.shape[-1])[:, None]
+    return np.where(np.isnan(own)[..., None, :], shares, named)
 
 
 def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Complex:

@@ -1,14 +1,20 @@
 """Masses and angles as they are printed keep the limits of their webs."""
 
+import json
 from fractions import Fraction
+from pathlib import Path
+from typing import Any
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from pydantic import ValidationError
 
-from optimizer.figures.counterweights import masses_and_angles, unbalance
+from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.limits import limits
-from schemas.machine import ReciprocatingMachine
+from schemas.answers import Counterweight
+from schemas.machine import ReciprocatingMachine, ScrollMachine
 from tests.hard.cases.case import machine, throw, web
 
 #: degrees: rounding of an angle up to 360 degrees
@@ -49,3 +55,51 @@ def test_what_rounding_left_outside_is_printed_inside(
     stacked = masses_and_angles(data, np.stack([given, given]), within)
     assert np.array_equal(stacked[0], [mass, mass])
     assert np.array_equal(stacked[1], [printed, printed])
+
+
+def _fitted(own: int | None, **more: Any) -> tuple[Counterweight, ...]:
+    """Webs at 0.1, 0.5, half-way, and 0.9 m along two throws at 0 and 1 m; 2 kg at 100 degrees on each but the last."""
+    webs = [web(name, place, 5.0, 0.25) for name, place in zip("abcd", (0.1, 0.5, 0.9, 0.95), strict=True)]
+    webs[0]["throw"] = own
+    throws = [throw(0.0, 350.0, [], rotating=1.0), throw(1.0, 100.0, [], rotating=1.0)]
+    data = ReciprocatingMachine.model_validate({**machine(throws, webs), "speed_rpm": 300.0, **more})
+    return counterweights(data, np.array([2.0, 2.0, 2.0, 0.0]), np.array([100.0, 100.0, 100.0, 0.0]))
+
+
+def test_counterweights_say_whose_they_are_and_stand_from_that_crank() -> None:
+    # analytic
+    nearest, named = _fitted(None), _fitted(1)
+    assert [one.throw for one in nearest] == [0, None, 1, 1]
+    assert [one.angle_from_crank_deg for one in nearest] == [110.0, None, 0.0, None]
+    assert (named[0].throw, named[0].angle_from_crank_deg) == (1, 0.0)
+    assert [(one.position_m, one.radius_m) for one in nearest] == [(0.1, 0.25), (0.5, 0.25), (0.9, 0.25), (0.95, 0.25)]
+
+
+def test_what_holds_a_counterweight_counts_with_the_overspeed() -> None:
+    # analytic: 2 kg at 0.25 m; 300 rpm are 10 pi/s
+    assert _fitted(None)[0].centrifugal_force_N == pytest.approx(0.5 * (10.0 * np.pi) ** 2, rel=1e-14)
+    assert _fitted(None)[3].centrifugal_force_N == 0.0
+    fast = _fitted(None, overspeed_rpm=330.0)[0].centrifugal_force_N
+    assert fast == pytest.approx(1.21 * 0.5 * (10.0 * np.pi) ** 2, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("changed", "path"),
+    [({"overspeed_rpm": 299.0}, ("overspeed_rpm",)), ({"webs": [web("a", 0.1) | {"throw": 2}]}, ("webs", 0, "throw"))],
+)
+def test_what_no_machine_has_is_refused(changed: dict[str, Any], path: tuple[str | int, ...]) -> None:
+    with pytest.raises(ValidationError) as refused:
+        _fitted(None, **changed)
+    (problem,) = refused.value.errors()[0]["ctx"]["problems"]
+    assert problem.path == path
+
+
+def test_a_scroll_has_no_throws() -> None:
+    body = json.loads(Path("examples/scroll-oldham.json").read_text("utf-8"))["machine"]
+    body["webs"][0]["throw"] = 0
+    with pytest.raises(ValidationError, match="a scroll has no throws"):
+        ScrollMachine.model_validate(body)
+    del body["webs"][0]["throw"]
+    data = ScrollMachine.model_validate(body)
+    none = np.zeros(len(data.webs))
+    assert {one.throw for one in counterweights(data, none, none)} == {None}

@@ -22,6 +22,13 @@ def test_a_web_belongs_to_the_nearest_throw_and_half_to_each_at_a_tie() -> None:
     assert shares.tolist() == expected
 
 
+def test_a_web_belongs_to_the_throw_that_it_names() -> None:
+    # analytic
+    places = np.array([0.0, 1.0, 2.0]), np.array([-5.0, 0.4, 0.5, 2.0, 1.5])
+    shares = web_shares(*places, np.array([2.0, np.nan, 1.0, np.nan, np.nan]))
+    assert shares.tolist() == [[0, 1, 0, 0, 0], [0, 0, 1, 0, 0.5], [1, 0, 0, 1, 0.5]]
+
+
 def test_the_customary_crank_has_a_rate_of_one_and_the_sideways_part_is_across() -> None:
     # analytic
     rotating = np.array([2.0, 3.0]) * np.exp(1j * np.array([0.7, 2.9]))

@@ -156,10 +156,14 @@ def places(fitted: Sequence[Counterweight]) -> Table:
     """Masses and angles, one row for each web."""
     return table(
             "",
-            ["web", "#mass, kg", "#angle, deg", "#mass times radius, kg m", "#x, kg m", "#y, kg m", "limits reached"],
+            [
+                "web", "#mass, kg", "#angle, deg", "#from its crank, deg", "#mass times radius, kg m", "#x, kg m",
+                "#y, kg m", "limits reached",
+            ],
             [
                 (
-                    one.web, one.mass_kg, one.angle_deg, one.mass_radius_kg_m, one.x_kg_m, one.y_kg_m,
+                    one.web, one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.mass_radius_kg_m, one.x_kg_m,
+                    one.y_kg_m,
                     limits(one.active_limits) or "none",
                 )
                 for one in fitted
