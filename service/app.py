@@ -1,6 +1,7 @@
 """The application."""
 
 from collections.abc import AsyncIterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
 from functools import partial
 from typing import Any
@@ -11,7 +12,6 @@ from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from schemas.version import package_version
-from service.documents import reference_page
 from service.guard.access import Access
 from service.guard.hosts import Hosts
 from service.guard.keys import keys
@@ -26,7 +26,7 @@ from service.http.pacing import Pacing
 from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
 from service.jobs.events import Watch
-from service.routes import computations, effects, examples, health, portal, sweeps
+from service.routes import computations, effects, examples, health, portal, reference_page, sweeps
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
@@ -46,6 +46,7 @@ CORS: Mapping[str, Any] = {
         "Authorization",
         "Content-Type",
         "Idempotency-Key",
+        "If-None-Match",
         "Last-Event-ID",
         "Prefer",
         "Traceparent",
@@ -54,6 +55,7 @@ CORS: Mapping[str, Any] = {
     ),
     "expose_headers": (
         "Content-Disposition",
+        "ETag",
         "Idempotency-Replayed",
         "Link",
         "Location",
@@ -108,11 +110,18 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     metrics = Metrics(pool, desk.counts, desk.faults)
     traces = tracing(chosen)
 
+    def warm_up() -> None:
+        with ThreadPoolExecutor(1) as beside:
+            # a second's work, for which the first who asks would wait
+            document = beside.submit(app.document, chosen.root_path)
+            pool.open()
+            document.result()
+
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
             if warm:
-                tasks.start_soon(readiness.warm, pool.open)
+                tasks.start_soon(readiness.warm, warm_up)
             desk.open()
             tasks.start_soon(readiness.watch)
             tasks.start_soon(app.state.watch.run)

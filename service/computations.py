@@ -24,12 +24,14 @@ class Form:
     write : the function that makes bytes of the answer.
     suffix : of a file that holds it.
     headers : what a client is told about it beyond its media type.
+    compressed : in itself, so that no coding makes it smaller.
     """
 
     media_type: str
     write: Reference
     suffix: str
     headers: tuple[tuple[str, str], ...] = ()
+    compressed: bool = False
 
 
 JSON = Form("application/json", "service.computations:json_bytes", ".json")
@@ -101,13 +103,13 @@ class Computation:
         return found
 
 
-def _document(suffix: str, media_type: str, write: Reference, styles: str = "") -> Form:
+def _document(suffix: str, media_type: str, write: Reference, styles: str = "", compressed: bool = False) -> Form:
     """A form of the report; a browser may do nothing while it shows one but use the styles in it."""
     headers = (
         ("Content-Disposition", f'inline; filename="counterweights{suffix}"'),
         ("Content-Security-Policy", f"default-src 'none'; {styles}frame-ancestors 'none'"),
     )
-    return Form(media_type, write, suffix, headers)
+    return Form(media_type, write, suffix, headers, compressed)
 
 
 COMPUTATIONS: dict[str, Computation] = {
@@ -218,7 +220,7 @@ COMPUTATIONS: dict[str, Computation] = {
             "asked for.",
             forms=(
                 _document(".html", "text/html", "service.report.html:html", "style-src 'unsafe-inline'; "),
-                _document(".pdf", "application/pdf", "service.report.pdf:pdf"),
+                _document(".pdf", "application/pdf", "service.report.pdf:pdf", compressed=True),
             ),
         ),
     )

@@ -5,7 +5,10 @@ from typing import TypeVar
 
 from starlette.requests import Request
 
+from service.coding import CODINGS, Coding
+
 Offer = TypeVar("Offer")
+Name = TypeVar("Name", bound=str)
 
 
 class NotAcceptable(ValueError):
@@ -15,7 +18,7 @@ class NotAcceptable(ValueError):
         super().__init__(f"The answer is there as {' and '.join(offered)}; say so in the header Accept.")
 
 
-def preferred(header: str, offered: Sequence[str]) -> str | None:
+def preferred(header: str, offered: Sequence[Name]) -> Name | None:
     """Which of the media types or codings offered a client likes best; of the equally liked the first one.
 
     Parameters
@@ -37,6 +40,11 @@ def liked(request: Request, offered: Mapping[str, Offer]) -> Offer | None:
     """What the header Accept of a request likes best of what there is, by media type; None if it accepts nothing."""
     chosen = preferred(",".join(request.headers.getlist("accept")), tuple(offered))
     return None if chosen is None else offered[chosen]
+
+
+def coding_of(request: Request) -> Coding | None:
+    """What an answer may be compressed by; None for who takes it as it is, or says nothing."""
+    return preferred(",".join(request.headers.getlist("accept-encoding")) or "identity", CODINGS)
 
 
 def _quality(name: str, ranges: Mapping[str, float]) -> float:

@@ -15,7 +15,7 @@ from service.computations import Computation, Form
 from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
 from service.guard.threads import threads_of
-from service.http.accept import NotAcceptable, liked
+from service.http.accept import NotAcceptable, coding_of, liked
 from service.http.request_body import read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
@@ -102,12 +102,14 @@ class Computing:
         if asked_for.later and prefers_later(request):
             return await threads_of(request).run(holding(request).who, accept)
 
-        task = Task(asked_for, form, body, self.limits)
+        task = Task(asked_for, form, body, self.limits, coding_of(request))
         with self._tracing.span(asked_for.name):
             outcome = await _while_connected(request, lambda: self._pool.run(task, holding(request).who))
         found = self._judged(outcome, asked_for.name)
-        varies = {"Vary": "Accept"} if len(asked_for.forms) > 1 else {}
-        headers = {"Cache-Control": "no-store", **dict(form.headers), **varies}
+        varies = "Accept, Accept-Encoding" if len(asked_for.forms) > 1 else "Accept-Encoding"
+        headers = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
+        if found.coding is not None:
+            headers["Content-Encoding"] = found.coding
         if found.file is None:
             return Response(found.content, media_type=form.media_type, headers=headers)
         with ExitStack() as refused:

@@ -19,6 +19,7 @@ from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard.keys import PUBLIC
 from service.http.errors import PROBLEM_JSON
+from service.http.kept import Kept
 
 #: statuses that every computing route may answer with
 COMPUTE_PROBLEMS = (400, 408, 413, 415, 422, 503)
@@ -90,16 +91,20 @@ class Documented(FastAPI):
                     _needs_key(path, operation)
         return document
 
+    def document(self, prefix: str) -> Kept:
+        """The document as it is written for a prefix, once: it is hundreds of kilobytes."""
+        if prefix not in self._written:
+            servers = {"servers": [{"url": prefix}]} if prefix else {}
+            content = json.dumps({**self.openapi(), **servers}, ensure_ascii=False).encode()
+            self._written[prefix] = Kept(content, "application/json")
+        return self._written[prefix]
+
     def setup(self) -> None:
-        """Answer with the document as it was written once for a prefix: it is hundreds of kilobytes."""
-        written: dict[str, bytes] = {}
+        """Answer with the document."""
+        self._written: dict[str, Kept] = {}
 
         async def answer(request: Request) -> Response:
-            prefix = request.scope.get("root_path", "")
-            if prefix not in written:
-                servers = {"servers": [{"url": prefix}]} if prefix else {}
-                written[prefix] = json.dumps({**self.openapi(), **servers}, ensure_ascii=False).encode()
-            return Response(written[prefix], media_type="application/json")
+            return self.document(request.scope.get("root_path", "")).answer(request)
 
         self.add_route("/openapi.json", answer, include_in_schema=False)
 

@@ -1,6 +1,5 @@
-"""The files of the page: our own, and the plotting library of an installed package, compressed once."""
+"""The files of the page: our own, and the plotting library of an installed package."""
 
-import gzip
 import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -25,11 +24,10 @@ class UnknownAsset(LookupError):
 
 @dataclass(frozen=True)
 class Asset:
-    """A file, plain and compressed with gzip."""
+    """A file."""
 
     media_type: str
     content: bytes
-    compressed: bytes
 
 
 @cache
@@ -52,7 +50,7 @@ def asset(name: str) -> Asset:
     if name not in names():
         raise UnknownAsset(name)
     content = (files("plotly") / "package_data" / PLOTS if name == PLOTS else _STATIC / name).read_bytes()
-    return Asset(MEDIA_TYPES[Path(name).suffix], content, gzip.compress(content, mtime=0))
+    return Asset(MEDIA_TYPES[Path(name).suffix], content)
 
 
 @cache

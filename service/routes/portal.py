@@ -1,11 +1,13 @@
 """The portal page and its files."""
 
+from functools import cache
+
 from fastapi import APIRouter
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.http.accept import preferred
+from service.http.kept import ASKS_AGAIN, FOR_EVER, Kept
 from service.portal.assets import UnknownAsset, asset, page, release
 
 router = APIRouter(include_in_schema=False)
@@ -16,29 +18,30 @@ _POLICY = (
     "style-src 'self' 'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='; "
     "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-_FOR_EVER = "public, max-age=31536000, immutable"
 
 
 @router.get("/")
 async def home(request: Request) -> Response:
     """One page that asks the service what everyone can ask."""
-    tag = f'"{release()}"'
-    headers = {"Cache-Control": "no-cache", "Content-Security-Policy": _POLICY, "ETag": tag}
-    if request.headers.get("if-none-match") == tag:
-        return Response(status_code=304, headers=headers)
-    return Response(page(), media_type="text/html", headers=headers)
+    return _page().answer(request, **{"Content-Security-Policy": _POLICY})
 
 
 @router.get("/portal/{of}/{name:path}")
 async def file(request: Request, of: str, name: str) -> Response:
     """A file of the page. A page of another release gets the files of this one, but may not keep them."""
     try:
-        found = asset(name)
+        found = _file(name)
     except UnknownAsset:
         raise HTTPException(404) from None
-    headers = {"Cache-Control": _FOR_EVER if of == release() else "no-cache", "Vary": "Accept-Encoding"}
-    content = found.content
-    # a client that says nothing takes the file as it is
-    if preferred(request.headers.get("accept-encoding") or "identity", ("gzip",)):
-        content, headers["Content-Encoding"] = found.compressed, "gzip"
-    return Response(content, media_type=found.media_type, headers=headers)
+    return found.answer(request, FOR_EVER if of == release() else ASKS_AGAIN)
+
+
+@cache
+def _page() -> Kept:
+    return Kept(page(), "text/html")
+
+
+@cache
+def _file(name: str) -> Kept:
+    found = asset(name)
+    return Kept(found.content, found.media_type)

@@ -19,6 +19,7 @@ from tempfile import TemporaryFile
 from typing import BinaryIO
 
 from optimizer.errors import NotComputable
+from service.coding import SMALL_BYTES, Coding, coded
 from service.computations import Computation, Form
 from service.faults import kept
 from service.guard.sizes import SizeLimits
@@ -42,12 +43,13 @@ class NoRoom(Exception):
 
 @dataclass(frozen=True)
 class Task:
-    """What to compute, and in which form to answer; all data: what it names is looked up in the worker."""
+    """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker."""
 
     computation: Computation
     form: Form
     body: bytes
     limits: SizeLimits
+    coding: Coding | None = None
 
 
 @dataclass(frozen=True)
@@ -64,6 +66,7 @@ class Answer:
     """What a task came to.
 
     content : JSON, or a document as it is; empty if it is in a file.
+    coding : by which the content is compressed; what is small is not.
     size : of the content, wherever it is [bytes].
     seconds : time of the whole computation.
     resident : memory that the worker holds now [bytes].
@@ -72,6 +75,7 @@ class Answer:
     """
 
     content: bytes
+    coding: Coding | None
     size: int
     seconds: float
     certified: Certified | None
@@ -167,8 +171,11 @@ def perform(task: Task) -> Outcome:
         with kept() as faults:
             found = task.computation.function(asked)
         content = resolve_name(task.form.write)(found)
+        coding = None if task.form.compressed or len(content) <= SMALL_BYTES else task.coding
+        if coding is not None:
+            content = coded(content, coding)
         seconds = time.perf_counter() - begun
-        return Answer(content, len(content), seconds, _certified(found), _resident(), faults=tuple(faults))
+        return Answer(content, coding, len(content), seconds, _certified(found), _resident(), faults=tuple(faults))
     except REFUSALS as error:
         return Refused.because(error)
     except MemoryError:

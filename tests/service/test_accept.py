@@ -3,7 +3,7 @@
 import pytest
 from starlette.requests import Request
 
-from service.http.accept import liked, preferred
+from service.http.accept import coding_of, liked, preferred
 from service.jobs.formats import FORMATS
 
 _FORMS = ("text/html", "application/pdf")
@@ -40,6 +40,24 @@ def test_what_a_client_likes_best(header: str, chosen: str | None) -> None:
 def test_codings(header: str, taken: bool) -> None:
     """RFC 9110, section 12.5.3: the same lists, with a wildcard of its own."""
     assert (preferred(header, ("gzip",)) == "gzip") is taken
+
+
+@pytest.mark.parametrize(
+    ("accepted", "coding"),
+    [
+        ([], None),
+        ([""], None),
+        (["identity"], None),
+        (["br"], None),
+        (["gzip, deflate, br, zstd"], "gzip"),
+        (["br, zstd"], "zstd"),
+        (["gzip;q=0.5", "zstd"], "zstd"),
+        (["gzip;q=0, *"], "zstd"),
+    ],
+)
+def test_the_coding_of_an_answer(accepted: list[str], coding: str | None) -> None:
+    request = Request({"type": "http", "headers": [(b"accept-encoding", each.encode()) for each in accepted]})
+    assert coding_of(request) == coding
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,5 @@
 """The documentation page, from assets of an installed package: it works without a network."""
 
-import hashlib
 from collections.abc import Mapping
 from functools import cache
 from importlib.resources import files
@@ -10,6 +9,8 @@ from fastapi.openapi.docs import get_swagger_ui_html
 from starlette.exceptions import HTTPException
 from starlette.requests import Request
 from starlette.responses import HTMLResponse, Response
+
+from service.http.kept import Kept
 
 # the browser enforces that nothing is loaded from elsewhere
 _POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:"
@@ -21,10 +22,9 @@ _MEDIA_TYPES: Mapping[str, str] = {
 
 
 @cache
-def _asset(name: str) -> tuple[bytes, str]:
-    """A file and its tag, read once: no thread waits for a disk while it is answered."""
-    content = (files("fastapi_offline") / "static" / name).read_bytes()
-    return content, f'"{hashlib.sha256(content).hexdigest()[:16]}"'
+def _asset(name: str) -> Kept:
+    """A file, read once: no thread waits for a disk while it is answered."""
+    return Kept((files("fastapi_offline") / "static" / name).read_bytes(), _MEDIA_TYPES[name])
 
 
 def install(app: FastAPI) -> None:
@@ -32,14 +32,9 @@ def install(app: FastAPI) -> None:
 
     @app.get("/docs/assets/{name}", include_in_schema=False)
     async def asset(request: Request, name: str) -> Response:
-        media_type = _MEDIA_TYPES.get(name)
-        if media_type is None:
+        if name not in _MEDIA_TYPES:
             raise HTTPException(404)
-        content, tag = _asset(name)
-        headers = {"Cache-Control": "no-cache", "ETag": tag}
-        if request.headers.get("if-none-match") == tag:
-            return Response(status_code=304, headers=headers)
-        return Response(content, media_type=media_type, headers=headers)
+        return _asset(name).answer(request)
 
     @app.get("/docs", include_in_schema=False)
     async def docs() -> HTMLResponse:
