@@ -30,7 +30,7 @@ def main() -> None:
     bearing_optima(console, max(repeats // 6, 5))
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
     # each in a process of its own, which stays on one core or starts its own workers
-    for module in ("sweep", "sweep_scaling"):
+    for module in ("wire", "sweep", "sweep_scaling"):
         subprocess.run([sys.executable, "-m", f"tests.benchmarks.{module}"], check=True)
 
 

@@ -1,0 +1,173 @@
+"""What a client waits for, and what an answer costs, on the wire: ``python -m tests.benchmarks.wire``.
+
+Kept and new connections, few and many clients; beside it, in the same run, the bare framework that answers with the
+bytes it was sent. The clients run on the same cores.
+"""
+
+import argparse
+import asyncio
+import json
+import socket
+import statistics
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+import psutil
+from rich.console import Console
+from rich.table import Table
+
+from service.documents.examples import bodies
+from tests.network.serving import ROOT, read, request, service
+
+BODY = json.dumps(bodies()["2d12"]).encode()
+CLIENTS = (1, 4, 16, 64)
+_WITHIN_S = 60
+
+
+@dataclass(frozen=True)
+class Target:
+    """Who is asked, and what.
+
+    pid : of the process that holds the connections; what it has started computes.
+    """
+
+    name: str
+    pid: int
+    port: int
+    path: str
+
+    def cpu_s(self) -> tuple[float, float]:
+        """CPU time so far of the process itself, and of all that it has started [s]."""
+        front = psutil.Process(self.pid)
+        every = [front, *front.children(recursive=True)]
+        own, *others = (sum(each.cpu_times()[:2]) for each in every)
+        return own, sum(others)
+
+
+@dataclass
+class Seen:
+    """Answers of one run, what they took [s], and what they cost on either side of the pipe [s of CPU]."""
+
+    seconds: list[float] = field(default_factory=list)
+    optima_ms: list[float] = field(default_factory=list)
+    wall_s: float = 0.0
+    front_s: float = 0.0
+    workers_s: float = 0.0
+
+    def quantile_ms(self, share: float) -> float:
+        """What a share of the answers took at most."""
+        ordered = sorted(self.seconds)
+        return 1e3 * ordered[min(len(ordered) - 1, int(share * len(ordered)))]
+
+    @property
+    def per_second(self) -> float:
+        return len(self.seconds) / self.wall_s
+
+    def each_ms(self, seconds: float) -> float:
+        """So much of the whole for each answer."""
+        return 1e3 * seconds / len(self.seconds)
+
+
+async def asked(target: Target, clients: int, kept: bool, seconds: float) -> Seen:
+    """Clients that ask for the same again and again, each on one connection or each time on a new one.
+
+    Raises
+    ------
+    AssertionError
+        if anything but 200 comes.
+    """
+    seen = Seen()
+    raw = request("POST", target.path, BODY, {"Connection": "keep-alive" if kept else "close"})
+    begun, before = time.perf_counter(), target.cpu_s()
+    end = begun + seconds
+
+    async def client() -> None:
+        reader, writer = await asyncio.open_connection("127.0.0.1", target.port)
+        while True:
+            at = time.perf_counter()
+            if not kept:
+                writer.close()
+                reader, writer = await asyncio.open_connection("127.0.0.1", target.port)
+            writer.write(raw)
+            async with asyncio.timeout(_WITHIN_S):
+                reply = await read(reader)
+            seen.seconds.append(time.perf_counter() - at)
+            assert reply.status == 200, reply
+            answer = json.loads(reply.body)
+            if "timing" in answer:
+                seen.optima_ms.append(answer["timing"]["total_ms"])
+            if time.perf_counter() > end:
+                writer.close()
+                return
+
+    await asyncio.gather(*(client() for _ in range(clients)))
+    seen.wall_s = time.perf_counter() - begun
+    after = target.cpu_s()
+    seen.front_s, seen.workers_s = (now - then for now, then in zip(after, before, strict=True))
+    return seen
+
+
+@contextmanager
+def echoing() -> Iterator[Target]:
+    """The bare framework."""
+    with socket.create_server(("127.0.0.1", 0)) as listening:
+        command = [sys.executable, "-m", "uvicorn", "tests.benchmarks.echo:app", "--log-level", "warning"]
+        process = subprocess.Popen([*command, "--fd", str(listening.fileno())], cwd=ROOT, pass_fds=[listening.fileno()])
+        try:
+            yield Target("echo", process.pid, listening.getsockname()[1], "/echo")
+        finally:
+            process.terminate()
+            process.wait(30)
+
+
+def measure(clients: Sequence[int], seconds: float) -> Iterator[tuple[Target, int, bool, Seen]]:
+    """Every number of clients on kept and on new connections; service and echo take turns."""
+    with service(log_level="warning", rate_limit="") as running, echoing() as echo:
+        ours = Target("service", running.process.pid, running.port, "/v1/optimize")
+        for target in (ours, echo):
+            asyncio.run(asked(target, 2, kept=True, seconds=min(1.0, seconds)))
+        for count in clients:
+            for kept in (True, False):
+                for target in (ours, echo):
+                    yield target, count, kept, asyncio.run(asked(target, count, kept, seconds))
+
+
+def show(console: Console, clients: Sequence[int], seconds: float) -> None:
+    """The table, and how kept connections compare with new ones."""
+    table = Table(title=f"POST /v1/optimize of the 2D12 on the wire, {seconds:g} s each; milliseconds, CPU an answer")
+    for heading in ("", "clients", "connections", "answers/s", "p50", "p99", "p99/p50", "front", "workers", "optimum"):
+        table.add_column(heading, justify="left" if heading in ("", "connections") else "right")
+    kept_p50: dict[tuple[str, int], float] = {}
+    ratios = []
+    for target, count, kept, seen in measure(clients, seconds):
+        p50, p99 = seen.quantile_ms(0.5), seen.quantile_ms(0.99)
+        if kept:
+            kept_p50[target.name, count] = p50
+        elif target.name == "service":
+            ratios.append(f"{count}: {kept_p50[target.name, count] / p50:.2f}")
+        optimum = f"{statistics.median(seen.optima_ms):.2f}" if seen.optima_ms else ""
+        table.add_row(
+            target.name,
+            str(count),
+            "kept" if kept else "new",
+            f"{seen.per_second:.0f}",
+            *(f"{each:.2f}" for each in (p50, p99, p99 / p50)),
+            *(f"{seen.each_ms(each):.2f}" for each in (seen.front_s, seen.workers_s)),
+            optimum,
+        )
+    console.print(table)
+    console.print(f"median on kept connections over that on new ones, by clients: {', '.join(ratios)}")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--seconds", type=float, default=5.0, help="for every number of clients and kind of connection")
+    show(Console(width=120), CLIENTS, parser.parse_args().seconds)
+
+
+if __name__ == "__main__":
+    main()
