@@ -37,8 +37,6 @@ _TIME_LIMIT_S = 5.0
 _COARSE = 1e-4
 #: share of a goal below which samples of the turn tell no more
 _SAMPLED = 1e-4
-#: relative gap of a mass that other settings of the solver do not mend
-_NEARLY = 1e-3
 #: share of the gap asked for that brackets may leave open
 _OPEN = 0.1
 #: by this share of their size ceilings are lowered, so that the answer keeps them; raised on the edge of what can be
@@ -145,6 +143,9 @@ class Search:
         natural = float(natural_reach(statement))
         self.clip = min(max(_REACH * natural, needed), largest) if natural > 0 else largest
         self.certify_s = 0.0
+        self.about: Real | None = None  # variables of the last program
+        self.near: Point | None = None  # the last one that kept all
+        self.beyond: Point | None = None  # the last one that did not
 
     def run(self, enough: float, told: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
         """Rounds until the gap is small enough, or nothing more is to be had.
@@ -173,19 +174,12 @@ class Search:
                 if coarse:
                     continue
             point = self._evaluated(u, self._width(enough, gap))
-            kept = self._inside(point)
-            best = min(best, kept, key=self.figure)
-            if kept is point and self.of_mass:
-                # what is nearer is the better one to be moved towards
-                self.inside = kept
+            best = min(best, self._kept(point), key=self.figure)
             bound = -np.inf if proof is None else proof.bound
             gap = self.figure(best) - bound
             if gap <= enough * (best.mass if self.of_mass else 1.0) or told(self.figure(best), bound):
                 break
             if not self._learnt(statement, u, point.values):
-                if self.of_mass and kept is point and gap <= _NEARLY * best.mass:
-                    # what is left open is between the levels that count and that are aimed at
-                    break
                 attempts = attempts[1:]
         return Stage(self._tidied(best), proof, rounds, self.certify_s)
 
@@ -208,10 +202,10 @@ class Search:
     def _width(self, enough: float, gap: float) -> float:
         """Width of brackets that leaves open a share of what is asked, or of what is still open."""
         size = self.program.units
-        if self.of_mass:
-            share = float(np.min(self.kept.margin / size))
-        else:
-            share = max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1])
+        # what is kept has to be told from what is not
+        share = float(np.min(self.kept.margin / size[: self.kept.margin.size], initial=np.inf))
+        if not self.of_mass:
+            share = min(share, max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1]))
         if self.program.limited:
             share = min(share, _LOWERED)
         return min(_OPEN * share, _COARSE)
@@ -240,9 +234,15 @@ class Search:
 
         targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
         last = len(program.goals) - 1
-        found = solved(data, tolerance, _TIME_LIMIT_S, goal_of == last, targets, sums(last, 0.0))
+        posed_as = data, tolerance, _TIME_LIMIT_S, goal_of == last, targets, sums(last, 0.0)
+        found = solved(*posed_as, self.about)
+        if isinstance(found, NoPoint) and self.about is not None:
+            # what was boosted about another point may be worse than what was not
+            found = solved(*posed_as)
         if isinstance(found, NoPoint):
+            self.about = None
             return None
+        self.about = found.variables
         u = program.limits.into(scaling.unbalance(posed, found.solution))
         began = time.perf_counter()
         proofs = list(self._proofs(statement, u, scaling.multipliers(posed, found.solution)))
@@ -324,19 +324,28 @@ class Search:
         mass = float(np.sum(np.abs(u) / self.program.limits.radius))
         return Point(u, self.program.values(u, width), mass)
 
-    def _inside(self, point: Point) -> Point:
-        """The point moved towards the one inside just so far that all is kept; all of it is convex."""
-        step = 0.0
+    def _kept(self, point: Point) -> Point:
+        """The best that is kept between a point and those inside; later points are moved towards the nearest."""
+        if np.all(self._excess(point.values) <= 0.0):
+            self.near = point
+            found = [point] if self.beyond is None else [point, self._moved(self.beyond, point)]
+        else:
+            self.beyond = point
+            found = [self._moved(point, inside) for inside in (self.inside, self.near) if inside is not None]
+        return min(found, key=self.figure)
+
+    def _moved(self, point: Point, inside: Point) -> Point:
+        """The point moved towards one inside just so far that all is kept; all of it is convex."""
         for _ in range(4):
-            over, under = self._excess(point.values), self._excess(self.inside.values)
+            over, under = self._excess(point.values), self._excess(inside.values)
             worst = np.where(over > 0, over / np.maximum(over - under, np.finfo(float).tiny), 0.0)
             step = float(np.max(worst, initial=0.0))
             if step <= 0.0:
                 return point
             step = min(1.0, step * (1.0 + 1e-9) + _NARROWEST)
-            u = point.unbalance + step * (self.inside.unbalance - point.unbalance)
+            u = point.unbalance + step * (inside.unbalance - point.unbalance)
             point = self._evaluated(u, _CLOSE)
-        return self.inside
+        return inside
 
     def _excess(self, values: Values) -> Real:
         """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""

@@ -16,6 +16,7 @@ import numpy as np
 from scipy import sparse
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.reference.boost import boosted
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution
 
 #: rows of a second-order cone in the plane: size, real part, imaginary part
@@ -110,13 +111,16 @@ class Assembly:
         """(rows,)."""
         return np.concatenate(self._constants)
 
-    def solve(self, cost: Real, tolerance: float, time_limit_s: float) -> tuple[Real, Real] | NoPoint:
+    def solve(
+        self, cost: Real, tolerance: float, time_limit_s: float, about: Real | None = None
+    ) -> tuple[Real, Real] | NoPoint:
         """Solve by clarabel: variables and the multipliers of all rows.
 
         Parameters
         ----------
         tolerance : of the gap, absolute and relative, and of feasibility, in scaled units.
         time_limit_s : after which the solver gives up.
+        about : (columns,) variables near an optimum, by which the cones are boosted.
         """
         import clarabel
 
@@ -124,6 +128,10 @@ class Assembly:
         settings.verbose = False
         settings.time_limit = time_limit_s
         settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
+        matrix, constant = self.matrix(), self.constant()
+        turned = None if about is None else boosted(constant + matrix @ about, self._first_rows())
+        if turned is not None:
+            matrix, constant = sparse.csc_matrix(turned @ matrix), turned @ constant
         cones: list[object] = []
         for plane, rows in self._cones:
             cones += (
@@ -131,8 +139,10 @@ class Assembly:
             )
         # clarabel: A v + s = b with s in the cones
         quadratic = sparse.csc_matrix((self.columns, self.columns))
-        found = clarabel.DefaultSolver(quadratic, cost, -self.matrix(), self.constant(), cones, settings).solve()
+        found = clarabel.DefaultSolver(quadratic, cost, -matrix, constant, cones, settings).solve()
         v, dual, status = np.array(found.x), np.array(found.z), clarabel.SolverStatus
+        if turned is not None:
+            dual = turned @ dual
         if found.status == status.MaxTime:
             return NoPoint(f"not solved within {time_limit_s:.3g} s")
         if found.status in (status.PrimalInfeasible, status.AlmostPrimalInfeasible):
@@ -141,6 +151,15 @@ class Assembly:
         if found.status not in usable or not (np.all(np.isfinite(v)) and np.all(np.isfinite(dual))):
             return NoPoint(f"the solver ended with {found.status}")
         return v, dual
+
+    def _first_rows(self) -> np.ndarray:
+        """First row of every cone in the plane."""
+        found, start = [np.zeros(0, dtype=int)], 0
+        for plane, rows in self._cones:
+            if plane:
+                found.append(np.arange(start, start + rows, _PLANE))
+            start += rows
+        return np.concatenate(found)
 
 
 def vector_duals(dual: Real) -> Complex:
@@ -181,6 +200,7 @@ class Assembled(NamedTuple):
     solution: ScaledSolution
     level: Real  # (groups,) above the highest floor of each
     price: Real  # (targets,) multipliers
+    variables: Real
 
 
 def solved(
@@ -190,6 +210,7 @@ def solved(
     weighed: np.ndarray | None = None,
     targets: Sequence[Target] = (),
     sums: Sequence[Target] = (),
+    about: Real | None = None,
 ) -> Assembled | NoPoint:
     """Solve a scaled program of any groups, with its multipliers in the form of :class:`ConeProgram`.
 
@@ -202,6 +223,7 @@ def solved(
     targets : what other groups may come to.
     sums : sums of groups, the largest of which is minimised where there are several: the most that each may come to
         is above its own by the same.
+    about : variables near an optimum, of a program that may have other rows of one term.
     """
     shape = data.shape
     webs, groups = shape.webs, shape.groups[-1] + 1
@@ -254,7 +276,7 @@ def solved(
         cost[levels:most_of_sums], cost[most_of_sums] = 0.0, 1.0
         most = np.array([each.most for each in sums])
         program.nonnegative(most, dense(levels, -_membership(sums)), dense(most_of_sums, np.ones((len(sums), 1))))
-    found = program.solve(cost, tolerance, time_limit_s)
+    found = program.solve(cost, tolerance, time_limit_s, about)
     if isinstance(found, NoPoint):
         return found
     v, dual = found
@@ -262,7 +284,7 @@ def solved(
     row_multiplier[row[single]], row_multiplier[summed] = dual[direct][::_PLANE], dual[rows]
     term[single], term[together] = vector_duals(dual[direct]), vector_duals(dual[cones])
     solution = ScaledSolution(v[:webs], v[webs : 2 * webs], row_multiplier, term, vector_duals(dual[caps]), "assembled")
-    return Assembled(solution, v[levels:most_of_sums], dual[charged] if targets else np.zeros(0))
+    return Assembled(solution, v[levels:most_of_sums], dual[charged] if targets else np.zeros(0), v)
 
 
 def _membership(sums: Sequence[Target]) -> Real:
