@@ -13,7 +13,7 @@ Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospectiv
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, cached_property
 from math import comb
 from typing import Any, NamedTuple, Protocol
 
@@ -23,6 +23,8 @@ from numpy.typing import NDArray
 from optimizer.arrays import Complex, Real, Reals
 
 Index = NDArray[np.intp]
+#: real for scalars, complex across the shaft
+Vector = NDArray[Any]
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or expanded anew, which leaves out 16^-4 as much
 _PARTS, _FINER = 4, 16
@@ -45,6 +47,10 @@ class Bracket(NamedTuple):
     value: Complex  # of the curve there, without the offset; beside a jump the one-sided limit
     lower: Real
     upper: Real  # nothing over the whole period is above it
+
+    def where(self, known: NDArray[np.bool_]) -> "Bracket":
+        """The same, nan where nothing is known (...)."""
+        return self if np.all(known) else Bracket(*(np.where(known, each, np.nan) for each in self))
 
 
 class Source(Protocol):
@@ -78,7 +84,14 @@ class Pieces:
     size: Real
     source: Source
 
-    def peaks(self, offset: Complex, tolerance: Reals, curve: Index | None = None) -> Bracket:
+    @cached_property
+    def reach(self) -> Real:
+        """How far the curves may be from the middle of their pieces, (J, P)."""
+        return np.sum(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
+
+    def peaks(
+        self, offset: Vector, tolerance: Reals, curve: Index | None = None, group: Index | None = None
+    ) -> Bracket:
         """Peaks (m,) of |d + offset| over the period.
 
         Parameters
@@ -86,26 +99,21 @@ class Pieces:
         offset : (m,) in the unit of the curves; where it is nan there is no peak.
         tolerance : (m,) or one for all, of upper - lower, relative to lower; rounding sets a limit to it.
         curve : (m,) which curve each is asked of, by default all in turn.
+        group : (m,) from 0, where only the largest of each group is asked for, which costs less: peaks (groups,).
         """
+        of_member = np.arange(offset.size) if curve is None else curve
+        sought = np.arange(offset.size) if group is None else group
         known = np.isfinite(offset)
-        of_peak = np.arange(offset.size) if curve is None else curve
-        asked = np.broadcast_to(tolerance, offset.shape)[known]
-        found = _bracketed(self, offset[known], of_peak[known], asked, _SQUARE)
-        if np.all(known):
-            return found
-
-        def everywhere(values: Any) -> Any:
-            whole = np.full(offset.shape, np.nan, dtype=values.dtype)
-            whole[known] = values
-            return whole
-
-        return Bracket(*(everywhere(each) for each in found))
+        asked, count = np.broadcast_to(tolerance, offset.shape), int(np.max(sought, initial=-1)) + 1
+        if not np.all(known):
+            offset, of_member, asked, sought = offset[known], of_member[known], asked[known], sought[known]
+        return _bracketed(self, offset, of_member, sought, count, asked, _SQUARE)
 
     def largest(self, sign: float, tolerance: float) -> Bracket:
         """Largest values (J,) of scalars times a sign: 1 for their maxima, -1 for their minima, negated."""
         measure = _Measure(lambda cubic: sign * cubic.real, lambda value: value)
-        count = self.half.shape[0]
-        return _bracketed(self, np.zeros(count, dtype=complex), np.arange(count), tolerance, measure)
+        every = np.arange(self.half.shape[0])
+        return _bracketed(self, np.zeros(every.size), every, every, every.size, np.full(every.size, tolerance), measure)
 
 
 class _Measure(NamedTuple):
@@ -119,7 +127,7 @@ class _Measure(NamedTuple):
 class _Parts:
     """Parts of pieces that may hold peaks, (n,)."""
 
-    peak: Index  # which of the peaks
+    member: Index  # whose peak
     piece: Index
     centre: Real
     half: Real
@@ -145,89 +153,127 @@ class _Parts:
         )
 
 
-def _bracketed(pieces: Pieces, offset: Complex, of_peak: Index, tolerance: Reals, measure: _Measure) -> Bracket:
-    """Brackets (m,): what is below the best found by less than the tolerance is let go, the rest looked at closer."""
-    scale = pieces.size[of_peak] + np.abs(offset)
-    angle, piece = np.zeros(offset.size), np.zeros(offset.size, dtype=np.intp)
-    lower, upper = np.full(offset.size, np.nan), np.full(offset.size, -np.inf)
+@dataclass
+class _Best:
+    """The best found of each of G peaks, and what nothing is above."""
+
+    lower: Real
+    upper: Real
+    angle: Real
+    piece: Index
+    member: Index
+
+    @staticmethod
+    def of(count: int) -> "_Best":
+        """Nothing found yet."""
+        nowhere = np.zeros(count, dtype=np.intp)
+        return _Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+
+    def keep(self, peak: Index, value: Real, angle: Real, piece: Index, member: Index) -> None:
+        """Keep the largest of the values (n,) for each peak, and what belongs to it, where it beats the best."""
+        order = np.argsort(value, kind="stable")
+        largest = np.full(self.lower.size, -1, dtype=np.intp)
+        largest[peak[order]] = order  # of several for one peak the last counts
+        better = np.flatnonzero((largest >= 0) & ~(value[largest] <= self.lower))
+        for kept, new in zip(
+            (self.lower, self.angle, self.piece, self.member), (value, angle, piece, member), strict=True
+        ):
+            kept[better] = new[largest[better]]
+
+
+def _bracketed(
+    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, measure: _Measure
+) -> Bracket:
+    """Brackets (count,), nan where a peak has no member.
+
+    What is below the best found by less than the tolerance is let go, the rest looked at closer.
+
+    Parameters
+    ----------
+    offset, of_member, group, tolerance : (m,) of every member: its curve, and the peak to which it belongs.
+    """
+    scale, share = np.zeros(count), np.zeros(count)
+    np.maximum.at(scale, group, pieces.size[of_member] + np.abs(offset))
+    np.maximum.at(share, group, tolerance)
+    best = _Best.of(count)
 
     def allowed() -> Real:
-        return np.maximum(tolerance * np.abs(lower), _ROUNDING * scale)
+        return np.maximum(share * np.abs(best.lower), _ROUNDING * scale)
+
+    def first_open() -> _Parts:
+        """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
+        rows = np.arange(of_member.size)
+        in_turn = of_member.size == pieces.half.shape[0] and np.array_equal(of_member, rows)
+        every = slice(None) if in_turn else of_member
+        there = pieces.half[every] > 0.0
+        centred = pieces.cubic[every, :, 0] + offset[:, None]
+        middle = measure.size(measure.polynomial(centred[..., None])[..., 0])
+        least = np.where(there, middle - pieces.rest[every], -np.inf)
+        where = np.argmax(least, axis=-1)
+        best.keep(group, least[rows, where], pieces.centre[every][rows, where], where, rows)
+        most = np.where(there, middle + pieces.reach[every], -np.inf)
+        open_ = most > (best.lower + allowed())[group][:, None]
+        np.maximum.at(best.upper, group, np.max(np.where(open_, -np.inf, most), axis=-1))
+        member, piece = np.nonzero(open_)
+        at = (of_member[member], piece)
+        half, rest, cubic = pieces.half[at], pieces.rest[at], _moved(pieces.cubic[at], offset[member])
+        return still_open(_Parts(member, piece, pieces.centre[at], half, cubic, rest, rest / half**4), _MOST_PARTS)
 
     def still_open(parts: _Parts, most_parts: float) -> _Parts:
         """Those that may hold a peak above the best found, theirs included, unless there are too many; the others are
         told in the bracket."""
-        if not parts.peak.size:
+        if not parts.member.size:
             return parts
         bernstein = _bernstein(measure.polynomial(parts.cubic))
         most = measure.size(np.max(bernstein, axis=-1)) + parts.rest
         first, final = (measure.size(bernstein[:, end]) - parts.rest for end in (0, -1))
-        at_first = first >= final
-        _keep_best(
-            (lower, angle, piece),
-            parts.peak,
-            (
-                np.where(at_first, first, final),
-                parts.centre + np.where(at_first, -parts.half, parts.half),
-                parts.piece,
-            ),
-        )
-        open_ = most > (lower + allowed())[parts.peak]
+        at_first, peak = first >= final, group[parts.member]
+        angle = parts.centre + np.where(at_first, -parts.half, parts.half)
+        best.keep(peak, np.where(at_first, first, final), angle, parts.piece, parts.member)
+        open_ = most > (best.lower + allowed())[peak]
         if np.count_nonzero(open_) > most_parts:
             open_[:] = False
         rounding = _ANGLE_ROUNDING * np.abs(parts.cubic[:, 1]) / parts.half
-        np.maximum.at(upper, parts.peak[~open_], (most + rounding)[~open_])
+        np.maximum.at(best.upper, peak[~open_], (most + rounding)[~open_])
         return parts.chosen(open_)
 
-    parts = still_open(_all_parts(pieces, of_peak, offset), _MOST_PARTS)
+    parts = first_open()
     for cuts in range(1, _MOST_CUTS):
-        if not parts.peak.size:
+        if not parts.member.size:
             break
-        too_coarse = parts.rest > _ENOUGH * allowed()[parts.peak]
+        too_coarse = parts.rest > _ENOUGH * allowed()[group[parts.member]]
         fine = parts.chosen(~too_coarse).cut(_PARTS)
         # most of the finer ones are let go by what is known: an expansion costs far more
         coarse = still_open(parts.chosen(too_coarse).cut(_FINER), np.inf)
-        coarse = _expanded(pieces, of_peak, offset, coarse, allowed())
+        coarse = _expanded(pieces, of_member, offset, coarse, allowed()[group[coarse.member]])
         parts = still_open(fine.and_(coarse), _MOST_PARTS if cuts < _MOST_CUTS - 1 else 0)
-    value = pieces.source.values(of_peak, piece, angle)
-    lower = measure.size(measure.polynomial((value + offset)[:, None])[:, 0])
-    return Bracket(angle, value, lower, upper + _ROUNDING * scale)
+    if not group.size:
+        return Bracket(*(np.full(count, np.nan) for _ in range(4)))
+    value = pieces.source.values(of_member[best.member], best.piece, best.angle)
+    lower = measure.size(measure.polynomial((value + offset[best.member])[:, None])[:, 0])
+    return Bracket(best.angle, value, lower, best.upper + _ROUNDING * scale).where(np.isin(np.arange(count), group))
 
 
-def _all_parts(pieces: Pieces, of_peak: Index, offset: Complex) -> _Parts:
-    """Every piece of every curve whose peak is asked for."""
-    peak, piece = np.nonzero(pieces.half[of_peak] > 0.0)
-    where = (of_peak[peak], piece)
-    half, rest = pieces.half[where], pieces.rest[where]
-    cubic = _moved(pieces.cubic[where], offset[peak])
-    return _Parts(peak, piece, pieces.centre[where], half, cubic, rest, rest / half**4)
+def _expanded(pieces: Pieces, of_member: Index, offset: Vector, parts: _Parts, allowed: Real) -> _Parts:
+    """The same parts (n,) by polynomials of their own; where that does not help enough, with bounds of their own too.
 
-
-def _expanded(pieces: Pieces, of_peak: Index, offset: Complex, parts: _Parts, allowed: Real) -> _Parts:
-    """The same parts by polynomials of their own; where that does not help enough, with bounds of their own as well."""
-    if not parts.peak.size:
+    Parameters
+    ----------
+    allowed : (n,) how wide the bracket may be.
+    """
+    if not parts.member.size:
         return parts
-    curve = of_peak[parts.peak]
+    curve = of_member[parts.member]
     cubic = pieces.source.cubics(curve, parts.piece, parts.centre, parts.half)
     rest = parts.fourth * parts.half**4
-    steep = rest > _ENOUGH * allowed[parts.peak]
+    steep = rest > _ENOUGH * allowed
     if np.any(steep):
         some = parts.chosen(steep)
         rest[steep] = np.minimum(rest[steep], pieces.source.rests(curve[steep], some.piece, some.centre, some.half))
-    return replace(parts, cubic=_moved(cubic, offset[parts.peak]), rest=rest, fourth=rest / parts.half**4)
+    return replace(parts, cubic=_moved(cubic, offset[parts.member]), rest=rest, fourth=rest / parts.half**4)
 
 
-def _keep_best(best: tuple[Real, Real, Index], peak: Index, found: tuple[Real, Real, Index]) -> None:
-    """Put the largest of the values found for each peak, and what belongs to it, where it beats the best so far."""
-    order = np.argsort(found[0], kind="stable")
-    largest = np.full(best[0].size, -1, dtype=np.intp)
-    largest[peak[order]] = order  # of several for one peak the last counts
-    better = np.flatnonzero((largest >= 0) & ~(found[0][largest] <= best[0]))
-    for kept, new in zip(best, found, strict=True):
-        kept[better] = new[largest[better]]
-
-
-def _moved(cubic: Complex, offset: Complex) -> Complex:
+def _moved(cubic: Vector, offset: Vector) -> Vector:
     """Polynomials (..., k) with a constant (...) added."""
     return np.concatenate([cubic[..., :1] + offset[..., None], cubic[..., 1:]], axis=-1)
 

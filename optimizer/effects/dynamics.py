@@ -151,17 +151,16 @@ def _torque(context: Context) -> TorqueSeries:
     return TorqueSeries(rows, np.sum(rows, axis=-2) + friction[..., None], friction)
 
 
-def _torque_at(context: Context, angle: Real) -> TorqueSeries:
-    """Torque at other shaft angles (..., T) rad, piece by piece."""
-    pieces = np.array_split(
-        angle, max(1, context.layout.reciprocating.mass.size * angle.shape[-1] // _AT_ONCE), axis=-1
-    )
-    found = [context.elsewhere("torque", piece) for piece in pieces]
-    return TorqueSeries(
-        np.concatenate([one.rows for one in found], axis=-1),
-        np.concatenate([one.total for one in found], axis=-1),
-        found[0].rotating_friction,
-    )
+def _torque_at(context: Context, angle: Real) -> tuple[Real, Real]:
+    """Torque of the rows (..., rows, T) and with the friction of the shaft (..., T) at shaft angles (..., T) rad."""
+    whole: WholeTurn = context.given["whole_turn"]
+    leading, radius = context.layout.omega.shape, context.layout.reciprocating.crank_radius[..., None]
+    nodes = np.broadcast_to(angle, (*leading, angle.shape[-1])).reshape(-1, angle.shape[-1])
+    pieces = np.array_split(nodes, max(1, radius.size * nodes.shape[-1] // _AT_ONCE), axis=-1)
+    force = np.concatenate([whole.tangential(piece) for piece in pieces], axis=-1)
+    rows = radius * force.reshape(*leading, *force.shape[1:])
+    friction = context.given["friction"].torque[..., None] if "friction" in context.given else 0.0
+    return rows, np.sum(rows, axis=-2) + friction
 
 
 def _breaks(context: Context) -> Real:
@@ -171,7 +170,7 @@ def _breaks(context: Context) -> Real:
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:
     fine = panels(_breaks(context), _WIDEST_PANEL, halved=True)
-    found = _torque_at(context, fine.angle)
+    rows, total = _torque_at(context, fine.angle)
     omega = context.layout.omega
     friction_power = np.zeros(omega.shape)
     if "friction" in context.given:
@@ -179,12 +178,12 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
         per_turn = np.sum(friction.magnitude * 4.0 * context.layout.reciprocating.crank_radius, axis=-1)
         friction_power = per_turn * omega / (2.0 * np.pi) + friction.torque * omega
     row_mean = np.zeros_like(context.layout.reciprocating.mass)
-    for k in range(found.rows.shape[-2]):
-        row_mean[..., k] = mean(fine, found.rows[..., k, :])
+    for k in range(rows.shape[-2]):
+        row_mean[..., k] = mean(fine, rows[..., k, :])
     return TorqueIntegrals(
         row_mean=row_mean,
-        mean=mean(fine, found.total),
-        fluctuation=fluctuation(fine, found.total),
+        mean=mean(fine, total),
+        fluctuation=fluctuation(fine, total),
         indicated_power=np.sum(_indicated_power(context), axis=-1),
         friction_power=friction_power,
     )
@@ -192,7 +191,7 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
 
 def _torque_errors(context: Context) -> TorqueErrors:
     coarse, fine = panels(_breaks(context), _WIDEST_PANEL), context.given["torque_integrals"]
-    total = _torque_at(context, coarse.angle).total
+    _, total = _torque_at(context, coarse.angle)
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))
     )
@@ -275,13 +274,13 @@ DYNAMICS = (
         "torque_integrals",
         "mean torque, powers and fluctuation energy",
         _torque_integrals,
-        needs=("gas", "friction", "torque"),
+        needs=("gas", "friction", "whole_turn"),
     ),
     Effect(
         "torque_errors",
         "by how much integrals over wider panels differ",
         _torque_errors,
-        needs=("gas", "torque", "torque_integrals"),
+        needs=("gas", "friction", "whole_turn", "torque_integrals"),
     ),
     Effect(
         "flywheel",

@@ -21,7 +21,6 @@ class Context:
     fidelity: Fidelity
     angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
     given: Mapping[str, Any]
-    elsewhere: Callable[[str, Real], Any]  # the result of one of those effects at other shaft angles
 
 
 def _none(_machine: Machine) -> Iterator[Any]:

@@ -132,8 +132,5 @@ def _context(
 ) -> Context:
     """Context of one effect: it sees the results of the effects that it declares, and no others."""
 
-    def elsewhere(need: str, other: Real) -> Any:
-        return run(machine, layout, (need,), fidelity, other)[need]
-
     given = {need: results[need] for need in EFFECTS[name].needs if need in results}
-    return Context(machine, layout, fidelity, angle, given, elsewhere)
+    return Context(machine, layout, fidelity, angle, given)

@@ -101,11 +101,13 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     curves = bearing_and_bending_curves(scene, stations(scene.layout, bearing_places(machine)))
-    peak, count = of_shaft(scene, curves, unbalance).lower, len(machine.bearings)
+    # the largest bending moment alone; the bearings one by one
+    count, number = len(machine.bearings), np.arange(curves.webs.shape[-2])
+    peak = of_shaft(scene, curves, unbalance, np.minimum(number, count)).lower
     names = labels([bearing.name for bearing in machine.bearings])
     return {
         "peak_bearing_load_N": np.max(peak[..., :count], axis=-1),
-        "peak_bending_Nm": np.max(peak[..., count:], axis=-1),
+        "peak_bending_Nm": peak[..., count],
         **{f"bearing_peak_N.{name}": peak[..., k] for k, name in enumerate(names)},
     }
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
-from optimizer.figures.peaks import Extremes, bracket, of_rows, of_torque
+from optimizer.figures.peaks import Extremes, bracket, largest_of_rows, of_rows, of_torque
 from optimizer.mechanics.whole_turn import Reading
 from optimizer.scene import Prepared
 from schemas.dynamics import (
@@ -249,17 +249,11 @@ def _gas_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _piston_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_piston_force_N": _most(of_rows(scene, "piston"))}
+    return {"peak_piston_force_N": largest_of_rows(scene, "piston").lower}
 
 
 def _rod_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_rod_load_N": np.max([_most(of_rows(scene, reading)) for reading in _CASES.values()], axis=0)}
-
-
-def _most(found: Extremes) -> Real:
-    """Largest magnitude of all rows (...); 0 without rows."""
-    most: Real = np.max(found.magnitude.lower, axis=-1, initial=0.0)
-    return most
+    return {"peak_rod_load_N": np.max([largest_of_rows(scene, reading).lower for reading in _CASES.values()], axis=0)}
 
 
 def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

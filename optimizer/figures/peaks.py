@@ -7,7 +7,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves
 from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
-from optimizer.pieces import Bracket
+from optimizer.pieces import Bracket, Index
 from optimizer.scene import Prepared
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.machine import ReciprocatingMachine
@@ -43,18 +43,27 @@ def of_rows(scene: Prepared, reading: Reading) -> Extremes:
     """Of a force of every row, (..., rows)."""
     count = scene.layout.reciprocating.mass.shape[-1]
     whole: WholeTurn = scene.results["whole_turn"]
-    return _extremes(scene, whole.curves(reading, np.broadcast_to(np.eye(count), (len(whole.centre), count, count))))
+    pieces = _curves_of_rows(whole, reading, count).pieces
+    return Extremes(*(_reshaped(scene, pieces.largest(sign, TOLERANCE)) for sign in (1.0, -1.0)))
+
+
+def largest_of_rows(scene: Prepared, reading: Reading) -> Bracket:
+    """Largest magnitude of a force of all rows, (...); 0 without rows."""
+    whole: WholeTurn = scene.results["whole_turn"]
+    count = scene.layout.reciprocating.mass.shape[-1]
+    if count == 0:
+        nothing = np.zeros(scene.layout.omega.shape)
+        return Bracket(nothing, nothing.astype(complex), nothing, nothing)
+    designs = np.repeat(np.arange(len(whole.centre)), count)
+    found = _curves_of_rows(whole, reading, count).pieces.peaks(np.zeros(designs.size), TOLERANCE, None, designs)
+    return _one(_reshaped(scene, found))
 
 
 def of_torque(scene: Prepared, constant: Real | float = 0.0) -> Bracket:
     """Largest torque of all rows with a constant (...), N m, magnitude: (...)."""
     whole: WholeTurn = scene.results["whole_turn"]
-    found = _extremes(
-        scene,
-        whole.curves("tangential", whole.rows.crank_radius[:, None, :], np.reshape(constant, (-1, 1))),
-    )
-    angle, value, lower, upper = found.magnitude
-    return Bracket(angle[..., 0], value[..., 0], lower[..., 0], upper[..., 0])
+    offset = np.broadcast_to(np.reshape(constant, -1), len(whole.centre))
+    return _one(_reshaped(scene, whole.torque.pieces.peaks(offset, TOLERANCE)))
 
 
 def bearing_influence(scene: Prepared) -> Real:
@@ -71,11 +80,19 @@ def bearing_and_bending_curves(scene: Prepared, corners: Real) -> ShaftCurves:
     return shaft_curves(scene.results["whole_turn"], scene.layout, both)
 
 
-def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None) -> Bracket:
-    """Peaks of loads [N] or moments [N m] without or with counterweights (..., webs) kg m: (..., C)."""
+def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, group: Index | None = None) -> Bracket:
+    """Peaks of loads [N] or moments [N m] without or with counterweights (..., webs) kg m: (..., C).
+
+    Parameters
+    ----------
+    group : (C,) from 0, where only the largest of each group is asked for: (..., groups).
+    """
     pieces = found.curves.pieces
     offset = np.zeros(len(pieces.half), dtype=complex) if unbalance is None else found.offsets(unbalance)
-    over_square = _reshaped(scene, pieces.peaks(offset, TOLERANCE))
+    if group is not None:
+        designs = np.arange(len(pieces.half) // group.size)
+        group = (designs[:, None] * (np.max(group) + 1) + group).reshape(-1)
+    over_square = _reshaped(scene, pieces.peaks(offset, TOLERANCE, None, group))
     square = scene.layout.omega[..., None] ** 2
     angle, value, lower, upper = over_square
     return Bracket(angle, value * square, lower * square, upper * square)
@@ -87,8 +104,15 @@ def _reciprocating(scene: Prepared) -> ReciprocatingMachine:
     return machine
 
 
-def _extremes(scene: Prepared, curves: TurnCurves) -> Extremes:
-    return Extremes(*(_reshaped(scene, curves.pieces.largest(sign, TOLERANCE)) for sign in (1.0, -1.0)))
+def _curves_of_rows(whole: WholeTurn, reading: Reading, count: int) -> TurnCurves:
+    """A force of every row by itself."""
+    return whole.curves(reading, np.broadcast_to(np.eye(count), (len(whole.centre), count, count)))
+
+
+def _one(found: Bracket) -> Bracket:
+    """Without the last axis, of length 1."""
+    angle, value, lower, upper = found
+    return Bracket(angle[..., 0], value[..., 0], lower[..., 0], upper[..., 0])
 
 
 def _reshaped(scene: Prepared, found: Bracket) -> Bracket:

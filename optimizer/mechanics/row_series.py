@@ -26,8 +26,9 @@ _SIGN = (-1.0, 1.0)
 
 @dataclass(frozen=True)
 class RowData:
-    """What the forces of the rows depend on."""
+    """What the forces of the rows depend on; what is the same in all N designs stands there once, (1, R)."""
 
+    designs: int  # N
     ahead: Real  # (N, R) rad, own crank angle at shaft angle 0
     crank_radius: Real  # (N, R) m
     rod_ratio: Real  # (N, R)
@@ -46,10 +47,13 @@ class RowData:
 
     def chosen(self, design: np.ndarray) -> "RowData":
         """Those of some designs, as often as named."""
-        values = {field.name: getattr(self, field.name) for field in fields(self)}
-        return RowData(
-            **{name: value[design] if isinstance(value, np.ndarray) else value for name, value in values.items()}
-        )
+
+        def each(value: Any) -> Any:
+            varies = isinstance(value, np.ndarray) and len(value) > 1
+            return value[design] if varies else value
+
+        chosen = {field.name: each(getattr(self, field.name)) for field in fields(self)}
+        return RowData(**chosen | {"designs": len(design)})
 
 
 def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chambers | None) -> RowData:
@@ -65,12 +69,13 @@ def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chamb
     designs, count = int(np.prod(leading)), rows.mass.shape[-1]
 
     def flat(value: Real, *own: int) -> Real:
-        return np.ascontiguousarray(np.broadcast_to(value, (*leading, *own))).reshape(designs, *own)
+        return shared(np.broadcast_to(value, (*leading, *own)).reshape(designs, *own))
 
     gas: dict[str, Any] = {"area": None}
     if chambers is not None:
         gas = {name: flat(value, count, 2) for name, value in vars(chambers).items()}
     return RowData(
+        designs=designs,
         ahead=flat(own_angle(layout, np.zeros(1))[..., 0], count),
         crank_radius=flat(rows.crank_radius, count),
         rod_ratio=flat(rows.rod_ratio, count),
@@ -80,6 +85,13 @@ def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chamb
         friction=flat(np.zeros(()) if friction is None else friction, count),
         exact=exact,
         **gas,
+    )
+
+
+def shared(values: Real) -> Real:
+    """Values (N, ...) once, (1, ...), where they are the same in all designs: what is made of them is made once too."""
+    return (
+        values[:1] if len(values) > 1 and np.array_equal(values, np.broadcast_to(values[:1], values.shape)) else values
     )
 
 
@@ -163,15 +175,15 @@ class RowSeries:
         """m a, N."""
         lam, size = self._each(self.data.rod_ratio), self._each(self.data.inertia)
         if not self.data.exact:
-            return (self._cosine + self._trigonometric(cosine, 2).times(lam)).times(size)
+            return (self._cosine + self._cosine_twice.times(lam)).times(size)
         short = self._each(self.data.rod_margin) * (1.0 + lam)
-        twice, four_times = self._trigonometric(cosine, 2), self._trigonometric(cosine, 4)
+        twice, four_times = self._cosine_twice, self._trigonometric(cosine, 4)
         # cos^4 = (3 + 4 cos 2 phi + cos 4 phi) / 8
         upper = twice.times(lam * (short + 0.5 * lam**2)) + four_times.times(0.125 * lam**3)
         upper = upper.plus(0.375 * lam**3)
         if upper.radius is None:
             # at 90 degrees the sum cancels, and what it is divided by may be as small
-            upper.middle[0] = lam * (short * twice.middle[0] + lam**2 * self._cosine.middle[0] ** 4)
+            upper.middle[0] = lam * (short * twice.middle[0] + lam**2 * np.square(np.square(self._cosine.middle[0])))
         return (self._cosine + upper * self._upright.power(-1.5)).times(size)
 
     @property
@@ -197,7 +209,9 @@ class RowSeries:
         )
         # in units of the crank radius; an open side has no clearance to divide by
         clear = np.where(closed, 2.0 * clear, 1.0)
-        travel, there = self._travel(side), self._travel_at(side, self._within)
+        travel = self._travel(side)
+        at_points = self.half is None and self.within is self.centre
+        there = travel.middle[0] if at_points else self._travel_at(side, self._within)
         growing = (np.sin(self._within) > 0.0) == (side == 0)
         expanding = closed & growing & (high * (clear / (there + clear)) ** expansion > low)
         compressing = closed & ~growing & (low * ((2.0 + clear) / (there + clear)) ** compression < high)
@@ -208,6 +222,8 @@ class RowSeries:
 
     def _travel(self, side: int) -> Taylor:
         """Own travel of the chambers of one side over the crank radius."""
+        if self.half is None and self.order == 0:
+            return Taylor(self._travel_at(side, self._angle)[None])
         lam = self._each(self.data.rod_ratio)
         if not self.data.exact:
             swing = self._sine_squared.times(0.5 * lam)
@@ -252,7 +268,7 @@ class RowSeries:
         """W = cos^2 beta = 1 - lam^2 + lam^2 cos^2 phi."""
         lam = self._each(self.data.rod_ratio)
         short = self._each(self.data.rod_margin) * (1.0 + lam)
-        series = self._trigonometric(cosine, 2).times(0.5 * lam**2).plus(short + 0.5 * lam**2)
+        series = self._cosine_twice.times(0.5 * lam**2).plus(short + 0.5 * lam**2)
         if self._cosine.radius is None:
             series.middle[0] = short + (lam * self._cosine.middle[0]) ** 2
             return series
@@ -266,12 +282,16 @@ class RowSeries:
 
     @cached_property
     def _sine_squared(self) -> Taylor:
-        series = self._trigonometric(cosine, 2).times(-0.5).plus(0.5)
+        series = self._cosine_twice.times(-0.5).plus(0.5)
         if self._sine.radius is None:
             series.middle[0] = self._sine.middle[0] ** 2
             return series
         middle, radius = np.abs(self._sine.middle[0]), self._sine.radius[0]
         return series.between(np.maximum(middle - radius, 0.0) ** 2, (middle + radius) ** 2)
+
+    @cached_property
+    def _cosine_twice(self) -> Taylor:
+        return self._trigonometric(cosine, 2)
 
     @cached_property
     def _cosine(self) -> Taylor:

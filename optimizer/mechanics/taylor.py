@@ -73,14 +73,14 @@ class Taylor:
         shape = np.broadcast_shapes(self.middle.shape[1:], np.shape(exponent))
         middle = np.empty((len(self.middle), *shape))
         if self.radius is None:
-            middle[0] = self.middle[0] ** exponent
+            middle[0] = _raised(self.middle[0], exponent)
             for k in range(1, len(middle)):
                 terms = [(exponent * i - (k - i)) * self.middle[i] * middle[k - i] for i in range(1, k + 1)]
                 middle[k] = sum(terms) / (k * self.middle[0])
             return Taylor(middle)
         radius = np.empty_like(middle)
         low, high = self.middle[0] - self.radius[0], self.middle[0] + self.radius[0]
-        ends = low**exponent, high**exponent
+        ends = _raised(low, exponent), _raised(high, exponent)
         middle[0], radius[0] = 0.5 * (ends[0] + ends[1]), 0.5 * np.abs(ends[1] - ends[0])
         inverse, spread = 0.5 * (1.0 / low + 1.0 / high), 0.5 * (1.0 / low - 1.0 / high)
         for k in range(1, len(middle)):
@@ -96,6 +96,14 @@ class Taylor:
         return Taylor(middle, radius)
 
 
+def _raised(base: Real, exponent: Real | float) -> Real:
+    """base^exponent; halves by roots, which cost a tenth of a power."""
+    if isinstance(exponent, float) and exponent in (-1.5, -0.5):
+        root = np.sqrt(base)
+        return 1.0 / (root if exponent == -0.5 else base * root)
+    return base**exponent
+
+
 def cosine(multiple: int, angle: Real, half: Real | None, order: int) -> Taylor:
     """Coefficients of cos(multiple angle) at angles (...), or over intervals of half widths (...), rad."""
     return _circular(multiple, angle, half, order, 0)
@@ -109,6 +117,8 @@ def sine(multiple: int, angle: Real, half: Real | None, order: int) -> Taylor:
 def _circular(multiple: int, angle: Real, half: Real | None, order: int, first: int) -> Taylor:
     # sin' = cos, cos' = -sin: the derivatives are these four in turn, sine after cosine three times on
     turned = multiple * angle
+    if half is None and order == 0:
+        return Taylor((np.sin if first else np.cos)(turned)[None])
     size = [multiple**k / factorial(k) for k in range(order + 1)]
     turns = [(k - first) % 4 for k in range(order + 1)]
     if half is None:

@@ -14,7 +14,7 @@ from numpy.polynomial.legendre import leggauss
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_series import RowData, RowSeries
+from optimizer.mechanics.row_series import RowData, RowSeries, shared
 from optimizer.mechanics.taylor import Taylor
 from optimizer.mechanics.turn import panels
 from optimizer.pieces import Index, Pieces
@@ -69,24 +69,44 @@ class WholeTurn:
         return TurnCurves(self, reading, weights, np.broadcast_to(constant, weights.shape[:2]))
 
     @cached_property
+    def torque(self) -> "TurnCurves":
+        """Torque of all rows against rotation, N m."""
+        radius = self.rows.crank_radius[:, None, :]
+        return self.curves("tangential", np.broadcast_to(radius, (len(self.centre), *radius.shape[1:])))
+
+    def tangential(self, angle: Real) -> Real:
+        """Tangential force of every row (N, R, n) N at shaft angles (N, n) rad, which are no breaks."""
+        places = shared(angle)
+        force: Real = RowSeries(self.rows, places, None, places, 0).tangential.middle[0]
+        return np.broadcast_to(force, (len(angle), *force.shape[1:]))
+
+    @cached_property
     def points(self) -> RowSeries:
         """Series about the centres of the pieces."""
-        return RowSeries(self.rows, self.centre, None, self.centre, 3)
+        centre, _ = self._cut
+        return RowSeries(self.rows, centre, None, centre, 3)
 
     @cached_property
     def bounds(self) -> RowSeries:
         """Series bounded over the pieces."""
-        return RowSeries(self.rows, self.centre, self.half, self.centre, 4)
+        centre, half = self._cut
+        return RowSeries(self.rows, centre, half, centre, 4)
+
+    @cached_property
+    def _cut(self) -> tuple[Real, Real]:
+        """Centres and half widths, once where all designs have the same."""
+        centre, half = shared(self.centre), shared(self.half)
+        return (centre, half) if len(centre) == len(half) else (self.centre, self.half)
 
 
 def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one."""
     turn = panels(breaks, _WIDEST)
-    count, pieces = len(rows.crank_radius), turn.width.shape[-1]
+    pieces = turn.width.shape[-1]
     half = 0.5 * turn.width.reshape(-1, pieces)
     centre = turn.start.reshape(half.shape) + half
     half = np.where(half > 0.5 * _SLIVER, half, 0.0)
-    return WholeTurn(rows, *(np.broadcast_to(each, (count, pieces)) for each in (centre, half)))
+    return WholeTurn(rows, *(np.broadcast_to(each, (rows.designs, pieces)) for each in (centre, half)))
 
 
 @dataclass(frozen=True)

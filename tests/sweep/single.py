@@ -76,7 +76,9 @@ def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], 
             share = row[name.replace("angle_deg.", "mass_kg.")] / (answer.total_mass_kg or 1.0)
             assert abs(turned) * share <= close * 360.0, (name, row[name], value)
         else:
-            assert_close(name, row[name], value, _size(answer, name), close)
+            # peaks over the turn are known within a bracket
+            bracketed = name.startswith(("peak_", "bearing_peak_N."))
+            assert_close(name, row[name], value, _size(answer, name), max(close, CLOSE) if bracketed else close)
     unseen = set(row) - set(expected) - _labels(request)
     assert not {name for name in unseen if row[name] is not None}, unseen
     return str(row["status"])
