@@ -168,7 +168,7 @@ class _Asked:
     @cached_property
     def _areas(self) -> Real:
         """Diameter times length of every bearing, m^2."""
-        problems = list(_missing_sizes(self.machine))
+        problems = list(missing_sizes(self.machine))
         if problems:
             raise MissingInput(problems)
         return np.array([(each.diameter_m or 0.0) * (each.length_m or 0.0) for each in self.machine.bearings])
@@ -190,7 +190,8 @@ def _in_order(objective: Objective, groups: dict[str, tuple[Group, ...]]) -> tup
     return (Goal("all", tuple(every)),), ()
 
 
-def _missing_sizes(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
+def missing_sizes(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
+    """Sizes of bearings that specific loads need and the machine does not give."""
     for k, bearing in enumerate(machine.bearings):
         for name in ("diameter_m", "length_m"):
             if getattr(bearing, name) is None:

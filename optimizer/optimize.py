@@ -10,7 +10,6 @@ import numpy as np
 from optimizer.arrays import Real, mapped
 from optimizer.certified import Certified, certified
 from optimizer.certified_turn import certified_turn
-from optimizer.effects.registry import problems_of
 from optimizer.errors import MissingInput
 from optimizer.figures.counterweights import counterweights
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
@@ -19,8 +18,8 @@ from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
 from optimizer.figures.sensitivity import of_first_order
 from optimizer.formulate import given_ceilings, limited, smallest_peak
-from optimizer.outputs import OUTPUTS, prepare
 from optimizer.outputs import fields as answered
+from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
 from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.optima import Optima, optima
@@ -29,6 +28,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
+from optimizer.required import missing
 from optimizer.scene import Prepared
 from schemas.answers import (
     Certificate,
@@ -41,7 +41,6 @@ from schemas.answers import (
     SmallestPeak,
     Timing,
 )
-from schemas.base import FieldProblem
 from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as PrintedMultipliers
 from schemas.requests import OptimizeRequest
@@ -50,8 +49,6 @@ _LOG = logging.getLogger(__name__)
 #: outputs that every answer holds, and what it holds too where bearings or bending count
 _ALWAYS = ("residual",)
 _OF_THE_SHAFT = "main_bearings"
-#: effects that force and moment of all orders need
-_TURN = ("whole_turn",)
 
 
 def optimize(request: OptimizeRequest, solver: Solver | None = None) -> OptimizeAnswer:
@@ -97,7 +94,9 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
 def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
     """The same where bearings, bending or all orders count."""
     always = (*_ALWAYS, _OF_THE_SHAFT) if request.objective.of_the_shaft else _ALWAYS
-    _require(request)
+    lacking = list(missing(request))
+    if lacking:
+        raise MissingInput(lacking)
     scene = prepare(request, always)
     solving = time.perf_counter()
     best = certified_turn(request, scene)
@@ -119,18 +118,6 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
             report_ms=(end - reporting) * 1e3,
         ),
     )
-
-
-def _require(request: OptimizeRequest) -> None:
-    """Refuse a machine that lacks what its objective needs, in the objective's name and not in that of an output."""
-    goal = request.objective
-    needs = OUTPUTS[_OF_THE_SHAFT].needs if goal.of_the_shaft else _TURN
-    by = f"asked for by objective.{goal.over_the_turn[0]}"
-    missing = [
-        FieldProblem(("machine", *path), f"{message}; {by}") for path, message in problems_of(request.machine, needs)
-    ]
-    if missing:
-        raise MissingInput(missing)
 
 
 def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict[str, object]:

@@ -1,6 +1,6 @@
 """What a client asks: optimise or analyse a machine."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, Strict
@@ -50,6 +50,11 @@ OVER_THE_TURN: dict[str, Any] = {
     "orders": "first",
     "priorities": (),
 }
+
+
+def of_the_shaft(names: Iterable[str]) -> bool:
+    """Whether one of these fields is about bearing loads or bending moments."""
+    return any(name.startswith(("bearing", "specific", "bending")) for name in names)
 
 
 class Objective(Ruled):
@@ -134,7 +139,7 @@ class Objective(Ruled):
     @property
     def of_the_shaft(self) -> bool:
         """Whether bearing loads or bending moments count."""
-        return any(name.startswith(("bearing", "specific", "bending")) for name in self.over_the_turn)
+        return of_the_shaft(self.over_the_turn)
 
     @property
     def over_the_turn(self) -> tuple[str, ...]:

@@ -6,8 +6,9 @@ import pyarrow as pa
 
 from optimizer.errors import MissingInput
 from optimizer.outputs import missing_inputs
+from optimizer.required import missing
 from optimizer.sweep.table import result_schema
-from optimizer.sweep.work import work_per_design
+from optimizer.sweep.work import curves_over_turn, work_per_design
 from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest
 from schemas.rules import Path
@@ -21,6 +22,8 @@ _PROGRAM_S = 7e-6
 #: and for each row at each angle of the turn, in the outputs
 _SAMPLE_S = 3.5e-7
 _ROW_S = 6e-6
+#: for the program over the turn, and for each curve that it cuts
+_TURN_S, _CUTS_S = 0.04, 0.01
 #: cells of a chunk at most, which bounds the memory of who computes it, and of who reads it
 _CELLS = 1_000_000
 #: chunks of a sweep at most, if that makes them longer than they should be: each has a file and a row of a database
@@ -48,6 +51,7 @@ class Plan:
     seed: int
     columns: tuple[Column, ...]
     schema: pa.Schema
+    cpu_s: float
     #: rows that are kept a second time, as far as that is known before they are selected
     selected: int = 0
 
@@ -70,6 +74,7 @@ class Plan:
             chunk_rows=self.chunk_rows,
             seed=self.seed,
             bytes=self._bytes,
+            cpu_s=self.cpu_s,
             columns=tuple(SweepColumn(**column._asdict()) for column in self.columns),
         )
 
@@ -100,6 +105,7 @@ def plan(request: SweepRequest) -> Plan:
         total=request.total,
         chunk_rows=_chunk_rows(request),
         seed=request.seed,
+        cpu_s=request.total * _seconds_per_design(request),
         columns=columns,
         schema=result_schema(request, request.model_dump_json().encode()),
         selected=0 if request.top is None else request.top.count,
@@ -112,6 +118,9 @@ def _require_inputs(request: SweepRequest) -> None:
     problems: dict[Path, FieldProblem] = {}
     for path, message in missing_inputs(filled.machine, filled.outputs):
         problems.setdefault(path, FieldProblem(("base", *path), message))
+    if isinstance(filled, OptimizeRequest):
+        for path, message in missing(filled):
+            problems.setdefault(path, FieldProblem(("base", *path), message))
     if problems:
         raise MissingInput(problems.values())
 
@@ -129,7 +138,9 @@ def _chunk_rows(request: SweepRequest) -> int:
 
 def _seconds_per_design(request: SweepRequest) -> float:
     """Rough time of a design on one core."""
-    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base)
-    if isinstance(request.base, OptimizeRequest):
+    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always)
+    if request.over_the_turn:
+        seconds += _TURN_S + _CUTS_S * curves_over_turn(request)
+    elif isinstance(request.base, OptimizeRequest):
         seconds += _PROGRAM_S * max(len(request.base.machine.webs), 1)
     return seconds

@@ -9,8 +9,10 @@ from numpy.typing import NDArray
 from optimizer.arrays import Complex, Real
 from optimizer.outputs import columns, input_rules
 from optimizer.program.reference.solver import Solver
+from optimizer.required import missing
 from optimizer.sweep.counterweights import given, optimal, shape_keys
 from optimizer.sweep.designs import axis_values
+from optimizer.sweep.over_turn import optimal_over_turn
 from optimizer.sweep.work import work_per_design
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, all_rules
@@ -56,7 +58,7 @@ def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[s
     ranges = (rule for target, column in zip(request.targets, values, strict=True) for rule in target.rules(column))
     inside = _refuse(table, np.arange(stop - start), ranges)
     for designs in _same_nulls(values, inside):
-        _fill(table, Group(request, values), designs, solver, request.multipliers)
+        _fill(table, Group(request, values), designs, solver)
     return table.columns
 
 
@@ -65,6 +67,8 @@ class Group:
 
     def __init__(self, request: SweepRequest, values: Sequence[Real]) -> None:
         self._base, self._targets, self._values = request.base, request.targets, values
+        self.multipliers, self.always = request.multipliers, request.always
+        self._over_the_turn = bool(request.over_the_turn)
 
     def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
         """Some designs, with the same fields null in all, as one request of columns."""
@@ -74,12 +78,35 @@ class Group:
             contents[target.path] = None if np.isnan(chosen[0]) else chosen
         return with_fields(self._base, contents)
 
+    def one(self, design: int) -> OptimizeRequest | AnalyzeRequest:
+        """One design as a request of numbers."""
+        contents: dict[Path, Any] = {}
+        for target, column in zip(self._targets, self._values, strict=True):
+            number = float(column[design])
+            contents[target.path] = None if np.isnan(number) else int(number) if target.integer else number
+        return with_fields(self._base, contents)
 
-def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multipliers: bool) -> None:
+    def over_the_turn(self, designs: Designs) -> dict[int, OptimizeRequest]:
+        """Those designs whose objective looks at the whole turn, each by itself."""
+        if not self._over_the_turn:
+            return {}
+        alone = ((int(design), self.one(int(design))) for design in designs)
+        return {
+            design: one for design, one in alone if isinstance(one, OptimizeRequest) and one.objective.over_the_turn
+        }
+
+
+def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
     designs = _refuse(table, designs, all_rules(group.of(designs)))
+    turning = group.over_the_turn(designs)
+    for design, alone in turning.items():
+        lacking = next(missing(alone), None)
+        if lacking is not None:
+            table.refuse(np.array([design]), Rule(True, *lacking))
+            designs = designs[designs != design]
     if designs.size:
         request = group.of(designs)
-        designs = _refuse(table, designs, input_rules(request.machine, request.outputs))
+        designs = _refuse(table, designs, input_rules(request.machine, (*group.always, *request.outputs)))
     if not designs.size:
         return
     request = group.of(designs)
@@ -88,12 +115,25 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver, multiplie
         table.put(designs, found)
         _fill_outputs(table, group, designs, unbalance)
         return
+    cut = np.isin(designs, list(turning))
+    if np.any(cut):
+        found, unbalance = optimal_over_turn([turning[int(design)] for design in designs[cut]], group.multipliers)
+        table.put(designs[cut], found)
+        _fill_outputs(table, group, designs[cut], unbalance)
+    if not np.all(cut):
+        _fill_first_order(table, group, designs[~cut], solver)
+
+
+def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    """Rows of designs whose objective is about the first order, those of one shape of program together."""
+    request = group.of(designs)
+    assert isinstance(request, OptimizeRequest)  # nothing else has an objective
     keys = shape_keys(request, designs.size)
     for key in np.unique(keys):
         alike = designs[keys == key]
         part = group.of(alike)
-        assert isinstance(part, OptimizeRequest)  # all designs of a sweep are
-        found, unbalance = optimal(part, alike.size, solver, multipliers)
+        assert isinstance(part, OptimizeRequest)
+        found, unbalance = optimal(part, alike.size, solver, group.multipliers)
         table.put(alike, found)
         _fill_outputs(table, group, alike, unbalance)
 
@@ -103,11 +143,11 @@ def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Comple
     # without counterweights there is nothing with them
     none = table.columns["status"][designs] == "infeasible"
     fitted = np.where(none[:, None], np.nan, unbalance)
-    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1])), 1))
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), group.always), 1))
     for first in range(0, designs.size, size):
         block = designs[first : first + size]
         part = group.of(block)
-        always = ("residual",) if isinstance(part, OptimizeRequest) else ()
+        always = ("residual", *group.always) if isinstance(part, OptimizeRequest) else ()
         table.put(block, columns(part, fitted[first : first + size], always))
 
 

@@ -4,11 +4,17 @@ from optimizer.effects.registry import effects_of
 from optimizer.outputs import OUTPUTS, needs_samples
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep import SweepRequest
 
 
-def work_per_design(request: OptimizeRequest | AnalyzeRequest) -> int:
-    """Rows times angles that one design needs at once, which bounds the memory of a block; 0 without any."""
-    effects = effects_of([need for output in request.outputs for need in OUTPUTS[output].column_needs])
+def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str, ...] = ()) -> int:
+    """Rows times angles that one design needs at once, which bounds the memory of a block; 0 without any.
+
+    Parameters
+    ----------
+    always : outputs that rows hold whether they were asked for or not.
+    """
+    effects = effects_of([need for output in (*always, *request.outputs) for need in OUTPUTS[output].column_needs])
     if not isinstance(request.machine, ReciprocatingMachine) or "kinematics" not in effects:
         return 0
     rows = sum(len(throw.rows) for throw in request.machine.throws)
@@ -18,3 +24,16 @@ def work_per_design(request: OptimizeRequest | AnalyzeRequest) -> int:
     # and the pieces of 5 degrees have ten coefficients each
     pieces = 10 * (72 + 6 * rows) if "whole_turn" in effects else 1
     return max(rows, 1) * max(samples, nodes, pieces)
+
+
+def curves_over_turn(request: SweepRequest) -> int:
+    """Curves that the program of one design cuts, over all its goals: bearing loads, bending moments, all orders."""
+    machine, names = request.base.machine, request.over_the_turn
+    if not isinstance(machine, ReciprocatingMachine) or not isinstance(request.base, OptimizeRequest):
+        return 0
+    bearings = len(machine.bearings)
+    planes = bearings + sum(1 + len(throw.rows) for throw in machine.throws) + len(machine.webs)
+    of_orders = 2 if "orders" in names else 0
+    of_bearings = bearings if any(name.startswith(("bearing", "specific")) for name in names) else 0
+    of_bending = planes if any(name.startswith("bending") for name in names) else 0
+    return (of_orders + of_bearings + of_bending) * max(1, len(request.base.objective.priorities))

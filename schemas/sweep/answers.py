@@ -66,4 +66,5 @@ class SweepEstimate(Answer):
     chunk_rows: int = Field(description="designs in one piece", examples=[20000])
     seed: int = Field(description="seed of the designs", examples=[0])
     bytes: int = Field(description="rough room that the sweep will take on disk", examples=[120000000])
+    cpu_s: float = Field(description="rough time of one core that it will take, all designs together", examples=[45.0])
     columns: tuple[SweepColumn, ...] = Field(description="columns of the result", examples=[[{"name": "index"}]])

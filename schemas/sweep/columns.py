@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from schemas.machine import Machine
 from schemas.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.requests import AnalyzeRequest, Objective, OptimizeRequest
 from schemas.target import Target, pointer
 
 _ALWAYS = (
@@ -32,17 +32,27 @@ _CERTIFICATE = (
         "mass_yardstick_kg", "number", "kg", "what that gap is relative to: the total mass, or the least that counts"
     ),
 )
+#: numbers of the certificate that a row holds, by the names of its fields
+CERTIFICATE = tuple(column.name for column in _CERTIFICATE if column.kind == "number")
 #: column of the proofs, which comes only if asked for
 MULTIPLIERS = "multipliers"
 _TOTAL_MASS = Column("total_mass_kg", "number", "kg", "total mass of the counterweights")
 
 
 def result_columns(
-    base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target], multipliers: bool = False
+    base: OptimizeRequest | AnalyzeRequest,
+    targets: Sequence[Target],
+    multipliers: bool = False,
+    always: Sequence[str] = (),
 ) -> tuple[Column, ...]:
-    """All columns of a sweep, in the order of the result: index, axes, status, figures, counterweights."""
+    """All columns of a sweep, in the order of the result: index, axes, status, figures, counterweights.
+
+    Parameters
+    ----------
+    always : outputs that rows hold whether they were asked for or not.
+    """
     found: dict[str, Column] = {}
-    for column in _columns(base, targets):
+    for column in _columns(base, targets, always):
         found.setdefault(column.name, column)
     if multipliers:
         meaning = "multipliers of the certificate, or of the conflict of the ceilings, as JSON"
@@ -50,7 +60,18 @@ def result_columns(
     return tuple(found.values())
 
 
-def _columns(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> Iterator[Column]:
+def goal_columns(objective: Objective) -> Iterator[Column]:
+    """What the goals before the last come to, where there are several in their order."""
+    goals = [priority.goal for priority in objective.priorities if priority.goal != "mass"]
+    for goal in goals[:-1]:
+        yield Column(f"goal_value.{goal}", "number", None, f"what the goal {goal} comes to in the end")
+        yield Column(f"goal_lower_bound.{goal}", "number", None, "proven of what it comes to at least")
+        yield Column(f"goal_limit.{goal}", "number", None, "what the goals after it may let it come to")
+
+
+def _columns(
+    base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target], always: Sequence[str]
+) -> Iterator[Column]:
     yield Column("index", "integer", None, "number of the design, from 0")
     for target in targets:
         path = pointer(target.path)
@@ -62,7 +83,9 @@ def _columns(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) 
     yield _TOTAL_MASS
     if optimizes:
         yield from _CERTIFICATE
-    for output in base.outputs:
+    if isinstance(base, OptimizeRequest):
+        yield from goal_columns(base.objective)
+    for output in dict.fromkeys((*always, *base.outputs)):
         yield from OUTPUT_COLUMNS[output]
         yield from _of_each(base.machine, output)
     if optimizes:

@@ -9,7 +9,7 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 from schemas.base import FieldProblem, Model, NotEmpty
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Count, Flag
-from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest
+from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest, of_the_shaft
 from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
@@ -18,7 +18,6 @@ from schemas.target import BadPointer, Target, find_target
 MAX_AXES = 64
 #: parts of a request that an axis may vary
 _ROOTS = ("machine", "objective", "counterweights")
-_ONE_MACHINE = "serves only to optimize one machine: a sweep weighs and limits the first order on the frame"
 
 ColumnName = Annotated[str, Field(max_length=512)]
 
@@ -123,9 +122,23 @@ class SweepRequest(Ruled):
         return product
 
     @property
+    def over_the_turn(self) -> tuple[str, ...]:
+        """Fields of the objective that look at the whole turn and that the base gives or an axis varies."""
+        if not isinstance(self.base, OptimizeRequest):
+            return ()
+        varied = {str(target.path[1]) for target in self.targets if target.path[0] == "objective"}
+        given = self.base.objective.over_the_turn
+        return tuple(name for name in OVER_THE_TURN if name in given or name in varied)
+
+    @property
+    def always(self) -> tuple[str, ...]:
+        """Outputs that rows hold whether they were asked for or not."""
+        return ("main_bearings",) if of_the_shaft(self.over_the_turn) else ()
+
+    @property
     def all_columns(self) -> tuple[Column, ...]:
         """Every column that the result could have."""
-        return result_columns(self.base, self.targets, self.multipliers)
+        return result_columns(self.base, self.targets, self.multipliers, self.always)
 
     @property
     def chosen_columns(self) -> tuple[Column, ...]:
@@ -142,9 +155,6 @@ class SweepRequest(Ruled):
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
-        if isinstance(self.base, OptimizeRequest):
-            for name in self.base.objective.over_the_turn:
-                yield FieldProblem(("base", "objective", name), _ONE_MACHINE)
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")
@@ -159,8 +169,6 @@ class SweepRequest(Ruled):
                 continue
             if targets[i].path[0] not in _ROOTS:
                 yield FieldProblem(("axes", i, "path"), "only fields of machine, objective and counterweights can vary")
-            if targets[i].path[:1] == ("objective",) and targets[i].path[1] in OVER_THE_TURN:
-                yield FieldProblem(("axes", i, "path"), _ONE_MACHINE)
             yield from _value_problems(i, axis, targets[i])
         for (_, first), (i, second) in combinations(targets.items(), 2):
             common = min(len(first.path), len(second.path))

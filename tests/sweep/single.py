@@ -9,6 +9,7 @@ import pyarrow as pa
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
+from optimizer.program import cuts
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.sweep import run_chunk
 from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
@@ -118,7 +119,8 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
     if isinstance(answer, OptimizeAnswer):
         yield "status", answer.status
         if answer.certificate is None:
-            yield "method", CONE_PROGRAM if request.base.machine.webs else CLOSED_FORM
+            by_program = CONE_PROGRAM if request.base.machine.webs else CLOSED_FORM
+            yield "method", cuts.METHOD if request.base.objective.over_the_turn else by_program
         else:
             yield from _certificate_figures(answer.certificate)
         for one in answer.counterweights:
@@ -147,6 +149,10 @@ def _certificate_figures(certificate: Certificate) -> Any:
         "method",
     ):
         yield name, getattr(certificate, name)
+    for goal in certificate.goals:
+        yield f"goal_value.{goal.goal}", goal.value
+        yield f"goal_lower_bound.{goal.goal}", goal.lower_bound
+        yield f"goal_limit.{goal.goal}", goal.limit
 
 
 def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
