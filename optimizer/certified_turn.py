@@ -10,10 +10,11 @@ from optimizer.effects.registry import run
 from optimizer.figures import sensitivity
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
-from optimizer.figures.limits import touched_limits
+from optimizer.figures.limits import touched_by_mass
 from optimizer.figures.proof import implied_max_mass, named, named_excess, physical
 from optimizer.formulate import RESPONSES, given_ceilings
-from optimizer.goals import Goals, goals
+from optimizer.formulate import limited as limited_responses
+from optimizer.goals import Case, Goals, goals
 from optimizer.limits import TOUCHED
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.certificate import ceiling_allowance
@@ -63,17 +64,26 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
     MissingInput
         if bearings lack the sizes that specific loads need.
     """
-    asked = goals(request, scene.layout, scene.responses, _whole_turn(scene))
-    goal = request.objective
-    found = over_turn(asked.program, request.accuracy.relative_gap, goal.least_mass, asked.allowances)
+    case = Case(request, scene.layout, (scene.responses,), whole_turn_of(scene))
+    asked = goals(request, [case], scene.omega_squared)
+    found = over_turn(asked.program, request.accuracy.relative_gap, request.objective.least_mass, asked.allowances)
     if isinstance(found, Unkept):
-        return _infeasible(request, scene, asked, found)
+        return out_of_reach(request, scene, asked, found)
+    return fitted(request, scene, asked, found)
+
+
+def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found) -> CertifiedTurn:
+    """What is told of counterweights that were found.
+
+    Parameters
+    ----------
+    asked : what the counterweights are judged by: the program that was solved, or one with more variants.
+    """
     machine, square = request.machine, scene.omega_squared
     mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
     u = unbalance(mass, angle, found.limits.radius)
     values = asked.program.values(u, _CLOSE)
     judged = _judged(request, asked.program, found, u, values, mass)
-    certificate = _certificate(request, asked, found, judged, values, square)
     return CertifiedTurn(
         str(judged.status),
         str(judged.reason),
@@ -82,22 +92,15 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
         {
             "counterweights": counterweights(machine, mass, angle),
             "total_mass_kg": float(np.sum(mass)),
-            "active_limits": tuple(
-                dict.fromkeys(
-                    (
-                        *touched_limits(machine, goal, scene.responses, mass, u, square),
-                        *_touched(asked, values, square),
-                    )
-                )
-            ),
+            "active_limits": tuple(dict.fromkeys((*touched_by_mass(machine, mass), *_touched(request, asked, values)))),
             "shadow_prices": (),
             "sensitivity": sensitivity.over_turn(asked.program, u, values, square),
-            "certificate": certificate,
+            "certificate": _certificate(request, asked, found, judged, values, square),
         },
     )
 
 
-def _whole_turn(scene: Prepared) -> WholeTurn:
+def whole_turn_of(scene: Prepared) -> WholeTurn:
     """The forces of the rows, if no output has asked for them either."""
     if "whole_turn" not in scene.results:
         needs = ("whole_turn",)
@@ -184,27 +187,31 @@ def _or_null(value: Real | float) -> float | None:
     return float(value) if np.isfinite(value) else None
 
 
-def _touched(asked: Goals, values: Values, square: float) -> Iterator[MachineLimit]:
-    """Ceilings over the turn that are touched."""
-    for each in asked.limited:
-        if values.reached[each.quantity].upper * square >= each.ceiling * (1.0 - TOUCHED):
-            yield each.limit
+def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
+    """Ceilings that are touched, in any case."""
+    program = asked.program
+    called = {each.name: each.limit for each, _ in given_ceilings(request.objective)}
+    limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
+    caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
+    for limit, over in zip(limits, values.over * program.sizes + TOUCHED * caps, strict=True):
+        if over >= 0.0:
+            yield limit
 
 
-def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
+def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     machine, square = request.machine, scene.omega_squared
     alone = replace(asked.program, ceilings=(), limited=())
-    components = [each for each, _ in asked.program.ceilings if each.name not in RESPONSES]
-    groups = {
-        each.name: Group(rows=(Row(each.name, (weighted_peak(each, 1.0),)),))
-        for each in (*scene.responses, *components)
-    }
+    groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
+    components = [name for name in groups if name not in RESPONSES]
     # of quantities those that the conflict is about
     scales = asked.program.excess_scales(found.proof.cuts)
     at_fault = _at_fault(found)
-    limited = [each for each in asked.limited if alone.quantities[each.quantity].name in at_fault]
-    groups |= {alone.quantities[q].name: Group(weighed=(Weighed(q, 1.0),)) for q in {each.quantity for each in limited}}
+    limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
+    limited = {name: each for name, each in limited.items() if name in at_fault}
+    for name in limited:
+        of_name = {each.quantity: each for each in asked.limited if alone.quantities[each.quantity].name == name}
+        groups[name] = Group(weighed=tuple(Weighed(q, each.omega_squared / square) for q, each in of_name.items()))
     # one reach for all that is proven here
     least = {name: _least(alone, group) for name, group in groups.items()}
     most = np.max([found.limits.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
@@ -214,7 +221,12 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
     value = {name: each.goals[0].value * square for name, each in least.items()}
     bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
     given = given_ceilings(request.objective)
-    of_components = [each.name for each in components]
+    both = dict.fromkeys(
+        (name, each.field, each.ceiling)
+        for each in asked.limited
+        for name in [alone.quantities[each.quantity].name]
+        if name in limited
+    )
     peaks = tuple(
         SmallestPeak(
             response=name,
@@ -225,14 +237,14 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
             multipliers=_proof(least[name], square),
         )
         for name, field, ceiling in (
-            *((each.name, each.field, allowed) for each, allowed in given if each.name in of_components),
-            *((alone.quantities[each.quantity].name, each.field, each.ceiling) for each in limited),
+            *((each.name, each.field, allowed) for each, allowed in given if each.name in components),
+            *both,
         )
     )
     exact = {ceiling.name: ceiling.field for ceiling, _ in given}
     impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
     impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
-    together = [field for name, field in exact.items() if name in at_fault] + [each.field for each in limited]
+    together = [field for name, field in exact.items() if name in at_fault] + [field for _, field, _ in both]
     mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)
     closest = first_order(scene.first_order(unbalance(mass, angle, found.limits.radius)))
     proof = found.proof
@@ -245,6 +257,7 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
             **smallest_peaks(value, bound),
             smallest=peaks,
             implied_max_mass_kg=implied_max_mass(machine, most[None])[0],
+            scenarios=_scenarios(asked.program, found),
             closest=Closest(counterweights=counterweights(machine, mass, angle), first_order=closest),
             multipliers=InfeasibilityMultipliers(
                 conflict=named_excess(proof.statement, proof.multipliers, scales, square),
@@ -254,6 +267,38 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, asked: Goals, found: 
     }
     spent = found.certify_s + sum(each.certify_s for each in least.values())
     return CertifiedTurn("infeasible", INFEASIBLE, None, spent, fields)
+
+
+def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
+    """Peaks of the first order, and components with a ceiling, by themselves: the largest of all cases."""
+    rows: dict[str, list[Row]] = {}
+    for case in asked.cases:
+        for responses in case.variants:
+            limited = limited_responses(responses, request.objective) if request.objective.orders == "first" else ()
+            components = [each for each, _ in limited if each.name not in RESPONSES]
+            for each in (*responses, *components):
+                of_name = rows.setdefault(each.name, [])
+                name = f"{each.name} {len(of_name)}" if of_name else each.name
+                of_name.append(Row(name, (weighted_peak(each, case.omega_squared / omega_squared),)))
+    return {name: tuple(each) for name, each in rows.items()}
+
+
+def _scenarios(program: OverTurn, found: Unkept) -> tuple[str, ...]:
+    """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
+    statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
+    leant = row[statement.row] > _TAKES_PART * np.sum(row)
+    terms = zip(statement.names.terms, leant.tolist(), strict=True)
+    names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
+    if len(names) < 2:
+        return names
+    return tuple(name for name in names if isinstance(_under(program, name), Unkept)) or names
+
+
+def _under(program: OverTurn, scenario: str) -> Found | Unkept:
+    """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
+    ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
+    limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
+    return over_turn(replace(program, goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, ())
 
 
 def _at_fault(found: Unkept) -> list[str]:

@@ -7,8 +7,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Real, mapped
+from optimizer.arrays import Complex, Real, mapped
 from optimizer.certified import Certified, certified
+from optimizer.certified_robust import certified_robust, nothing_off
 from optimizer.certified_turn import certified_turn
 from optimizer.errors import MissingInput
 from optimizer.figures.counterweights import counterweights
@@ -63,7 +64,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     """
     solver = solver or own_solver()
     start = time.perf_counter()
-    if request.objective.over_the_turn:
+    if request.objective.over_the_turn or request.robust:
         return _over_the_turn(request, start)
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
@@ -72,6 +73,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     reporting = time.perf_counter()
     unreachable = bool(best.found.unreachable[0])
     fields = _infeasible(request, scene, best, solver) if unreachable else _reached(request, scene, best)
+    fields |= _nothing_off(request, scene, None if unreachable else best.unbalance[0], fields)
     end = time.perf_counter()
     proving = float(best.found.certify_s[0])
     return OptimizeAnswer(
@@ -92,21 +94,23 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
 
 
 def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
-    """The same where bearings, bending or all orders count."""
+    """The same where bearings, bending or all orders count, or the worst of several cases."""
     always = (*_ALWAYS, _OF_THE_SHAFT) if request.objective.of_the_shaft else _ALWAYS
     lacking = list(missing(request))
     if lacking:
         raise MissingInput(lacking)
     scene = prepare(request, always)
     solving = time.perf_counter()
-    best = certified_turn(request, scene)
+    best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
     reporting = time.perf_counter()
     figures = answered(scene, best.unbalance, always, best.fields)
+    worst = _nothing_off(request, scene, best.unbalance, best.fields)
     end = time.perf_counter()
     return OptimizeAnswer(
         status=best.status,
         status_reason=best.reason,
         **best.fields,
+        **worst,
         **figures,
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
@@ -118,6 +122,16 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
             report_ms=(end - reporting) * 1e3,
         ),
     )
+
+
+def _nothing_off(
+    request: OptimizeRequest, scene: Prepared, unbalance: Complex | None, fields: Mapping[str, object]
+) -> dict[str, object]:
+    """The worst case where tolerances are stated that are 0."""
+    certificate = fields["certificate"]
+    if request.tolerances is None or request.robust or unbalance is None or not isinstance(certificate, Certificate):
+        return {}
+    return nothing_off(request, scene, unbalance, certificate.objective)
 
 
 def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict[str, object]:

@@ -8,10 +8,10 @@ from pydantic import Field
 from schemas.base import Answer, Model
 from schemas.quantities import Count, Milliseconds
 from schemas.requests import OptimizeRequest
-from schemas.rules import Rule, Ruled
+from schemas.rules import Rule
 
 
-class AccuracyRequest(OptimizeRequest, Ruled):
+class AccuracyRequest(OptimizeRequest):
     """Measure what accuracy costs on a machine. `outputs`, `angles`, `fidelity` and `accuracy` play no part."""
 
     repeats: Annotated[Count, Field(ge=1, le=20)] = Field(
@@ -19,6 +19,8 @@ class AccuracyRequest(OptimizeRequest, Ruled):
     )
 
     def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        yield from self.worst_case_rules("the ladder is of one machine as it is given")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of the whole turn")
 

@@ -18,7 +18,7 @@ from schemas.quantities import (
     NewtonMetres,
     Newtons,
 )
-from schemas.robust import Sensitivity
+from schemas.robust import PriceOfRobustness, Sensitivity, WorstCase
 
 WebLimit = Literal[
     "max_mass",
@@ -294,6 +294,9 @@ class Infeasibility(Model):
     smallest_moment_lower_bound_Nm: NewtonMetres = Field(
         description="certified: no counterweights within the limits have a smaller peak moment", examples=[9747.0]
     )
+    scenarios: tuple[Name, ...] = Field(
+        (), description="scenarios whose ceilings conflict, one by itself or several with one another", examples=[[]]
+    )
     smallest: tuple[SmallestPeak, ...] = Field(
         (), description="the same of every component, bearing load and bending moment that has a ceiling", examples=[[]]
     )
@@ -333,9 +336,18 @@ class OptimizeAnswer(OutputFields, Answer):
     shadow_prices: tuple[ShadowPrice, ...] = Field(
         (),
         description="price of every limit that the answer touches or that holds the objective up, webs in the "
-        "machine's order and then the machine's limits; empty if infeasible, and where the objective looks at the "
-        "whole turn",
+        "machine's order and then the machine's limits; empty if infeasible, where the objective looks at the "
+        "whole turn, and with scenarios or tolerances",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
+    )
+    worst_case: WorstCase | None = Field(
+        None,
+        description="peaks in the worst of all scenarios, all that may be off being so; null without scenarios and"
+        " tolerances, and if infeasible",
+        examples=[None],
+    )
+    price_of_robustness: PriceOfRobustness | None = Field(
+        None, description="what suiting the worst case costs; null likewise", examples=[None]
     )
     sensitivity: Sensitivity | None = Field(
         None,

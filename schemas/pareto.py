@@ -18,7 +18,7 @@ from schemas.base import Answer, Model, NotEmpty
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
-from schemas.rules import Rule, Ruled, first_of
+from schemas.rules import Rule, first_of
 from schemas.units import Unit, between
 
 MAX_POINTS = 201
@@ -33,7 +33,7 @@ Reason = Literal["reached_together", "resolution", "undecided"]
 Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MAX_BUDGETS), NotEmpty()]
 
 
-class ParetoRequest(OptimizeRequest, Ruled):
+class ParetoRequest(OptimizeRequest):
     """The force-moment front of a machine, and its change with the total mass.
 
     Of the objective, direction weights, ceilings and ``least_mass`` count; how force and moment are weighed and
@@ -55,6 +55,8 @@ class ParetoRequest(OptimizeRequest, Ruled):
     )
 
     def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        yield from self.worst_case_rules("a front is of one machine as it is given")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "a front is of the first-order peaks: not asked of the whole turn")
         budgets = self.total_mass_budgets_kg or ()

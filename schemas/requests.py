@@ -11,6 +11,7 @@ from schemas.machine import MAX_WEBS, Machine
 from schemas.outputs import OutputNames
 from schemas.quantities import Angle, Flag, Force, Fraction, Mass, Moment, Name, Pressure, Weight
 from schemas.rules import Rule, Ruled
+from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
 from schemas.units import Unit
 
 
@@ -224,11 +225,41 @@ class Scene(Model):
     fidelity: Fidelity = Field(Fidelity(), description="how closely to simulate", examples=[{"kinematics": "exact"}])
 
 
-class OptimizeRequest(Scene):
+class OptimizeRequest(Scene, Ruled):
     """Choose the counterweights of a machine."""
 
     objective: Objective = Field(Objective(), description="what is to be small", examples=[{"combine": "sum"}])
     accuracy: Accuracy = Field(Accuracy(), description="how close to the optimum", examples=[{"relative_gap": 1e-6}])
+    scenarios: tuple[Scenario, ...] = Field(
+        (),
+        max_length=MAX_SCENARIOS,
+        description="operating points, loads or variants that the counterweights are to suit: the largest weighted"
+        " objective of all counts, and ceilings hold in each; the machine as it is given counts only where it is"
+        " listed, with no changes",
+        examples=[[{"name": "overspeed", "changes": [{"path": "/machine/speed_rpm", "value": 600}]}]],
+    )
+    tolerances: Tolerances | None = Field(
+        None,
+        description="what may be off: the worst case is minimised, and ceilings hold in it",
+        examples=[{"mass_relative": 0.02, "angle_deg": 2}],
+    )
+
+    @property
+    def robust(self) -> bool:
+        """Whether more counts than the machine as it is given."""
+        return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
+
+    def rules(self) -> Iterator[Rule]:
+        yield from scenario_rules(self)
+        if self.tolerances is not None and self.objective.over_the_turn:
+            scatters = self.tolerances.reciprocating_mass_relative > 0
+            message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
+            yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
+
+    def worst_case_rules(self, message: str) -> Iterator[Rule]:
+        """Scenarios and tolerances that are given where only the machine as it is can be asked for."""
+        yield Rule(bool(self.scenarios), ("scenarios",), message)
+        yield Rule(self.tolerances is not None, ("tolerances",), message)
 
 
 class FittedCounterweight(Model):

@@ -2,12 +2,14 @@
 
 import math
 import re
+import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Annotated, Any, get_args, get_origin
 
-from pydantic import TypeAdapter
+from pydantic import BeforeValidator, Field, Strict, TypeAdapter
+from pydantic_core import PydanticCustomError
 
 from schemas.base import Model
 from schemas.rules import Path, Rule
@@ -15,6 +17,19 @@ from schemas.units import UNITS, parse_quantity
 
 _INDEX = re.compile(r"0|[1-9][0-9]{0,8}")
 _BAD_ESCAPE = re.compile(r"~(?![01])")
+
+
+def _number_or_text(value: Any) -> Any:
+    if isinstance(value, bool) or not isinstance(value, int | float | str | None):
+        raise PydanticCustomError("quantity", "must be a number, or a string with a unit")
+    if isinstance(value, int | float) and not abs(value) <= sys.float_info.max:
+        raise PydanticCustomError("quantity", "must be a finite number")
+    return value
+
+
+Text = Annotated[str, Field(max_length=48)]
+#: what may stand in a numeric field, whatever its unit and range
+Value = Annotated[Annotated[float, Strict()] | Text | None, BeforeValidator(_number_or_text)]
 
 
 class BadPointer(ValueError):

@@ -43,11 +43,18 @@ def touched_limits(
     ----------
     mass_kg, unbalance : (K,) kg and kg m, of the counterweights.
     """
-    nowhere = np.zeros_like(mass_kg)  # the angles of counterweights are no matter of the machine
-    touched = [name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere)]
     peaks = (each.to(unbalance).peak * omega_squared for each, _ in limited(responses, objective))
     given = zip(given_ceilings(objective), peaks, strict=True)
-    return (*touched, *(each.limit for (each, allowed), peak in given if peak >= allowed * (1.0 - TOUCHED)))
+    return (
+        *touched_by_mass(machine, mass_kg),
+        *(each.limit for (each, allowed), peak in given if peak >= allowed * (1.0 - TOUCHED)),
+    )
+
+
+def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]:
+    """Limits of the whole machine that masses (K,) kg touch."""
+    nowhere = np.zeros_like(mass_kg)  # the angles of counterweights are no matter of the machine
+    return tuple(name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere))
 
 
 def shadow_prices(

@@ -120,6 +120,7 @@ def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultip
                     "part": term.part,
                     "row": rows[row],
                     "angle_deg": term.angle_deg,
+                    "scenario": term.scenario,
                     "x": y.real,
                     "y": y.imag,
                 }
@@ -154,7 +155,14 @@ def named_excess(excess: Statement, multipliers: Multipliers, scales: Real, omeg
             "rows": tuple({"name": name, "value": value} for name, value in zip(names.rows, row.tolist(), strict=True)),
             "budget": float(price),
             "ceilings": tuple(
-                {"response": term.response, "part": "co", "angle_deg": term.angle_deg, "x": p.real, "y": p.imag}
+                {
+                    "response": term.response,
+                    "part": "co",
+                    "angle_deg": term.angle_deg,
+                    "scenario": term.scenario,
+                    "x": p.real,
+                    "y": p.imag,
+                }
                 for term, p in zip(names.terms, terms.tolist(), strict=True)
             ),
         }
@@ -170,14 +178,17 @@ def _no_longer(vectors: Complex, allowed: Real) -> Complex:
 def _shared(names: tuple[str, ...], statement: Statement, multipliers: PhysicalMultipliers) -> dict[str, Any]:
     """What every bound has: rows of these names, a budget and ceilings."""
     ceilings = statement.ceilings
-    angles = ceilings.angles_deg or (None,) * len(ceilings.names)
+    nothing = (None,) * len(ceilings.names)
+    angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
     return {
         "rows": tuple(
             {"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)
         ),
         "budget": float(multipliers.budget),
         "ceilings": tuple(
-            {"response": name, "part": "co", "angle_deg": angle, "x": p.real, "y": p.imag}
-            for name, angle, p in zip(ceilings.names, angles, multipliers.ceiling.tolist(), strict=True)
+            {"response": name, "part": "co", "angle_deg": angle, "scenario": scenario, "x": p.real, "y": p.imag}
+            for name, angle, scenario, p in zip(
+                ceilings.names, angles, scenarios, multipliers.ceiling.tolist(), strict=True
+            )
         ),
     }

@@ -1,29 +1,16 @@
 """The axes of a sweep: which fields vary, and over which values."""
 
-import sys
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from pydantic import BeforeValidator, Field, Strict
-from pydantic_core import PydanticCustomError
+from pydantic import Field
 
 from schemas.base import NotEmpty
 from schemas.quantities import Count
 from schemas.rules import Rule, Ruled
+from schemas.target import Value
 
 MAX_DESIGNS = 10_000_000
-
-
-def _number_or_text(value: Any) -> Any:
-    if isinstance(value, bool) or not isinstance(value, int | float | str | None):
-        raise PydanticCustomError("quantity", "must be a number, or a string with a unit")
-    if isinstance(value, int | float) and not abs(value) <= sys.float_info.max:
-        raise PydanticCustomError("quantity", "must be a finite number")
-    return value
-
-
-Text = Annotated[str, Field(max_length=48)]
-Value = Annotated[Annotated[float, Strict()] | Text | None, BeforeValidator(_number_or_text)]
 
 
 class Axis(Ruled):

@@ -155,6 +155,10 @@ class SweepRequest(Ruled):
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
+        if isinstance(self.base, OptimizeRequest):
+            for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
+                if broken:
+                    yield FieldProblem(("base", *path), message)
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")

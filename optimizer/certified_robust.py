@@ -1,0 +1,114 @@
+"""Certified counterweights in the worst case of one request, and what the worst case costs."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.arrays import Complex
+from optimizer.certified_turn import CertifiedTurn, fitted, out_of_reach
+from optimizer.curve import TurnResponse, peaks
+from optimizer.formulate import RESPONSES
+from optimizer.goals import Goals, bearing_responses, goals
+from optimizer.mechanics.shaft_curves import shaking
+from optimizer.program.cuts import Unkept, over_turn
+from optimizer.robust import Machine, Measure, Robust
+from optimizer.scene import Prepared
+from schemas.answers import Certificate
+from schemas.machine import ReciprocatingMachine
+from schemas.requests import OptimizeRequest
+from schemas.robust import PriceOfRobustness, WorstCase
+
+#: width of brackets of what is shown, relative
+_CLOSE = 1e-10
+
+
+def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
+    """Counterweights that are optimal in the worst of all cases, each as far off as it may be.
+
+    Raises
+    ------
+    MissingInput
+        if a machine lacks what the objective needs.
+    """
+    robust = Robust(request, scene)
+    asked, found = robust.solved()
+    if isinstance(found, Unkept):
+        return out_of_reach(request, scene, asked, found)
+    told = fitted(request, scene, asked, found)
+    u, certificate = told.unbalance, told.fields["certificate"]
+    assert u is not None
+    assert isinstance(certificate, Certificate)
+    worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": _price(robust, u)}
+    return replace(told, fields={**told.fields, **worst})
+
+
+def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
+    """The same fields where tolerances are stated and all are 0: the worst case is what counterweights (K,) come to."""
+    return {
+        "worst_case": _worst_case(Robust(request, scene), u, objective),
+        "price_of_robustness": PriceOfRobustness(
+            nominal=objective, nominal_optimum=objective, nominal_optimum_worst_case=objective
+        ),
+    }
+
+
+def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
+    """Peaks in the worst case, each by itself, with counterweights (K,) kg m."""
+    force, moment = (
+        max(_external(robust, machine, response, u) for machine in robust.machines)
+        for response in range(len(RESPONSES))
+    )
+    bearings = robust.machines if robust.request.objective.of_the_shaft else []
+    loads = [_peak(robust, machine, each, u) for machine in bearings for each in _bearing_responses(machine)]
+    return WorstCase(
+        force_peak_N=force,
+        moment_peak_Nm=moment,
+        bearing_peak_N=max(loads) if loads else None,
+        objective=objective,
+    )
+
+
+def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> float:
+    """A peak on the frame: of the first order, or of all where these count."""
+    if robust.request.objective.orders == "all":
+        return _peak(robust, machine, shaking(machine.turn, machine.scene.layout)[response], u)
+    measure = Measure(response, 1.0, 1.0)
+    off = robust.scatter.of(machine.nominal[response].influence, u)
+    return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared
+
+
+def _peak(robust: Robust, machine: Machine, response: TurnResponse, u: Complex) -> float:
+    off = robust.scatter.of(response.influence, u)
+    return (float(peaks([response], u, _CLOSE).upper[0]) + off) * machine.scene.omega_squared
+
+
+def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
+    made, scene = machine.request.machine, machine.scene
+    assert isinstance(made, ReciprocatingMachine)  # no other has bearings
+    yield from bearing_responses(made, machine.request.fidelity, scene.layout, machine.turn)
+
+
+def _price(robust: Robust, u: Complex) -> PriceOfRobustness:
+    """What the worst case costs nominally, and the nominal optimum in the worst case."""
+    nominal, square = _nominal(robust), robust.scene.omega_squared
+    asked, program = robust.request, nominal.program
+    found = over_turn(program, asked.accuracy.relative_gap, asked.objective.least_mass, nominal.allowances)
+    best = None if isinstance(found, Unkept) else found.point.unbalance
+    return PriceOfRobustness(
+        nominal=float(program.values(u, _CLOSE).goals[-1]) * square,
+        nominal_optimum=None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
+        nominal_optimum_worst_case=None if best is None else _objective(robust, best),
+    )
+
+
+def _nominal(robust: Robust) -> Goals:
+    """The program of the machine as it is given, with nothing off."""
+    exact = robust.request.model_copy(update={"scenarios": (), "tolerances": None})
+    return goals(exact, [Machine(exact, robust.scene, None, 1.0, 0.0).case()], robust.scene.omega_squared)
+
+
+def _objective(robust: Robust, u: Complex) -> float:
+    """The last goal in the worst case, with any counterweights."""
+    robust.learnt(u)
+    return float(robust.asked().program.values(u, _CLOSE).goals[-1]) * robust.scene.omega_squared

@@ -1,0 +1,447 @@
+"""Scenarios and tolerances: the best worst case, certified, and what it costs."""
+
+import itertools
+from copy import deepcopy
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
+
+from optimizer.analyze import analyze
+from optimizer.errors import MissingInput
+from optimizer.optimize import optimize
+from optimizer.robust import scatter_of
+from schemas.answers import OptimizeAnswer
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.scenarios import Tolerances
+from tests.optimize.machines import machine, random_machine, row, throw, web
+from tests.optimize.whole_turn import ALONE, inline_six, one_throw
+
+
+def answered(made: dict[str, Any], **rest: Any) -> OptimizeAnswer:
+    return optimize(OptimizeRequest.model_validate({"machine": made, "angles": {"step_deg": 30}, **rest}))
+
+
+def scenario(name: str, weight: float = 1.0, **values: Any) -> dict[str, Any]:
+    """Fields of the machine by their pointers, with / written as __."""
+    changes = [{"path": f"/machine/{path.replace('__', '/')}", "value": value} for path, value in values.items()]
+    return {"name": name, "weight": weight, "changes": changes}
+
+
+def crank(angle: float = 0.0, max_mass: float = 100.0) -> dict[str, Any]:
+    """20 kg at 0.1 m and 10 rad/s, 200 N, with a web in the same plane."""
+    return machine([throw(0.0, angle, [], rotating=20.0)], [web("a", 0.0, max_mass)], speed_rpm="10 rad/s")
+
+
+def worst(answer: OptimizeAnswer) -> float:
+    assert answer.worst_case is not None
+    assert answer.certificate is not None
+    assert answer.worst_case.objective == answer.certificate.objective
+    return answer.worst_case.objective
+
+
+def test_between_two_cranks_the_counterweight_is_in_the_middle() -> None:
+    """Analytic: of 200 N at 0 and at 60 degrees half of their difference remains, 100 N, with u opposite their mean."""
+    two = [scenario("as it is"), scenario("turned", throws__0__crank_angle_deg="60 deg")]
+    answer = answered(crank(), scenarios=two)
+    assert answer.status == "optimal"
+    assert worst(answer) == pytest.approx(100.0, abs=2e-4)
+    (one,) = answer.counterweights
+    assert (one.mass_kg, one.angle_deg) == pytest.approx((20.0 * np.cos(np.pi / 6), 210.0), rel=2e-3)
+    price = answer.price_of_robustness
+    assert price is not None
+    # the nominal optimum leaves nothing of the one and all of the difference of the other
+    assert price.nominal == pytest.approx(100.0, abs=1e-2)
+    assert price.nominal_optimum == pytest.approx(0.0, abs=3e-4)
+    assert price.nominal_optimum_worst_case == pytest.approx(200.0, abs=1e-3)
+    # the proof leans on both alike
+    assert answer.certificate is not None
+    rows = {each.name: each.value for each in answer.certificate.multipliers.objective.rows}
+    assert rows == pytest.approx({"sum in as it is": 0.5, "sum in turned": 0.5}, abs=1e-3)
+    force = [each for each in answer.certificate.multipliers.objective.terms if each.response == "force"]
+    assert [each.scenario for each in force] == ["as it is", "turned"]
+
+
+def test_weights_say_which_scenario_gets_more() -> None:
+    """Analytic: weights 1 and 3 leave distances 3 : 1 on the straight line between two points 200 N apart."""
+    two = [scenario("a"), scenario("b", 3.0, throws__0__crank_angle_deg=60)]
+    answer = answered(crank(), scenarios=two)
+    assert worst(answer) == pytest.approx(150.0, abs=1e-3)
+
+
+def test_of_several_speeds_the_highest_decides_and_ceilings_hold_in_each() -> None:
+    """Analytic: the same machine at twice the speed has four times the forces; the slow one adds nothing."""
+    made = random_machine(3)
+    fast, slow = 2.0 * made["speed_rpm"], 0.5 * made["speed_rpm"]
+    alone = answered(made)
+    both = answered(made, scenarios=[scenario("fast", speed_rpm=fast), scenario("slow", speed_rpm=slow)])
+    assert alone.certificate is not None
+    assert both.certificate is not None
+    assert worst(both) == pytest.approx(4.0 * alone.certificate.objective, abs=8e-6 * alone.certificate.yardstick)
+    assert both.certificate.yardstick == pytest.approx(4.0 * alone.certificate.yardstick)
+    assert both.total_mass_kg == pytest.approx(alone.total_mass_kg, rel=2e-3)
+    assert alone.residual.after is not None
+    peak = alone.residual.after.force.peak_N
+    kept = answered(
+        made, objective={"force_ceiling_N": 4.0 * peak * 1.001}, scenarios=[scenario("fast", speed_rpm=fast)]
+    )
+    assert kept.status == "optimal"
+    assert kept.worst_case is not None
+    assert kept.worst_case.force_peak_N <= 4.0 * peak * 1.001 * (1 + 1e-9)
+
+
+def test_scenarios_that_conflict_are_named() -> None:
+    """Analytic: 90 N is more than the 0 N that each can have, and less than the 100 N that both can have."""
+    two = [scenario("as it is"), scenario("turned", throws__0__crank_angle_deg=60)]
+    for each in two:
+        assert answered(crank(), objective={"force_ceiling_N": 90}, scenarios=[each]).status == "optimal"
+    answer = answered(crank(), objective={"force_ceiling_N": 90}, scenarios=[*two, scenario("again")])
+    assert answer.status == "infeasible"
+    found = answer.infeasibility
+    assert found is not None
+    assert set(found.scenarios) >= {"turned"}
+    assert set(found.scenarios) <= {"as it is", "turned", "again"}
+    assert len(found.scenarios) >= 2
+    assert found.conflict == ("force_ceiling_N",)
+    assert found.smallest_force_N == pytest.approx(100.0, abs=1e-4)
+    assert found.smallest_force_lower_bound_N == pytest.approx(100.0, abs=1e-4)
+    assert (answer.worst_case, answer.price_of_robustness, answer.sensitivity) == (None, None, None)
+    # one that cannot be kept by itself is the only one that is named
+    heavy = scenario("heavy", throws__0__rotating_mass_kg=200)
+    small = crank(max_mass=20.0)
+    answer = answered(small, objective={"force_ceiling_N": 150}, scenarios=[two[0], heavy])
+    assert answer.infeasibility is not None
+    assert answer.infeasibility.scenarios == ("heavy",)
+
+
+def test_what_mass_and_angle_may_make_of_a_counterweight() -> None:
+    """Analytic: the farthest of the corners of a sector of a ring from its middle."""
+    corners = [(1 + d) * np.exp(1j * np.deg2rad(a)) - 1 for d in (-0.02, 0.02) for a in (-2, 2)]
+    assert scatter_of(Tolerances(mass_relative=0.02, angle_deg=2)).share == pytest.approx(max(map(abs, corners)))
+    assert scatter_of(Tolerances(mass_relative=1, angle_deg=1e6)).share == pytest.approx(3.0)
+    assert scatter_of(Tolerances(angle_deg=1e-9)).share == pytest.approx(np.deg2rad(1e-9), rel=1e-12)
+    assert not any(scatter_of(Tolerances()))
+
+
+def test_a_counterweight_that_is_off_leaves_its_error() -> None:
+    """Analytic: |200 - u| + rho u is least where nothing is left but the error, and from rho = 1 on without any."""
+    rho = np.hypot(0.02, 2 * np.sqrt(1.02) * np.sin(np.deg2rad(1.0)))
+    answer = answered(crank(), objective={"moment_weight": 0}, tolerances={"mass_relative": 0.02, "angle_deg": 2})
+    assert answer.status == "optimal"
+    assert worst(answer) == pytest.approx(200.0 * rho, abs=4e-4)
+    assert answer.counterweights[0].mass_kg == pytest.approx(20.0, rel=2e-6)
+    answer = answered(crank(), objective={"moment_weight": 0}, tolerances={"angle_deg": 180})
+    assert (worst(answer), answer.total_mass_kg) == (pytest.approx(200.0), 0.0)
+    answer = answered(crank(), objective={"moment_weight": 0}, tolerances={"unbalance_kg_m": 0.05})
+    assert worst(answer) == pytest.approx(5.0, abs=4e-4)
+    assert answer.price_of_robustness is not None
+    assert answer.price_of_robustness.nominal == pytest.approx(0.0, abs=4e-4)
+
+
+def test_tolerances_of_nothing_are_none() -> None:
+    made = random_machine(5)
+    plain, stated = answered(made), answered(made, tolerances={})
+    assert stated.counterweights == plain.counterweights
+    assert stated.certificate == plain.certificate
+    assert plain.worst_case is None
+    assert stated.worst_case is not None
+    assert stated.residual.after is not None
+    after = stated.residual.after
+    assert (stated.worst_case.force_peak_N, stated.worst_case.moment_peak_Nm) == pytest.approx(
+        (after.force.peak_N, after.moment.peak_Nm)
+    )
+    # the machine as the only scenario is the same program, found in another way
+    listed = answered(made, scenarios=[{"name": "as it is"}])
+    assert plain.certificate is not None
+    assert worst(listed) == pytest.approx(plain.certificate.objective, abs=1e-6 * plain.certificate.yardstick)
+    assert listed.total_mass_kg == pytest.approx(plain.total_mass_kg, rel=1e-4)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_errors_in_the_worst_direction_come_to_the_worst_case_of_the_larger_peak_and_none_to_more(seed: int) -> None:
+    """Independent: every counterweight off by its largest error, in the direction of what is left."""
+    made = random_machine(seed)
+    objective = {"combine": "max", "force_weight": 1.0, "moment_weight": 0.7}
+    answer = answered(made, objective=objective, tolerances={"mass_relative": 0.03, "angle_deg": 3})
+    assert answer.status == "optimal"
+    share = scatter_of(Tolerances(mass_relative=0.03, angle_deg=3)).share
+    radius = np.array([each["counterweight_radius_m"] for each in made["webs"]])
+    u = np.array([each.x_kg_m + 1j * each.y_kg_m for each in answer.counterweights])
+    rng, found = np.random.default_rng(seed), []
+    for way in range(3602):
+        turns = rng.uniform(0, 2 * np.pi, u.size) if way >= 3600 else np.full(u.size, np.deg2rad(0.1 * way))
+        for arms in (
+            np.ones(u.size),
+            np.sign([each["position_m"] - answer.reference_plane_m for each in made["webs"]]),
+        ):
+            off = u + share * np.abs(u) * arms * np.exp(1j * turns)
+            if way % 60 and way < 3600:
+                continue
+            found.append(_larger_peak(made, off, radius))
+    assert max(found) <= worst(answer) * (1 + 1e-12)
+    assert max(found) == pytest.approx(worst(answer), rel=2e-3)
+
+
+def _larger_peak(made: dict[str, Any], u: Any, radius: Any) -> float:
+    fitted = [
+        {"web": each["name"], "mass_kg": abs(one) / r, "angle_deg": np.rad2deg(np.angle(one))}
+        for each, one, r in zip(made["webs"], u, radius, strict=True)
+    ]
+    after = analyze(AnalyzeRequest.model_validate({"machine": made, "counterweights": fitted})).residual
+    assert after is not None
+    assert after.after is not None
+    return float(max(after.after.force.peak_N, 0.7 * after.after.moment.peak_Nm))
+
+
+def _scattered(made: dict[str, Any], share: float) -> list[dict[str, Any]]:
+    """The machine at every corner of what its reciprocating masses may be."""
+    places = [(t, r) for t, one in enumerate(made["throws"]) for r in range(len(one["rows"]))]
+    found = []
+    for signs in itertools.product([-1.0, 1.0], repeat=len(places)):
+        other = deepcopy(made)
+        for (t, r), sign in zip(places, signs, strict=True):
+            other["throws"][t]["rows"][r]["reciprocating_mass_kg"] *= 1.0 + sign * share
+        found.append(other)
+    return found
+
+
+def six_rows(rods: bool = False) -> dict[str, Any]:
+    rng = np.random.default_rng(8)
+    throws = [
+        throw(z, angle, [row(axis, float(rng.uniform(5, 20))) for axis in (45.0, 120.0, 190.0)], rotating=8.0)
+        for z, angle in ((-0.3, 20.0), (0.4, 130.0))
+    ]
+    return machine(throws, [web("a", -0.5), web("b", 0.0), web("c", 0.6)])
+
+
+@pytest.mark.parametrize("across", [{"x": 1, "y": 1}, {"x": 1, "y": 0.3}, {"x": 0, "y": 1}])
+def test_all_corners_of_the_masses_as_scenarios_are_their_scatter(across: dict[str, float]) -> None:
+    """Independent: 2^6 machines analysed one by one, and given as scenarios where that is the same program."""
+    made = six_rows()
+    objective = {"combine": "max", "moment_weight": 2.0, "direction_weights": across, "least_mass": False}
+    answer = answered(made, objective=objective, tolerances={"reciprocating_mass_relative": 0.08})
+    assert answer.status == "optimal"
+    fitted = [each.model_dump(include={"web", "mass_kg", "angle_deg"}) for each in answer.counterweights]
+    corners = [
+        analyze(AnalyzeRequest.model_validate({"machine": each, "counterweights": fitted})).residual
+        for each in _scattered(made, 0.08)
+    ]
+    after = [each.after for each in corners if each is not None and each.after is not None]
+    assert len(after) == 64
+    assert answer.worst_case is not None
+    assert answer.worst_case.force_peak_N == pytest.approx(max(each.force.peak_N for each in after), rel=1e-9)
+    assert answer.worst_case.moment_peak_Nm == pytest.approx(max(each.moment.peak_Nm for each in after), rel=1e-9)
+    if across["x"] == across["y"]:
+        peaks = [max(each.force.peak_N, 2.0 * each.moment.peak_Nm) for each in after]
+        assert worst(answer) == pytest.approx(max(peaks), rel=1e-9)
+    listed = [
+        scenario(
+            str(n),
+            **{
+                f"throws__{t}__rows__{r}__reciprocating_mass_kg": other["throws"][t]["rows"][r]["reciprocating_mass_kg"]
+                for t in range(2)
+                for r in range(3)
+            },
+        )
+        for n, other in enumerate(_scattered(made, 0.08))
+    ]
+    # a request takes 32: the corners with the first row heavy, which the others mirror only in the scatter itself
+    half = answered(made, objective=objective, scenarios=listed[32:])
+    assert worst(half) <= worst(answer) * (1 + 1e-9)
+
+
+def test_a_sum_counts_every_peak_at_its_own_worst() -> None:
+    made = six_rows()
+    answer = answered(made, objective={"moment_weight": 2.0}, tolerances={"reciprocating_mass_relative": 0.08})
+    assert answer.worst_case is not None
+    assert worst(answer) == pytest.approx(
+        answer.worst_case.force_peak_N + 2.0 * answer.worst_case.moment_peak_Nm, rel=1e-12
+    )
+
+
+def test_ceilings_hold_for_all_masses_and_errors() -> None:
+    made = six_rows()
+    free = answered(made, tolerances={"reciprocating_mass_relative": 0.05, "mass_relative": 0.02})
+    assert free.worst_case is not None
+    most = {"force_ceiling_N": 0.99 * free.worst_case.force_peak_N, "force_ceiling_x_N": free.worst_case.force_peak_N}
+    kept = answered(made, objective=most, tolerances={"reciprocating_mass_relative": 0.05, "mass_relative": 0.02})
+    assert kept.status == "optimal"
+    assert kept.worst_case is not None
+    assert kept.worst_case.force_peak_N <= most["force_ceiling_N"] * (1 + 1e-9)
+    assert kept.active_limits == ("force_ceiling",)
+
+
+@settings(max_examples=10)
+@given(seed=st.integers(0, 40), order=st.permutations(range(3)), factor=st.sampled_from([0.25, 8.0]))
+def test_scenarios_in_another_order_twice_or_all_weighed_more_are_the_same(
+    seed: int, order: list[int], factor: float
+) -> None:
+    made = random_machine(seed)
+    three = [
+        scenario("a"),
+        scenario("b", 0.5, speed_rpm=1.3 * made["speed_rpm"]),
+        scenario("c", throws__0__crank_angle_deg=made["throws"][0]["crank_angle_deg"] + 10.0),
+    ]
+    one = answered(made, scenarios=three)
+    assert one.certificate is not None
+    near = 2e-6 * one.certificate.yardstick
+    other = answered(made, scenarios=[*(three[n] for n in order), {**three[0], "name": "again"}])
+    assert worst(other) == pytest.approx(worst(one), abs=near)
+    scaled = answered(made, scenarios=[{**each, "weight": factor * each["weight"]} for each in three])
+    assert worst(scaled) == pytest.approx(factor * worst(one), abs=factor * near)
+    assert scaled.certificate is not None
+    assert scaled.certificate.lower_bound is not None
+    assert scaled.certificate.lower_bound <= factor * worst(one) * (1 + 1e-12)
+
+
+def test_bearings_in_the_worst_of_several_speeds_with_tolerances() -> None:
+    """Metamorphic: between the optima of the highest speed alone, without errors, and its answer's worst case."""
+    made, goal = inline_six(), {**ALONE, "bearing_weight": 1, "least_mass": False}
+    two = [scenario("as it is"), scenario("slow", speed_rpm=0.7 * made["speed_rpm"])]
+    alone = answered(made, objective=goal)
+    assert alone.certificate is not None
+    answer = answered(made, objective=goal, scenarios=two, tolerances={"mass_relative": 0.02, "angle_deg": 2})
+    assert answer.status == "optimal"
+    assert answer.worst_case is not None
+    assert answer.worst_case.bearing_peak_N == pytest.approx(worst(answer), rel=1e-9)
+    price = answer.price_of_robustness
+    assert price is not None
+    assert price.nominal_optimum == pytest.approx(alone.certificate.objective, rel=1e-6)
+    assert alone.certificate.objective <= price.nominal + 1e-6 * alone.certificate.yardstick
+    assert price.nominal <= worst(answer)
+    assert worst(answer) <= (price.nominal_optimum_worst_case or 0.0) * (1 + 1e-9)
+    assert answer.certificate is not None
+    assert {each.scenario for each in answer.certificate.multipliers.objective.terms} == {"as it is", "slow"}
+
+
+def test_force_and_bearings_of_the_worst_scenario_are_summed_there() -> None:
+    """Analytic: one throw of m r = 1 and an infinite rod, at 1 and at 2 rad/s: four times the optimum at 1 rad/s."""
+    made, goal = one_throw(), {"moment_weight": 0, "bearing_weight": 1, "least_mass": False}
+    alone = answered(made, objective=goal)
+    both = answered(made, objective=goal, scenarios=[scenario("slow"), scenario("fast", speed_rpm="2 rad/s")])
+    assert alone.certificate is not None
+    assert worst(both) == pytest.approx(4.0 * alone.certificate.objective, rel=1e-5)
+    ceiling = {**goal, "bearing_ceiling_N": 0.1}
+    refused = answered(made, objective=ceiling, scenarios=[scenario("slow"), scenario("fast", speed_rpm="2 rad/s")])
+    assert refused.infeasibility is not None
+    assert refused.infeasibility.conflict == ("bearing_ceiling_N",)
+    # half of 1/4 of the reciprocating mass is left at the least, 0.25 N at 1 rad/s and four times that at 2
+    assert [each.smallest for each in refused.infeasibility.smallest] == pytest.approx([1.0, 1.0], abs=1e-5)
+
+
+def test_the_bound_is_what_its_multipliers_prove_by_hand() -> None:
+    """Independent: the formula of the documentation, with what a kilogram metre is off by as a cost."""
+    made = random_machine(2) | {"max_total_mass_kg": None}
+    for one in made["webs"]:
+        one["sector"] = None
+    answer = answered(made, objective={"combine": "max", "moment_weight": 1.0}, tolerances={"mass_relative": 0.05})
+    proof, omega = answer.certificate, made["speed_rpm"] * np.pi / 30
+    assert proof is not None
+    assert proof.lower_bound is not None
+    before = answer.residual.orders.before[0]
+    pairs = {"force": before.force, "moment": before.moment}
+    rows = {each.name: each.value for each in proof.multipliers.objective.rows}
+    assert sum(rows.values()) == pytest.approx(1.0)
+    bound = sum(rows[name] * abs(_complex(pairs[name].counter_rotating)) for name in pairs)
+    slope, spread = np.zeros(len(made["webs"]), complex), np.zeros(len(made["webs"]))
+    for term in proof.multipliers.objective.terms:
+        arms = np.array([each["position_m"] - answer.reference_plane_m for each in made["webs"]])
+        arms = np.ones(arms.size) if term.response == "force" else arms
+        y = term.x + 1j * term.y
+        assert abs(y) <= rows[term.row]
+        bound += (np.conj(y) * _complex(pairs[term.response].co_rotating)).real
+        slope, spread = slope + omega**2 * arms * y, spread + 0.05 * omega**2 * np.abs(arms) * rows[term.row]
+    most = np.array([each["max_mass_kg"] * each["counterweight_radius_m"] for each in made["webs"]])
+    bound -= np.sum(most * np.maximum(np.abs(slope) - spread, 0.0))
+    assert proof.lower_bound == pytest.approx(bound, rel=1e-9)
+    assert 0 < proof.objective - bound <= 1.01e-6 * proof.yardstick
+
+
+def _complex(phasor: Any) -> complex:
+    first, second = [value for name, value in phasor.model_dump().items() if name.startswith(("real", "imag"))]
+    return complex(first, second)
+
+
+@pytest.mark.parametrize(
+    ("scenarios", "pointer"),
+    [
+        ([{"name": "a"}, {"name": "a"}], "1/name"),
+        ([{"name": "a", "weight": 0}], "0/weight"),
+        ([scenario("a", throws=2)], "0/changes/0/path"),
+        ([scenario("a"), scenario("b", speed_rpm=1, throws__7__crank_radius_m=1)], "1/changes/1/path"),
+        ([scenario("a", speed=2)], "0/changes/0/path"),
+        ([{"name": "a", "changes": [{"path": "/objective/force_weight", "value": 2}]}], "0/changes/0/path"),
+        ([{"name": "a", "changes": [{"path": "speed", "value": 2}]}], "0/changes/0/path"),
+        ([scenario("a", webs__0__max_mass_kg=2)], "0/changes/0/path"),
+        ([scenario("a", webs__0__counterweight_radius_m=2)], "0/changes/0/path"),
+        ([scenario("a", max_total_mass_kg=2)], "0/changes/0/path"),
+        ([scenario("a", speed_rpm=0)], "0/changes/0/value"),
+        ([scenario("a", speed_rpm=None)], "0/changes/0/value"),
+        ([scenario("a", speed_rpm="5 kg")], "0/changes/0/value"),
+        ([scenario("a", speed_rpm=True)], "0/changes/0/value"),
+        ([{"name": "a", "changes": [scenario("", speed_rpm=5)["changes"][0]] * 2}], "0/changes/1/path"),
+        ([scenario("a", throws__0__rows__0__connecting_rod__length_m=0.05)], "0/changes/0/value"),
+        ([scenario("a", throws__0__crank_radius_m=0.9)], "0/changes"),
+    ],
+)
+def test_scenarios_that_are_none_are_refused_by_name(scenarios: list[dict[str, Any]], pointer: str) -> None:
+    rod = {"length_m": 0.5}
+    made = machine([throw(0.0, 0.0, [row(0.0, 5.0, connecting_rod=rod)])], [web("a", 0.0)])
+    with pytest.raises(ValidationError) as caught:
+        OptimizeRequest.model_validate({"machine": made, "scenarios": scenarios})
+    found = {
+        "/".join(map(str, (*error["loc"], *problem)))
+        for error in caught.value.errors()
+        for problem in ([each.path for each in error.get("ctx", {}).get("problems", [])] or [()])
+    }
+    assert any(f"scenarios/{pointer}" in each for each in found), found
+
+
+@pytest.mark.parametrize(
+    ("tolerances", "field"),
+    [
+        ({"mass_relative": 1.01}, "mass_relative"),
+        ({"reciprocating_mass_relative": 2}, "reciprocating_mass_relative"),
+        ({"angle_deg": -1}, "angle_deg"),
+        ({"unbalance_kg_m": -1}, "unbalance_kg_m"),
+        ({"unbalance": 0}, "unbalance"),
+    ],
+)
+def test_tolerances_that_are_none_are_refused_by_name(tolerances: dict[str, float], field: str) -> None:
+    with pytest.raises(ValidationError, match=field):
+        OptimizeRequest.model_validate({"machine": crank(), "tolerances": tolerances})
+
+
+def test_scatter_of_masses_is_of_the_first_order() -> None:
+    body = {"machine": one_throw(), "objective": {"bearing_weight": 1}}
+    with pytest.raises(ValidationError, match=r"objective\.bearing_weight"):
+        OptimizeRequest.model_validate({**body, "tolerances": {"reciprocating_mass_relative": 0.01}})
+
+
+def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:
+    made = one_throw()
+    broken = scenario("a", throws__0__rows__0__connecting_rod__length_m=None)
+    goal = {"bearing_weight": 1}
+    assert answered(made, objective=goal, scenarios=[broken]).status == "optimal"
+    made["throws"][0]["rows"][0].pop("connecting_rod")
+    with pytest.raises(MissingInput):
+        answered(made, objective=goal, scenarios=[scenario("a")])
+
+
+@pytest.mark.parametrize(
+    "tolerances",
+    [
+        {"mass_relative": 1e-12},
+        {"unbalance_kg_m": 1e15},
+        {"mass_relative": 1, "angle_deg": 1e6, "reciprocating_mass_relative": 1},
+    ],
+)
+def test_tiny_and_huge_tolerances_are_answered(tolerances: dict[str, float]) -> None:
+    answer = answered(six_rows(), tolerances=tolerances)
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= worst(answer)
