@@ -12,7 +12,6 @@ from optimizer.optimize import optimize
 from schemas.answers import Certificate, OptimizeAnswer
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest
-from schemas.sweep.request import SweepRequest
 from tests.optimize.whole_turn import ALONE, asked, inline_six, one_throw
 
 
@@ -219,14 +218,8 @@ def test_what_a_machine_lacks_is_named() -> None:
     assert problem.message.endswith("asked for by objective.orders")
 
 
-def test_sweeps_and_fronts_refuse_the_whole_turn() -> None:
+def test_fronts_refuse_the_whole_turn() -> None:
     base = {"machine": inline_six(), "objective": {"bearing_weight": 1}}
-    axis = {"path": "/machine/speed_rpm", "values": [1000.0, 2000.0]}
-    with pytest.raises(ValidationError, match="one machine"):
-        SweepRequest.model_validate({"task": "optimize", "base": base, "axes": [axis]})
-    other = {"path": "/objective/bearing_weight", "values": [1.0, 2.0]}
-    with pytest.raises(ValidationError, match="one machine"):
-        SweepRequest.model_validate({"task": "optimize", "base": {"machine": inline_six()}, "axes": [other]})
     with pytest.raises(ValidationError, match="whole turn"):
         ParetoRequest.model_validate(base)
 
