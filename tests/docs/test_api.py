@@ -74,6 +74,11 @@ def test_the_whole_turn() -> None:
     agrees(infeasible, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
+def test_scenarios_and_tolerances() -> None:
+    request, shown = blocks(section(API, "Scenarios and tolerances"))
+    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+
+
 def test_what_a_shadow_price_promises() -> None:
     """Analytic: below the optimum mass every kilogram takes R omega^2 = 877.3 N off the peak."""
     request, *_ = blocks(section(API, "POST /v1/optimize"))

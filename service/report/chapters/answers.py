@@ -11,6 +11,7 @@ from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.pins import pin_loads
+from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 
 #: chapters of the outputs, in the order in which they stand
@@ -27,6 +28,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield verdict.result(request, answer)
     yield balance.counterweights(request, answer)
     yield from worth_knowing(answer)
+    yield from worst_case(answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     if answer.stages is not None:

@@ -173,8 +173,8 @@ def places(fitted: Sequence[Counterweight]) -> Table:
 
 def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:
     """What the limits cost."""
-    if request.objective.over_the_turn:
-        yield Paragraph("Shadow prices are told of objectives of the first order alone.")
+    if request.objective.over_the_turn or request.robust:
+        yield Paragraph("Shadow prices are told of objectives of the first order alone, of one machine as it is given.")
     elif answer.shadow_prices:
         yield Paragraph(
             "A shadow price says by how much the smallest objective falls per unit by which a limit is raised, the "

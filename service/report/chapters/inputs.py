@@ -8,6 +8,7 @@ from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, T
 from schemas.over_turn import ForceTable, TorqueTable
 from schemas.requests import OptimizeRequest, Priority
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
+from service.report.chapters.worst_case import asked
 
 _ACTING = {"double": "both sides", "head": "head side", "crank": "crank side"}
 
@@ -23,7 +24,7 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
         blocks += _reciprocating(machine)
     else:
         blocks.append(_scroll(machine))
-    blocks += [_webs(machine), _objective(request)]
+    blocks += [_webs(machine), _objective(request), *asked(request)]
     return Chapter("Inputs", tuple(blocks))
 
 

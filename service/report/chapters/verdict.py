@@ -82,6 +82,8 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
         "smallest.",
         "warning",
     )
+    if why.scenarios:
+        yield Paragraph(f"Those of the scenarios {', '.join(why.scenarios)} conflict.", "warning")
     closest = why.closest.first_order
     yield table(
         "What can be reached",

@@ -1,0 +1,58 @@
+"""The worst case of scenarios and tolerances in the report, on the terminal and for the checker."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from optimizer.optimize import optimize
+from schemas.requests import OptimizeRequest
+from service.cli import app
+from service.report.document import report
+from service.report.html import html
+from service.validation import InvalidRequest, check
+from service.validation import pointer as spelled
+from service.verification import checker
+from tests.optimize.test_robust import crank, scenario
+
+TWO = [scenario("as it is"), scenario("turned", throws__0__crank_angle_deg=60)]
+BODY = {"machine": crank(), "scenarios": TWO, "tolerances": {"mass_relative": 0.02}}
+
+
+def test_the_report_says_what_was_asked_and_what_it_costs() -> None:
+    request = OptimizeRequest.model_validate(BODY)
+    document, answer = html(report(request)).decode(), optimize(request)
+    assert "Scenarios: the largest weighted objective counts" in document
+    assert "mass of a counterweight, share of it" in document
+    worst, price = answer.worst_case, answer.price_of_robustness
+    assert worst is not None
+    assert price is not None
+    for figure in (worst.force_peak_N, price.nominal_optimum_worst_case):
+        assert f'value="{figure!r}"' in document
+
+
+def test_conflicting_scenarios_are_named_in_the_report() -> None:
+    request = OptimizeRequest.model_validate({**BODY, "objective": {"force_ceiling_N": 90}})
+    assert "scenarios as it is, turned conflict" in html(report(request)).decode()
+
+
+def test_the_terminal_shows_the_worst_case(tmp_path: Path) -> None:
+    file = tmp_path / "asked.json"
+    file.write_text(json.dumps(BODY))
+    done = CliRunner().invoke(app, ["optimize", str(file)])
+    assert done.exit_code == 0
+    assert "In the worst case" in done.output
+
+
+def test_the_checker_says_that_it_does_not_know_scenarios_and_tolerances() -> None:
+    for body in (BODY, {**BODY, "scenarios": []}):
+        answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+        assert checker().verify(body, answer)["verdict"] == "not covered"
+
+
+def test_a_wrong_scenario_is_named_by_its_pointer() -> None:
+    wrong = {"name": "b", "changes": [{"path": "/machine/throws/3/crank_radius_m", "value": 1}]}
+    with pytest.raises(InvalidRequest) as caught:
+        check(OptimizeRequest, {**BODY, "scenarios": [TWO[0], wrong]})
+    assert [spelled(path) for path, _ in caught.value.problems] == ["/scenarios/1/changes/0/path"]
