@@ -18,19 +18,32 @@ if TYPE_CHECKING:
     from optimizer.analyze import analyze
     from optimizer.catalogue import catalogue
     from optimizer.errors import MissingInput
+    from optimizer.matching.match import match
     from optimizer.optimize import optimize
     from optimizer.pareto.pareto import pareto
     from optimizer.pins.answer import pin_loads
     from optimizer.rating.rate import rate
     from optimizer.sweep.whole import sweep_table
 
-__all__ = ["MissingInput", "accuracy", "analyze", "catalogue", "optimize", "pareto", "pin_loads", "rate", "sweep_table"]
+__all__ = [
+    "MissingInput",
+    "accuracy",
+    "analyze",
+    "catalogue",
+    "match",
+    "optimize",
+    "pareto",
+    "pin_loads",
+    "rate",
+    "sweep_table",
+]
 
 _HOMES = {
     "MissingInput": "optimizer.errors",
     "accuracy": "optimizer.accuracy.measure",
     "analyze": "optimizer.analyze",
     "catalogue": "optimizer.catalogue",
+    "match": "optimizer.matching.match",
     "optimize": "optimizer.optimize",
     "pareto": "optimizer.pareto.pareto",
     "pin_loads": "optimizer.pins.answer",

@@ -10,6 +10,8 @@ if TYPE_CHECKING:
     from schemas.accuracy import AccuracyAnswer, AccuracyRequest
     from schemas.answers import AnalyzeAnswer, OptimizeAnswer
     from schemas.machine import ReciprocatingMachine, ScrollMachine
+    from schemas.match import MatchRequest
+    from schemas.match_answer import MatchAnswer
     from schemas.pareto import ParetoAnswer, ParetoRequest
     from schemas.rating import RatingRequest
     from schemas.rating_answer import RatingAnswer
@@ -23,6 +25,8 @@ __all__ = [
     "AccuracyRequest",
     "AnalyzeAnswer",
     "AnalyzeRequest",
+    "MatchAnswer",
+    "MatchRequest",
     "OptimizeAnswer",
     "OptimizeRequest",
     "ParetoAnswer",
@@ -43,6 +47,8 @@ _HOMES = {
     "AccuracyRequest": "schemas.accuracy",
     "AnalyzeAnswer": "schemas.answers",
     "AnalyzeRequest": "schemas.requests",
+    "MatchAnswer": "schemas.match_answer",
+    "MatchRequest": "schemas.match",
     "OptimizeAnswer": "schemas.answers",
     "OptimizeRequest": "schemas.requests",
     "ParetoAnswer": "schemas.pareto",

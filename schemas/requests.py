@@ -1,6 +1,6 @@
 """What a client asks: optimise or analyse a machine."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, Strict
@@ -281,11 +281,16 @@ class AnalyzeRequest(Scene, Ruled):
     )
 
     def rules(self) -> Iterator[Rule]:
-        names = {web.name for web in self.machine.webs}
-        seen: set[str] = set()
-        for index, counterweight in enumerate(self.counterweights):
-            path = ("counterweights", index, "web")
-            yield Rule(counterweight.web not in names, path, "the machine has no web of this name")
-            twice = counterweight.web in seen & names
-            yield Rule(twice, path, "this web carries a counterweight already")
-            seen.add(counterweight.web)
+        yield from fitted_rules(self.machine, self.counterweights)
+
+
+def fitted_rules(machine: Machine, counterweights: Sequence[FittedCounterweight]) -> Iterator[Rule]:
+    """Every counterweight on a web of the machine, and every web with one at most."""
+    names = {web.name for web in machine.webs}
+    seen: set[str] = set()
+    for index, counterweight in enumerate(counterweights):
+        path = ("counterweights", index, "web")
+        yield Rule(counterweight.web not in names, path, "the machine has no web of this name")
+        twice = counterweight.web in seen & names
+        yield Rule(twice, path, "this web carries a counterweight already")
+        seen.add(counterweight.web)

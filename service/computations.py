@@ -196,6 +196,20 @@ COMPUTATIONS: dict[str, Computation] = {
             tag="rating",
             examples="rating",
         ),
+        Computation(
+            name="match",
+            path="/v1/match",
+            request="schemas.match:MatchRequest",
+            answer="schemas.match_answer:MatchAnswer",
+            compute="optimizer.matching.match:match",
+            summary="Which weighed part goes on which row, each once, with a certificate",
+            remark="Masses of parts are added to the reciprocating masses of the rows. An assignment that is not proven"
+            " as closely as asked is answered with 200 too: `status` says so.",
+            help="Say which weighed part goes on which row.",
+            chapters="service.report.chapters.match:matched",
+            examples="match",
+            later=True,
+        ),
         # of answers
         Computation(
             name="verify",

@@ -9,11 +9,13 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.catalogue import catalogue
+from optimizer.matching.match import match
 from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
 from optimizer.program import cuts, solution
 from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
+from schemas.match import MatchRequest
 from schemas.outputs import OutputName
 from schemas.pareto import ParetoRequest
 from schemas.rating import RatingRequest
@@ -112,6 +114,11 @@ def test_the_front() -> None:
 def test_the_rating() -> None:
     request, shown = blocks(section(API, "POST /v1/rating"))
     agrees(shown, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_matching() -> None:
+    request, shown = blocks(section(API, "POST /v1/match"))
+    agrees(shown, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_effects() -> None:

@@ -11,8 +11,8 @@ from service.documents.examples import bodies
 from tests.network.serving import Reply, Service, read
 
 _PATHS = (
-    "/v1/optimize", "/v1/analyze", "/v1/pareto", "/v1/rating", "/v1/scroll/pin-loads", "/v1/report", "/v1/verify",
-    "/v1/sweeps", "/v1/sweeps/" + "0" * 32, "/v1/sweeps/x/results", "/v1/sweeps/x/events",
+    "/v1/optimize", "/v1/analyze", "/v1/pareto", "/v1/rating", "/v1/match", "/v1/scroll/pin-loads", "/v1/report",
+    "/v1/verify", "/v1/sweeps", "/v1/sweeps/" + "0" * 32, "/v1/sweeps/x/results", "/v1/sweeps/x/events",
     "/v1/sweeps/x/resume", "/v1/examples", "/v1/examples/w60", "/v1/effects", "/v1/version", "/healthz", "/readyz",
     "/metrics", "/portal/x/main.js", "/docs/assets/favicon.png", "/", "/nothing", "*", "//", "/v1/../healthz",
 )  # fmt: skip

@@ -83,8 +83,9 @@ def test_every_field_is_described_with_an_example(model: type[Model]) -> None:
 @each_model
 def test_every_physical_field_carries_its_unit(model: type[Model], mode: Any) -> None:
     properties = model.model_json_schema(mode=mode).get("properties", {})
-    expected = {name: {unit} if (unit := unit_of(name)) else set() for name in model.model_fields}
-    assert {name: units_in(properties[name]) for name in model.model_fields} == expected
+    names = [field.alias or name for name, field in model.model_fields.items()]
+    expected = {name: {unit} if (unit := unit_of(name)) else set() for name in names}
+    assert {name: units_in(properties[name]) for name in names} == expected
 
 
 def test_every_model_is_described() -> None:
@@ -104,6 +105,8 @@ def test_examples_are_valid(model: type[Model]) -> None:
     """Of requests all, of answers those of single values."""
     for field in model.model_fields.values():
         if of_a_request(model) or field.annotation in (float, int, str):
-            adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, field])
+            # the name under which it crosses the boundary is the model's, not the value's
+            plain = field.merge_field_infos(field, alias=None, validation_alias=None, serialization_alias=None)
+            adapter: TypeAdapter[Any] = TypeAdapter(Annotated[field.annotation, plain])
             for example in field.examples or []:
                 adapter.validate_python(example)

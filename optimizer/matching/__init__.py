@@ -1,0 +1,1 @@
+"""Which weighed part goes on which row (docs/mathematics.md section 15)."""
