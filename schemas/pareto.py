@@ -19,6 +19,7 @@ from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
 from schemas.rules import Rule, first_of
+from schemas.trade import MAX_TRADED_POINTS, TradedFront, TradedNames
 from schemas.units import Unit, between
 
 MAX_POINTS = 201
@@ -36,8 +37,8 @@ Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MA
 class ParetoRequest(OptimizeRequest):
     """The force-moment front of a machine, and its change with the total mass.
 
-    Of the objective, direction weights, ceilings and ``least_mass`` count; how force and moment are weighed and
-    combined does not. Of the outputs, the residual alone is computed.
+    Of the objective, direction weights, ceilings and ``least_mass`` count, and where responses are named what says how
+    they are measured; how they are weighed and combined does not. Of the outputs, the residual alone is computed.
     """
 
     points: Annotated[Count, between(2, MAX_POINTS)] = Field(
@@ -50,6 +51,13 @@ class ParetoRequest(OptimizeRequest):
         examples=[[120.0, 180.0, 240.0]],
     )
 
+    responses: TradedNames | None = Field(
+        None,
+        description="any two or three to trade for one another, in `trades` of the answer; null is force against moment"
+        " of the first order, in `fronts`",
+        examples=[["bearings", "mass"]],
+    )
+
     multipliers: Flag = Field(
         False, description="the multipliers of every point's certificate, and of the ends'", examples=[False]
     )
@@ -57,8 +65,7 @@ class ParetoRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.worst_case_rules("a front is of one machine as it is given")
-        for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "a front is of the first-order peaks: not asked of the whole turn")
+        yield from self._trade_rules()
         budgets = self.total_mass_budgets_kg or ()
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)
@@ -69,6 +76,20 @@ class ParetoRequest(OptimizeRequest):
         yield from first_of(
             [Rule(together > MAX_POINTS_TOGETHER, ("points",), points), Rule(places > MAX_PLACES, ("points",), work)]
         )
+
+    def _trade_rules(self) -> Iterator[Rule]:
+        if self.responses is None:
+            for name in self.objective.over_the_turn:
+                message = "a front is of the first-order peaks: what the whole turn asks for needs responses"
+                yield Rule(True, ("objective", name), message)
+            return
+        for index, name in enumerate(self.responses):
+            yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
+        yield Rule(bool(self.objective.priorities), ("objective", "priorities"), "a front has no order of its goals")
+        yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
+        together = self.points * max(1, len(self.total_mass_budgets_kg or ()))
+        most = f"points times budgets must be at most {MAX_TRADED_POINTS} where responses are named"
+        yield Rule(together > MAX_TRADED_POINTS, ("points",), most)
 
 
 class Scale(Model):
@@ -229,7 +250,12 @@ class ParetoAnswer(Answer):
 
     status: Status = Field(description="the worst of the fronts", examples=["optimal"])
     fronts: tuple[ParetoFront, ...] = Field(
-        description="one for each budget of the total mass, in the order asked; without budgets one", examples=[[]]
+        description="one for each budget of the total mass, in the order asked; without budgets one. None where"
+        " responses are named",
+        examples=[[]],
+    )
+    trades: tuple[TradedFront, ...] = Field(
+        (), description="the same of the responses that are named; none without", examples=[[]]
     )
     without_counterweights: FirstOrder = Field(
         description="first order without counterweights", examples=[{"force": {"peak_N": 10006.1}}]

@@ -16,6 +16,7 @@ from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
+from optimizer.pareto.trades import needed, traded_front
 from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import Claim, mass_resolution, verdict
@@ -48,16 +49,23 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     """
     solver = solver or own_solver()
     start = time.perf_counter()
+    if request.responses is not None:
+        needed(request, request.responses)
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
     solving = time.perf_counter()
-    made = [_front(request, machine, scene, solver) for machine in _machines(request)]
+    machines = _machines(request)
+    made = [_front(request, machine, scene, solver) for machine in machines if request.responses is None]
     fronts = tuple(one.front for one in made)
-    end = time.perf_counter()
     solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
+    trading = time.perf_counter()
+    trades = tuple(traded_front(request, machine, scene) for machine in machines if request.responses is not None)
+    end = time.perf_counter()
+    solved += end - trading
     before = scene.first_order()
     return ParetoAnswer(
-        status=max((one.status for one in fronts), key=_WORST.index),
+        status=max((*(one.status for one in fronts), *(one.status for one in trades)), key=_WORST.index),
         fronts=fronts,
+        trades=trades,
         without_counterweights=first_order(before),
         floor=floor(before),
         reference_plane_m=float(scene.layout.reference_plane),

@@ -4,6 +4,7 @@ from collections.abc import Iterator
 
 from schemas.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
 from schemas.requests import Objective
+from schemas.trade import TradedFront, TradedPoint
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, table
 from service.report.chapters.balance import limits
 from service.report.chapters.verdict import reachable
@@ -22,6 +23,10 @@ def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
         budget = front.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
         yield Chapter(f"Front, {limit}: {front.status}", tuple(_front(request.objective, front)))
+    for trade in answer.trades:
+        budget = trade.max_total_mass_kg
+        limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
+        yield Chapter(f"Trade-off, {limit}: {trade.status}", tuple(_trade(request.objective, trade)))
 
 
 def _bounds(answer: ParetoAnswer) -> Table:
@@ -50,6 +55,27 @@ def _front(objective: Objective, front: ParetoFront) -> Iterator[Block]:
         )
 
 
+def _trade(objective: Objective, trade: TradedFront) -> Iterator[Block]:
+    """Any two or three responses: what each comes to alone, and the points between."""
+    if trade.infeasibility is not None:
+        yield from reachable(objective, trade.infeasibility)
+        return
+    heads = [f"#{one.response}, {one.unit}" for one in trade.responses]
+    bounds: list[tuple[Cell | float | None, ...]] = [
+        ("without counterweights", *(one.without_counterweights for one in trade.responses)),
+        ("smallest by itself", *(one.smallest for one in trade.responses)),
+        ("proven at least", *(one.lower_bound for one in trade.responses)),
+    ]
+    yield table("", ["", *heads], bounds)
+    rows: list[tuple[Cell | float | None, ...]] = [
+        (str(index), *point.values, point.total_mass_kg, _gap(point), "" if beaten is None else f"beaten by {beaten}")
+        for index, (point, beaten) in enumerate((each, each.beaten_by) for each in trade.points)
+    ]
+    yield table("", ["point", *heads, "#mass, kg", "#relative gap", ""], rows)
+    if trade.reason is not None:
+        yield Paragraph("All are smallest at the same counterweights: nothing has to be traded.")
+
+
 def _points(front: ParetoFront, weighted: bool) -> Table:
     heads = ["point", "#peak force, N", "#peak moment, N m"]
     heads += ["#weighted force, N", "#weighted moment, N m"] if weighted else []
@@ -70,7 +96,7 @@ def _point(front: ParetoFront, index: int, point: ParetoPoint, weighted: bool) -
     )
 
 
-def _gap(point: ParetoPoint) -> Cell:
+def _gap(point: ParetoPoint | TradedPoint) -> Cell:
     gap, known = point.certificate.relative_gap, "" if point.status == "optimal" else " inaccurate"
     return f"none{known}" if gap is None else Number(gap, f"{gap:.1e}{known}")
 
