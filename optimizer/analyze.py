@@ -1,10 +1,10 @@
 """The machine as it stands, or with given counterweights."""
 
 import time
+from dataclasses import replace
 
-import numpy as np
-
-from optimizer.figures.counterweights import as_given, counterweights, unbalance
+from optimizer.balance_shafts import fitted
+from optimizer.figures.counterweights import as_given
 from optimizer.outputs import fields, prepare
 from schemas.answers import AnalyzeAnswer, Timing
 from schemas.requests import AnalyzeRequest
@@ -21,13 +21,12 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     start = time.perf_counter()
     scene = prepare(request)
     reporting = time.perf_counter()
-    mass, angle = as_given(request)
-    found = fields(scene, unbalance(mass, angle, scene.layout.webs.radius))
+    given = fitted(request.machine, *as_given(request))
+    found = fields(replace(scene, shafts=given.on_shafts), given.on_crank)
     end = time.perf_counter()
     return AnalyzeAnswer(
         **found,
-        counterweights=counterweights(request.machine, mass, angle),
-        total_mass_kg=float(np.sum(mass)),
+        **given.fields,
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(

@@ -12,7 +12,8 @@ import numpy as np
 
 from optimizer.arrays import SMALLEST, Reals
 from optimizer.limits import limits
-from optimizer.mechanics.inertia import Wrench, first_order_responses
+from optimizer.mechanics.balance_shafts import first_order_responses
+from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Response
@@ -123,6 +124,11 @@ def responses(layout: Layout, baseline: Wrench) -> tuple[Response, ...]:
 def weights(machine: Machine, objective: Objective) -> Mapping[str, Reals]:
     """Weight of each response, by name: w_F [1/N] and w_M [1/(N m)]."""
     return {each.name: each.weight(machine, objective) for each in RESPONSES.values()}
+
+
+def with_weights_of(machine: Machine, objective: Objective) -> Objective:
+    """The objective with the weights given that a machine decides by default."""
+    return objective.model_copy(update={"moment_weight": float(MOMENT.weight(machine, objective))})
 
 
 def given_ceilings(objective: Objective) -> list[tuple[Ceiling, float]]:

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped
+from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified, certified
 from optimizer.certified_robust import certified_robust, nothing_off
 from optimizer.certified_turn import certified_turn
 from optimizer.errors import MissingInput
-from optimizer.figures.counterweights import counterweights
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import shadow_prices as priced
 from optimizer.figures.limits import touched_limits
@@ -68,11 +68,14 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         return _over_the_turn(request, start)
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
-    best = certified(request, scene.responses, np.array([scene.omega_squared]), solver)
+    asked = posed(request)
+    best = certified(asked, scene.responses, np.array([scene.omega_squared]), solver)
 
     reporting = time.perf_counter()
     unreachable = bool(best.found.unreachable[0])
-    fields = _infeasible(request, scene, best, solver) if unreachable else _reached(request, scene, best)
+    fitted = chosen(request, best.mass_kg[0], best.angle_deg[0], best.unbalance[0])
+    scene = replace(scene, shafts=fitted.on_shafts)
+    fields = _infeasible(asked, scene, best, fitted, solver) if unreachable else _reached(asked, scene, best, fitted)
     fields |= _nothing_off(request, scene, None if unreachable else best.unbalance[0], fields)
     end = time.perf_counter()
     proving = float(best.found.certify_s[0])
@@ -80,7 +83,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         status=str(best.status[0]),
         status_reason=str(best.reason[0]),
         **fields,
-        **answered(scene, None if unreachable else best.unbalance[0], _ALWAYS, fields),
+        **answered(scene, None if unreachable else fitted.on_crank, _ALWAYS, fields),
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(
@@ -134,19 +137,16 @@ def _nothing_off(
     return nothing_off(request, scene, unbalance, certificate.objective)
 
 
-def _reached(request: OptimizeRequest, scene: Prepared, best: Certified) -> dict[str, object]:
+def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted: Fitted) -> dict[str, object]:
     """Counterweights, what holds them up, and their certificate."""
-    machine, goal = request.machine, request.objective
-    fitted, u = counterweights(machine, best.mass_kg[0], best.angle_deg[0]), best.unbalance[0]
-    mass = float(np.sum(best.mass_kg[0]))
+    machine, goal, u = request.machine, request.objective, best.unbalance[0]
     touched = touched_limits(machine, goal, scene.responses, best.mass_kg[0], u, scene.omega_squared)
     (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
     figures = {name: column[0] for name, column in best.certificate.items()}
     return {
-        "counterweights": fitted,
-        "total_mass_kg": mass,
+        **fitted.fields,
         "active_limits": touched,
-        "shadow_prices": _prices(request, scene, best, fitted, touched),
+        "shadow_prices": _prices(request, scene, best, fitted.all_of_them, touched),
         "sensitivity": of_first_order(best.program.chosen(0), u, scene.omega_squared),
         "certificate": Certificate(
             **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
@@ -213,7 +213,9 @@ def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multi
     return Multipliers(peak.term * only, peak.row * only, np.zeros_like(excess.ceilings.norms.constant))
 
 
-def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solver: Solver) -> dict[str, object]:
+def _infeasible(
+    request: OptimizeRequest, scene: Prepared, best: Certified, fitted: Fitted, solver: Solver
+) -> dict[str, object]:
     """Which ceilings conflict, and what can be reached: each peak by itself, and the best compromise."""
     machine, square, given = request.machine, best.omega_squared, given_ceilings(request.objective)
     components = {ceiling.name for ceiling, _ in given} - {each.name for each in scene.responses}
@@ -230,7 +232,6 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solv
         proofs[name] = named(peak, physical(peak, alone.multipliers, "objective", square).chosen(0))
         smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
     impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
-    closest = counterweights(machine, best.mass_kg[0], best.angle_deg[0])
     (proof,) = named_proofs(*_conflict(request, best, most, multipliers, solver), square, request.objective.least_mass)
     return {
         "counterweights": (),
@@ -252,7 +253,11 @@ def _infeasible(request: OptimizeRequest, scene: Prepared, best: Certified, solv
                 if ceiling.name in components
             ),
             implied_max_mass_kg=implied_max_mass(machine, most)[0],
-            closest=Closest(counterweights=closest, first_order=first_order(scene.first_order(best.unbalance[0]))),
+            closest=Closest(
+                counterweights=fitted.counterweights,
+                balance_shafts=fitted.balance_shafts,
+                first_order=first_order(scene.first_order(fitted.on_crank)),
+            ),
             multipliers=InfeasibilityMultipliers(conflict=proof.conflict, **smallest_proofs(proofs)),
         ),
     }

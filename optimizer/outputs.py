@@ -75,7 +75,7 @@ def fields(
     outputs = dict.fromkeys((*always, *scene.request.outputs))
     found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
-        found["floor"] = floor(scene.first_order())
+        found["floor"] = floor(scene.layout, scene.first_order())
     found["balance_rate"] = balance_rate(scene.machine, unbalance)
     found["warnings"] = cautions(scene, unbalance, found, proven)
     return found

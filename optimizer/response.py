@@ -81,6 +81,10 @@ class Response:
         answers out of line with itself.
     order : how often the vectors turn while the shaft turns once.
     sense : +1 if the co-rotating vector turns with the shaft, -1 if against it.
+    counter_influence : (..., webs) change of the counter-rotating phasor, of webs on shafts that turn backwards; None
+        where there are none. The unbalance of such a web stands for its mirror image at the x axis, conj(v), so that
+        all is affine in it: it changes conj(counter). Where the phasors never meet in one vector it may as well stand
+        for v itself.
     scenario : name of the scenario whose response it is; None of the machine as it is given.
     """
 
@@ -90,6 +94,7 @@ class Response:
     influence: Real | Complex
     order: int = 1
     sense: int = 1
+    counter_influence: Real | None = None
     scenario: str | None = None
 
     def spread(self, leading: tuple[int, ...]) -> "Response":
@@ -98,7 +103,11 @@ class Response:
             return self
         baseline = mapped(self.baseline, lambda array: np.broadcast_to(array, leading))
         influence = np.broadcast_to(np.asarray(self.influence), (*leading, self.influence.shape[-1]))
-        return replace(self, baseline=baseline, influence=influence)  # type: ignore[arg-type]  # real or complex
+        against = self.counter_influence
+        if against is not None:
+            against = np.broadcast_to(against, (*leading, against.shape[-1]))
+        found = replace(self, baseline=baseline, influence=influence)  # type: ignore[arg-type]  # real or complex
+        return found if against is None else replace(found, counter_influence=against)
 
     def to(self, unbalance: Complex) -> Phasors:
         """Response with counterweights, baseline + influence @ unbalance.
@@ -108,7 +117,10 @@ class Response:
         unbalance : (..., webs) complex mass-radius products m R e^{ja}, kg m.
         """
         change = np.sum(self.influence * unbalance, axis=-1)
-        return Phasors(self.baseline.co + change, self.baseline.counter)
+        if self.counter_influence is None:
+            return Phasors(self.baseline.co + change, self.baseline.counter)
+        mirrored = np.sum(self.counter_influence * unbalance, axis=-1)
+        return Phasors(self.baseline.co + change, self.baseline.counter + np.conj(mirrored))
 
     def along(self, axis: Literal["x", "y"]) -> "Response":
         """Its component along an axis, which is the larger the longer co + e^{2j g} conj(counter): a single phasor.
@@ -117,7 +129,12 @@ class Response:
         """
         counter = np.conj(self.baseline.counter)
         one = self.baseline.co + counter if axis == "x" else self.baseline.co - counter
-        return replace(self, name=f"{self.name}:{axis}", baseline=Phasors(one, np.zeros_like(one)))
+        alone = replace(
+            self, name=f"{self.name}:{axis}", baseline=Phasors(one, np.zeros_like(one)), counter_influence=None
+        )
+        if self.counter_influence is None:
+            return alone
+        return replace(alone, influence=self.influence + (1.0 if axis == "x" else -1.0) * self.counter_influence)
 
     def over_turn(self, unbalance: Complex, turned_rad: Real) -> Complex:
         """Response with counterweights while the shaft turns (..., n).

@@ -10,6 +10,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import Simulated, simulate
 from optimizer.formulate import responses
+from optimizer.mechanics.balance_shafts import of_balance_shafts
 from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.response import Response
@@ -29,6 +30,7 @@ class Prepared:
     angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
     simulated: Simulated
     mechanics_ms: float
+    shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
 
     @property
     def machine(self) -> ReciprocatingMachine | ScrollMachine:
@@ -53,7 +55,14 @@ class Prepared:
         wrench = self.simulated.first_order
         if unbalance is not None:
             wrench = wrench.plus(counterweights(self.layout, unbalance))
+            wrench = self.with_shafts(wrench, 1)
         return wrench.times(self.layout.omega**2)
+
+    def with_shafts(self, wrench: Wrench, order: int) -> Wrench:
+        """Force and moment of an order over omega^2, with what the balance shafts add."""
+        if self.layout.balance is None or self.shafts is None:
+            return wrench
+        return wrench.plus(of_balance_shafts(self.layout, self.layout.balance, self.shafts, order))
 
     @property
     def responses(self) -> tuple[Response, ...]:

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.base import Answer, Model
+from schemas.machine import no_balance_shafts
 from schemas.quantities import Count, Milliseconds
 from schemas.requests import OptimizeRequest
 from schemas.rules import Rule
@@ -23,6 +24,7 @@ class AccuracyRequest(OptimizeRequest):
         yield from self.worst_case_rules("the ladder is of one machine as it is given")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of the whole turn")
+        yield from no_balance_shafts(self.machine, ("machine",), "the ladder")
 
 
 class AccuracyRow(Model):

@@ -68,6 +68,21 @@ class Counterweight(Model):
     )
 
 
+class ShaftUnbalance(Model):
+    """The unbalances of one balance shaft."""
+
+    name: Name = Field(description="name of the shaft", examples=["upper"])
+    speed_ratio: int = Field(description="turns of it for one of the crankshaft", examples=[-1])
+    gearing: str = Field(
+        description="which way it turns, how fast, and how its unbalances stand at shaft angle 0, in a sentence",
+        examples=["Turns against the crankshaft at its speed."],
+    )
+    total_mass_kg: Kilograms = Field(description="total mass of its unbalances", examples=[3.2])
+    counterweights: tuple[Counterweight, ...] = Field(
+        description="one for each of its webs; angles as drawn at shaft angle 0, forces at its own speed", examples=[[]]
+    )
+
+
 class ForceEllipse(Model):
     """The first-order force over a turn: an ellipse, exact."""
 
@@ -147,7 +162,7 @@ class BalanceRate(Model):
 
 
 class Floor(Model):
-    """What remains however large the counterweights: the counter-rotating phasors."""
+    """What remains however large the counterweights: the counter-rotating phasors, as far as no shaft turns so."""
 
     force_N: Newtons = Field(description="smallest peak force that counterweights could reach", examples=[2498.7])
     moment_Nm: NewtonMetres = Field(
@@ -260,6 +275,9 @@ class Closest(Model):
     """The counterweights whose largest excess over the ceilings is smallest."""
 
     counterweights: tuple[Counterweight, ...] = Field(description="the counterweights", examples=[[]])
+    balance_shafts: tuple[ShaftUnbalance, ...] = Field(
+        (), description="unbalances of the balance shafts with them", examples=[[]]
+    )
     first_order: FirstOrder = Field(description="what they leave", examples=[{"force": {"peak_N": 4997.4}}])
 
 
@@ -328,7 +346,13 @@ class OptimizeAnswer(OutputFields, Answer):
         description="one for each web, in the machine's order; empty if infeasible", examples=[[]]
     )
     total_mass_kg: Kilograms | None = Field(
-        description="total mass of the counterweights; null if infeasible", examples=[41.2]
+        description="total mass of the counterweights on the crankshaft; null if infeasible", examples=[41.2]
+    )
+    balance_shafts: tuple[ShaftUnbalance, ...] = Field(
+        (), description="unbalances of the balance shafts, in their order; empty if infeasible", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of these; null where there are none to show", examples=[None]
     )
     active_limits: tuple[MachineLimit, ...] = Field(
         (), description="limits of the whole machine that the answer touches", examples=[["max_total_mass"]]
@@ -385,6 +409,12 @@ class AnalyzeAnswer(OutputFields, Answer):
         description="the counterweights on the machine, one for each web", examples=[[]]
     )
     total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
+    balance_shafts: tuple[ShaftUnbalance, ...] = Field(
+        (), description="unbalances of the balance shafts, in their order", examples=[[]]
+    )
+    balance_shafts_mass_kg: Kilograms | None = Field(
+        None, description="total mass of these; null where there are none", examples=[None]
+    )
     floor: Floor | None = Field(
         None,
         description="what no counterweights can remove; null if no output asks for the first order",

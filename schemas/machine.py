@@ -19,6 +19,7 @@ MAX_THROWS = 500
 MAX_ROWS = 60
 MAX_ROWS_TOGETHER = 500
 MAX_WEBS = 500
+MAX_BALANCE_SHAFTS = 20
 
 
 class ConnectingRod(Model):
@@ -112,6 +113,22 @@ class Web(Model):
     )
 
 
+class BalanceShaft(Model):
+    """A shaft beside the crankshaft, geared to it, whose unbalance is chosen as well."""
+
+    name: Name = Field(description="name of the shaft, unique in the machine", examples=["upper"])
+    speed_ratio: Literal[-2, -1, 1, 2] = Field(
+        description="turns of it for one of the crankshaft; negative against its sense of rotation", examples=[-1]
+    )
+    x_m: Position = Field(0.0, description="place of its axis across the crankshaft", examples=[0.05])
+    y_m: Position = Field(0.0, description="place of its axis across the crankshaft", examples=[0.2])
+    webs: Annotated[tuple[Web, ...], NotEmpty()] = Field(
+        max_length=MAX_WEBS,
+        description="places where its unbalances can sit; angles as drawn at shaft angle 0",
+        examples=[[{"name": "upper", "position_m": 0.0, "counterweight_radius_m": 0.03, "max_mass_kg": 4}]],
+    )
+
+
 class Rotor(Ruled):
     """What every machine has: a shaft, its speed, and the places for counterweights."""
 
@@ -169,6 +186,13 @@ class ReciprocatingMachine(Rotor):
         examples=[[{"name": "A", "position_m": -0.4}, {"name": "B", "position_m": 0.4}]],
     )
 
+    balance_shafts: tuple[BalanceShaft, ...] = Field(
+        (),
+        max_length=MAX_BALANCE_SHAFTS,
+        description="shafts geared to the crankshaft, whose unbalances are chosen together with the counterweights",
+        examples=[[]],
+    )
+
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         rows = sum(len(throw.rows) for throw in self.throws)
@@ -184,6 +208,24 @@ class ReciprocatingMachine(Rotor):
         if self.friction is not None:
             yield from self.friction.row_rules(rows)
         yield from _bearing_rules(self.bearings)
+        if self.balance_shafts:
+            yield from self._shaft_rules()
+
+    def _shaft_rules(self) -> Iterator[Rule]:
+        """Rules of the balance shafts."""
+        yield from _unique_names(("balance_shafts",), [shaft.name for shaft in self.balance_shafts])
+        places = sum((len(shaft.webs) for shaft in self.balance_shafts), len(self.webs))
+        yield Rule(places > MAX_WEBS, ("balance_shafts",), f"all shafts together must hold at most {MAX_WEBS} webs")
+        taken = {web.name for web in self.webs}
+        for i, shaft in enumerate(self.balance_shafts):
+            for k, web in enumerate(shaft.webs):
+                path = ("balance_shafts", i, "webs", k)
+                message = "this name is taken already; names of webs must be unique on all shafts"
+                yield Rule(web.name in taken, (*path, "name"), message)
+                yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
+                taken.add(web.name)
+        message = "with balance shafts the total mass has no limit: limit the masses of the webs"
+        yield Rule(self.max_total_mass_kg is not None, ("max_total_mass_kg",), message)
 
 
 class OldhamRing(Model):
@@ -239,6 +281,13 @@ class ScrollMachine(Rotor):
 
 
 Machine = Annotated[ReciprocatingMachine | ScrollMachine, Field(discriminator="kind")]
+
+
+def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
+    """Refuses balance shafts, where something is of the crankshaft alone."""
+    if isinstance(machine, ReciprocatingMachine):
+        message = f"{what} has no balance shafts: it is of the crankshaft alone"
+        yield Rule(bool(machine.balance_shafts), (*path, "balance_shafts"), message)
 
 
 def _throw_rules(path: Path, throw: Throw) -> Iterator[Rule]:

@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base import Model
-from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS, ReciprocatingMachine
+from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS, ReciprocatingMachine, no_balance_shafts
 from schemas.quantities import Count, Flag, Mass, Name
 from schemas.requests import FittedCounterweight, Objective, fitted_rules
 from schemas.rules import Path, Rule, Ruled
@@ -119,6 +119,7 @@ class MatchRequest(Ruled):
         return tuple(RowPlace(throw=t, row=i) for t, throw in enumerate(throws) for i in range(len(throw.rows)))
 
     def rules(self) -> Iterator[Rule]:
+        yield from no_balance_shafts(self.machine, ("machine",), "a match")
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need rows to go on")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")

@@ -15,6 +15,7 @@ from schemas.answers import (
     Timing,
 )
 from schemas.base import Answer, Model, NotEmpty
+from schemas.machine import no_balance_shafts
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.requests import OptimizeRequest
@@ -66,6 +67,7 @@ class ParetoRequest(OptimizeRequest):
         yield from super().rules()
         yield from self.worst_case_rules("a front is of one machine as it is given")
         yield from self._trade_rules()
+        yield from no_balance_shafts(self.machine, ("machine",), "a front")
         budgets = self.total_mass_budgets_kg or ()
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)

@@ -251,6 +251,7 @@ class OptimizeRequest(Scene, Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from scenario_rules(self)
+        yield from self._shaft_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             scatters = self.tolerances.reciprocating_mass_relative > 0
             message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
@@ -260,6 +261,18 @@ class OptimizeRequest(Scene, Ruled):
         """Scenarios and tolerances that are given where only the machine as it is can be asked for."""
         yield Rule(bool(self.scenarios), ("scenarios",), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
+
+    def _shaft_rules(self) -> Iterator[Rule]:
+        """What does not go with balance shafts."""
+        machine, goal = self.machine, self.objective
+        shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
+        if shafts:
+            yield from self.worst_case_rules("does not go with balance shafts")
+        if any(shaft.speed_ratio == -1 for shaft in shafts):
+            for name in ("force_ceiling_N", "moment_ceiling_Nm"):
+                whole = (getattr(goal, name) is not None) & (goal.orders == "first")
+                message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
+                yield Rule(whole, ("objective", name), message)
 
 
 class FittedCounterweight(Model):
@@ -286,7 +299,8 @@ class AnalyzeRequest(Scene, Ruled):
 
 def fitted_rules(machine: Machine, counterweights: Sequence[FittedCounterweight]) -> Iterator[Rule]:
     """Every counterweight on a web of the machine, and every web with one at most."""
-    names = {web.name for web in machine.webs}
+    shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
+    names = {web.name for place in (machine, *shafts) for web in place.webs}
     seen: set[str] = set()
     for index, counterweight in enumerate(counterweights):
         path = ("counterweights", index, "web")

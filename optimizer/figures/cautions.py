@@ -88,6 +88,13 @@ def _no_gas(told: Told) -> Iterator[Caution]:
 
 def _second_order(told: Told) -> Iterator[Caution]:
     """What counterweights on the shaft cannot change, where it is more than what they leave."""
+    shafts = told.scene.layout.balance
+    remedy = "no counterweight on the crank changes it."
+    if shafts is not None and np.any(np.abs(shafts.ratio) == 2.0):
+        remedy = "ask for all orders, so that the balance shafts at twice the speed count."
+        request = told.scene.request
+        if not isinstance(request, OptimizeRequest) or request.objective.orders == "all":
+            remedy = "that is what the balance shafts at twice the speed leave."
     residual: Residual | None = told.fields.get("residual")
     first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
     if residual is None or first is None or second is None:
@@ -101,7 +108,7 @@ def _second_order(told: Told) -> Iterator[Caution]:
             yield Caution(
                 code="second_order_remains",
                 message=f"A {what} of {_plain(twice)} {unit} remains at twice the shaft speed, more than the "
-                f"{_plain(left)} {unit} at the speed itself: no counterweight on the crank changes it.",
+                f"{_plain(left)} {unit} at the speed itself: {remedy}",
                 pointer="/machine/throws",
             )
 

@@ -1,5 +1,7 @@
 """Counterweights as masses and angles."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from optimizer.arrays import Complex, Real
@@ -9,7 +11,7 @@ from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from schemas.answers import Counterweight
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine, Web
 from schemas.requests import AnalyzeRequest
 
 
@@ -42,19 +44,50 @@ def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:
 
 
 def as_given(request: AnalyzeRequest) -> tuple[Real, Real]:
-    """Masses (..., K) [kg] and angles (..., K) [deg] of the counterweights of a request; 0 where a web has none."""
+    """Masses (..., K) [kg] and angles (..., K) [deg] of the counterweights of a request; 0 where a web has none.
+
+    Those on the webs of balance shafts stand behind those of the crankshaft.
+    """
     given = {counterweight.web: counterweight for counterweight in request.counterweights}
-    fitted = [given.get(web.name) for web in request.machine.webs]
+    fitted = [given.get(web.name) for web in places(request.machine)]
     mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
     return mass, np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
 
 
+def places(machine: Machine) -> tuple[Web, ...]:
+    """All webs of a machine, those of its balance shafts behind those of the crankshaft."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return machine.webs
+    return (*machine.webs, *(web for shaft in machine.balance_shafts for web in shaft.webs))
+
+
 def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[Counterweight, ...]:
-    """The counterweights of a machine, one for each web."""
+    """The counterweights of a machine, one for each web of its crankshaft."""
+    return _placed(machine, mass_kg, angles_deg, own_throws(machine), 1.0)
+
+
+def unbalances_of_shaft(
+    machine: Machine, shaft: BalanceShaft, mass_kg: Real, angles_deg: Real
+) -> tuple[Counterweight, ...]:
+    """The unbalances of a balance shaft (S,), one for each of its webs."""
+    alone = machine.model_copy(update={"webs": shaft.webs})
+    return _placed(alone, mass_kg, angles_deg, [None] * len(shaft.webs), float(shaft.speed_ratio))
+
+
+def _placed(
+    machine: Machine, mass_kg: Real, angles_deg: Real, own: Sequence[int | None], ratio: float
+) -> tuple[Counterweight, ...]:
+    """One for each web of a machine.
+
+    Parameters
+    ----------
+    own : throw of each web.
+    ratio : turns of the webs for one of the crankshaft.
+    """
     touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
     vectors = unbalance(mass_kg, angles_deg, stacked([web.counterweight_radius_m for web in machine.webs])).tolist()
     throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
-    fastest = (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
+    fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(
         Counterweight(
             web=web.name,
@@ -74,6 +107,6 @@ def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[C
             active_limits=tuple(name for name, webs in touched.items() if webs[k]),
         )
         for k, (web, mass, angle, vector, throw) in enumerate(
-            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, own_throws(machine), strict=True)
+            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, own, strict=True)
         )
     )

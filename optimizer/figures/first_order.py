@@ -7,7 +7,9 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
 from optimizer.figures.phasors import order_of
+from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.inertia import Wrench, reciprocating
+from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
@@ -25,9 +27,17 @@ def first_order(wrench: Wrench) -> FirstOrder:
     return FirstOrder(force=ForceEllipse(**force), moment=MomentEllipse(**moment))
 
 
-def floor(wrench: Wrench) -> Floor:
-    """What counterweights on the shaft cannot remove: the counter-rotating phasors."""
-    return Floor(force_N=float(np.abs(wrench.force.counter)), moment_Nm=float(np.abs(wrench.moment.counter)))
+def floor(layout: Layout, wrench: Wrench) -> Floor:
+    """What counterweights on the shaft cannot remove: the counter-rotating phasors.
+
+    A balance shaft that turns backwards can, each by itself; the moment only outside the reference plane.
+    """
+    force, moment = (float(np.abs(pair.counter)) for pair in wrench)
+    if layout.balance is not None:
+        backwards = layout.balance.ratio == -1.0
+        force = 0.0 if np.any(backwards) else force
+        moment = 0.0 if np.any(backwards & (shaft_arms(layout, layout.balance) != 0.0)) else moment
+    return Floor(force_N=force, moment_Nm=moment)
 
 
 def peaks(wrench: Wrench) -> dict[str, Real]:
@@ -53,22 +63,24 @@ def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMu
 def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     """First order of one machine without and with counterweights, and the second beside it."""
     before, after = scene.first_order(), None if unbalance is None else scene.first_order(unbalance)
-    second = _second_order(scene)
+    second = _second_order(scene, False)
+    left = second if scene.shafts is None else _second_order(scene, True)
     return Residual(
         before=first_order(before),
         after=None if after is None else first_order(after),
         orders=ResidualOrders(
-            before=(order_of(1, before), second), after=None if after is None else (order_of(1, after), second)
+            before=(order_of(1, before), second), after=None if after is None else (order_of(1, after), left)
         ),
     )
 
 
-def _second_order(scene: Prepared) -> Order | None:
-    """Second order of one machine, which counterweights do not change; None where a row has no rod."""
+def _second_order(scene: Prepared, with_shafts: bool) -> Order | None:
+    """Second order of one machine, which balance shafts alone change; None where a row has no rod."""
     if np.any(np.isnan(scene.layout.reciprocating.rod_ratio)):
         return None
     harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
-    return order_of(2, reciprocating(scene.layout, 2, harmonic).times(scene.layout.omega**2))
+    wrench = reciprocating(scene.layout, 2, harmonic)
+    return order_of(2, (scene.with_shafts(wrench, 2) if with_shafts else wrench).times(scene.layout.omega**2))
 
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:

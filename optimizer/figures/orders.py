@@ -10,9 +10,11 @@ from schemas.outputs import Order, OrdersComparison
 
 
 def _by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
-    """Force [N] and moment [N m] of every order; counterweights on the shaft change the first alone."""
+    """Force [N] and moment [N m] of every order; counterweights change the first, balance shafts two of them."""
     results, square = scene.results, scene.layout.omega**2
     higher = {2: results["second_order"], **results["higher_orders"]}
+    if unbalance is not None:
+        higher = {order: scene.with_shafts(wrench, order) for order, wrench in higher.items()}
     return {1: scene.first_order(unbalance), **{order: wrench.times(square) for order, wrench in higher.items()}}
 
 

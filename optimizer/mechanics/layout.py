@@ -54,6 +54,17 @@ class Webs:
 
 
 @dataclass(frozen=True)
+class BalanceWebs:
+    """Places for unbalances on balance shafts, one shaft after the other: (..., n)."""
+
+    position: Real  # m
+    radius: Real  # m
+    ratio: Real  # turns for one of the crankshaft
+    x: Real  # m, of the shaft's axis
+    y: Real  # m
+
+
+@dataclass(frozen=True)
 class Layout:
     """A machine as arrays."""
 
@@ -64,6 +75,7 @@ class Layout:
     rotating: Rotating
     reciprocating: Reciprocating
     webs: Webs
+    balance: BalanceWebs | None = None  # None where there are no balance shafts
 
 
 def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
@@ -89,6 +101,7 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
         rotating=rotating,
         reciprocating=reciprocating,
         webs=_webs(machine),
+        balance=_balance_webs(machine),
     )
 
 
@@ -107,6 +120,7 @@ def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
         rotating=each(plan.rotating),
         reciprocating=each(plan.reciprocating),
         webs=each(plan.webs),
+        balance=None if plan.balance is None else each(plan.balance),
     )
 
 
@@ -138,6 +152,19 @@ def _webs(machine: Rotor) -> Webs:
     return Webs(
         position=stacked([web.position_m for web in machine.webs]),
         radius=stacked([web.counterweight_radius_m for web in machine.webs]),
+    )
+
+
+def _balance_webs(machine: Rotor) -> BalanceWebs | None:
+    if not isinstance(machine, ReciprocatingMachine) or not machine.balance_shafts:
+        return None
+    webs = [(shaft, web) for shaft in machine.balance_shafts for web in shaft.webs]
+    return BalanceWebs(
+        position=stacked([web.position_m for _, web in webs]),
+        radius=stacked([web.counterweight_radius_m for _, web in webs]),
+        ratio=stacked([shaft.speed_ratio for shaft, _ in webs]),
+        x=stacked([shaft.x_m for shaft, _ in webs]),
+        y=stacked([shaft.y_m for shaft, _ in webs]),
     )
 
 

@@ -209,7 +209,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
 
     With p = (w_x + w_y)/2 and q = (w_x - w_y)/2 the weighted vector is the pair of phasors
     p f + q conj(b) and p b + q conj(f), so its peak is |p f + q conj b| + |q f + p conj b|; both are
-    affine in u with real factors. With equal weights the second is the constant p |b|.
+    affine in u with real factors. With equal weights the second is the constant p |b|, if no shaft turns backwards.
 
     Parameters
     ----------
@@ -218,13 +218,16 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     p = np.asarray(0.5 * weight * (weight_x + weight_y))
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, np.conj(response.baseline.counter)
-    if not np.any(q):
+    against = response.counter_influence
+    if not np.any(q) and against is None:
         alone = total((p * f)[..., None, None])
         norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
     terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)
     constant = total(np.stack(terms, axis=-1).reshape(*terms[0].shape, 2, 2))
     influence = np.stack([p, q], axis=-1)[..., None] * response.influence[..., None, :]
+    if against is not None:
+        influence = influence + np.stack([q, p], axis=-1)[..., None] * against[..., None, :]
     return WeightedPeak(response.name, np.zeros_like(p), Norms(constant, influence), response.scenario)
 
 

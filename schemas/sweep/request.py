@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
 from schemas.base import FieldProblem, Model, NotEmpty
+from schemas.machine import no_balance_shafts
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Count, Flag
 from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest, of_the_shaft
@@ -159,6 +160,9 @@ class SweepRequest(Ruled):
             for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
                 if broken:
                     yield FieldProblem(("base", *path), message)
+        for broken, path, message in no_balance_shafts(self.base.machine, ("base", "machine"), "a sweep"):
+            if broken:
+                yield FieldProblem(path, message)
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")

@@ -76,6 +76,11 @@ def test_the_whole_turn() -> None:
     agrees(infeasible, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
+def test_the_balance_shafts() -> None:
+    request, shown = blocks(section(API, "Balance shafts"))
+    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+
+
 def test_scenarios_and_tolerances() -> None:
     request, shown = blocks(section(API, "Scenarios and tolerances"))
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))

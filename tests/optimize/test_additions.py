@@ -61,6 +61,8 @@ NAMED_IN = {
     # another force or torque altogether
     "effects/dynamics.py": "friction",
     "figures/dynamics.py": "of the piston",
+    # columns by their names
+    "figures/orders.py": "columns of sweeps",
     "mechanics/gas.py": "of the gas",
 }
 

@@ -17,6 +17,7 @@ from service.report.blocks import (
     Figure,
     Paragraph,
     Table,
+    facts,
     number,
     table,
 )
@@ -142,14 +143,26 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     blocks: list[Block] = []
     if answer.infeasibility is not None:
         blocks.append(Paragraph("These are the counterweights of the best compromise, not an answer.", "warning"))
+    shafts = list(_balance_shafts(answer))
     if not fitted:
-        blocks.append(Paragraph("There are none."))
-        return Chapter("Counterweights", tuple(blocks))
-    blocks.append(
-        Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
-    )
-    blocks.append(places(fitted))
-    return Chapter("Counterweights", (*blocks, *_prices(request, answer)))
+        blocks.append(Paragraph("There are none on the crankshaft." if shafts else "There are none."))
+    if fitted or shafts:
+        blocks.append(
+            Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
+        )
+    if fitted:
+        blocks.append(places(fitted))
+    return Chapter("Counterweights", (*blocks, *shafts, *(_prices(request, answer) if fitted or shafts else ())))
+
+
+def _balance_shafts(answer: OptimizeAnswer) -> Iterator[Block]:
+    """What each balance shaft carries, and which way gearing turns it."""
+    why = answer.infeasibility
+    for shaft in answer.balance_shafts if why is None else why.closest.balance_shafts:
+        yield Paragraph(f"Balance shaft {shaft.name}: {shaft.gearing}")
+        yield places(shaft.counterweights)
+    if answer.balance_shafts_mass_kg is not None:
+        yield facts("", [("total mass on the balance shafts, kg", answer.balance_shafts_mass_kg)])
 
 
 def places(fitted: Sequence[Counterweight]) -> Table:

@@ -1,10 +1,10 @@
 """What was asked: the machine, the places for counterweights, the objective."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from optimizer.formulate import given_ceilings, span, weights
 from schemas.cylinder import Cylinder
-from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw
+from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw, Web
 from schemas.over_turn import ForceTable, TorqueTable
 from schemas.requests import OptimizeRequest, Priority
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
@@ -24,7 +24,7 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
         blocks += _reciprocating(machine)
     else:
         blocks.append(_scroll(machine))
-    blocks += [_webs(machine), _objective(request), *asked(request)]
+    blocks += [_webs(machine), *_balance_shafts(machine), _objective(request), *asked(request)]
     return Chapter("Inputs", tuple(blocks))
 
 
@@ -203,9 +203,20 @@ def _over_turn(value: float | TorqueTable | ForceTable) -> Cell | float:
 
 def _webs(machine: Machine) -> Block:
     if not machine.webs:
-        return Paragraph("The machine has no place for counterweights.", "warning")
+        return Paragraph("The crankshaft has no place for counterweights.", "warning")
+    return _places("Places for counterweights", machine.webs)
+
+
+def _balance_shafts(machine: Machine) -> Iterator[Block]:
+    if isinstance(machine, ReciprocatingMachine):
+        for shaft in machine.balance_shafts:
+            where = f"{shaft.speed_ratio:+d} times the crankshaft's speed, at x {shaft.x_m:g} m, y {shaft.y_m:g} m"
+            yield _places(f"Places on balance shaft {shaft.name}, {where}", shaft.webs)
+
+
+def _places(title: str, webs: Sequence[Web]) -> Table:
     return table(
-        "Places for counterweights",
+        title,
         [
             "web", "#plane z, m", "#radius of the centre of mass, m", "#largest mass, kg", "#sector centre, deg",
             "#sector half angle, deg",
@@ -216,7 +227,7 @@ def _webs(machine: Machine) -> Block:
                 "no limit" if web.max_mass_kg is None else web.max_mass_kg,
                 *(("any angle", "") if web.sector is None else (web.sector.centre_deg, web.sector.half_angle_deg)),
             )
-            for web in machine.webs
+            for web in webs
         ],
     )  # fmt: skip
 

@@ -40,6 +40,8 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
 def _total(answer: OptimizeAnswer) -> Iterator[Block]:
     if answer.total_mass_kg is not None:
         rows: list[tuple[str, float | str]] = [("total mass of the counterweights, kg", answer.total_mass_kg)]
+        if answer.balance_shafts_mass_kg is not None:
+            rows.append(("total mass on the balance shafts, kg", answer.balance_shafts_mass_kg))
         if answer.active_limits:
             rows.append(("limits of the machine reached", limits(answer.active_limits)))
         yield facts("", rows)
@@ -48,7 +50,7 @@ def _total(answer: OptimizeAnswer) -> Iterator[Block]:
 def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
     proof = answer.certificate
     assert proof is not None  # only an infeasible answer has none
-    if not request.machine.webs:
+    if not request.machine.webs and not answer.balance_shafts:
         return Paragraph("The machine has no place for counterweights, so that nothing can be chosen.", "key")
     if proof.lower_bound is None or proof.relative_gap is None:
         return Paragraph(f"Nothing is proven of the counterweights below. {answer.status_reason}", "warning")

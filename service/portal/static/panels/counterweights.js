@@ -32,8 +32,13 @@ export const counterweights = {
     const whole = prices.filter((price) => !price.web);
     const active = answer.active_limits ?? [];
     const fitted = answer.counterweights.length ? answer.counterweights : answer.infeasibility?.closest.counterweights ?? [];
+    const shafts = answer.infeasibility?.closest.balance_shafts ?? answer.balance_shafts ?? [];
     body.replaceChildren(...[
-      fitted.length ? counterweightTable(fitted, prices) : h("p", {}, "This machine has no webs: add one to carry a counterweight."),
+      fitted.length ? counterweightTable(fitted, prices)
+        : shafts.length ? null : h("p", {}, "This machine has no webs: add one to carry a counterweight."),
+      ...shafts.flatMap((shaft) => [
+        h("p", {}, `Balance shaft ${shaft.name}: ${shaft.gearing}`), counterweightTable(shaft.counterweights, prices),
+      ]),
       active.length || whole.length ? h("ul", {}, active.map((limit) => {
         const price = whole.find((one) => one.limit === limit);
         return h("li", {}, `The ${LIMITS[limit] ?? limit} is reached${price ? `; shadow price ${worth(price)}` : ""}.`);

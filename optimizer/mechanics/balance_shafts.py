@@ -1,0 +1,64 @@
+"""Forces of balance shafts: unbalances that turn rho times while the crankshaft turns once, rho = -2, -1, 1, 2.
+
+An unbalance v in plane z puts the force rho^2 v e^{j s rho theta} on the frame, over omega^2, and that times
+z - z_ref in the moment. So a shaft answers one phasor of one order: the co-rotating one where it turns with the
+crankshaft, the counter-rotating one where it turns against it. Source: F. W. Lanchester, patent GB 13,219 (1912).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real, total
+from optimizer.mechanics import inertia
+from optimizer.mechanics.inertia import Wrench
+from optimizer.mechanics.layout import BalanceWebs, Layout
+from optimizer.response import Phasors, Response
+
+
+def shaft_influence(shafts: BalanceWebs, ratio: int) -> Real:
+    """What one kg m on each web (..., webs) adds to the phasor that turns ``ratio`` times: rho^2, or 0 elsewhere."""
+    found: Real = (shafts.ratio == ratio) * float(ratio) ** 2
+    return found
+
+
+def shaft_arms(layout: Layout, shafts: BalanceWebs) -> Real:
+    """Distance of the webs of the shafts from the reference plane (..., webs) m."""
+    return shafts.position - layout.reference_plane[..., None]
+
+
+def of_balance_shafts(layout: Layout, shafts: BalanceWebs, unbalance: Complex, order: int) -> Wrench:
+    """Force and moment of one order, over omega^2.
+
+    Parameters
+    ----------
+    unbalance : (..., webs) mass-radius products m R e^{ja} of all shafts at shaft angle 0, kg m.
+    order : 1 or 2.
+    """
+    arm = shaft_arms(layout, shafts)
+    co, counter = (shaft_influence(shafts, sign * order) * unbalance for sign in (1, -1))
+    return Wrench(Phasors(total(co), total(counter)), Phasors(total(arm * co), total(arm * counter)))
+
+
+def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, Response]:
+    """Force and moment as responses to the counterweights and, behind them, to the unbalances of the balance shafts.
+
+    Parameters
+    ----------
+    baseline : first-order force and moment without counterweights.
+    """
+    force, moment = inertia.first_order_responses(layout, baseline)
+    shafts = layout.balance
+    if shafts is None:
+        return force, moment
+    return _widened(force, shafts, np.ones_like(shafts.position)), _widened(moment, shafts, shaft_arms(layout, shafts))
+
+
+def _widened(response: Response, shafts: BalanceWebs, arm: Real) -> Response:
+    co, counter = (arm * shaft_influence(shafts, ratio) for ratio in (1, -1))
+    own = np.zeros_like(response.influence)
+    return replace(
+        response,
+        influence=np.concatenate([response.influence, co], axis=-1),
+        counter_influence=np.concatenate([own, counter], axis=-1) if np.any(shafts.ratio == -1.0) else None,
+    )

@@ -1,0 +1,73 @@
+"""Machines with balance shafts, as JSON, and an independent simulation of all that they shake with."""
+
+import cmath
+import math
+from typing import Any
+
+from tests.optimize.machines import machine, row, throw, web
+
+#: rad/s, and m r omega^2 of 10 kg at 0.1 m
+OMEGA = 600.0 * math.pi / 30.0
+WHOLE = 10.0 * 0.1 * OMEGA**2
+
+
+def shaft(name: str, ratio: int, position: float = 0.0, max_mass: float | None = 100.0, **more: Any) -> dict[str, Any]:
+    """One web, called by the name of its shaft; x_m, y_m belong to the shaft, what else is given to the web."""
+    place = {key: more.pop(key) for key in ("x_m", "y_m") if key in more}
+    return {"name": name, "speed_ratio": ratio, "webs": [web(f"{name} web", position, max_mass, **more)], **place}
+
+
+def single(shafts: list[dict[str, Any]], webs: int = 1, ratio: float = 0.3, **more: Any) -> dict[str, Any]:
+    """One cylinder along y, r/l as given, on whose throw ``webs`` counterweights can sit."""
+    rows = [row(90.0, 10.0, connecting_rod={"length_m": 0.1 / ratio})]
+    places = [web("a", 0.0, None), web("b", 0.0, None)][:webs]
+    return machine([throw(0.0, 90.0, rows)], places, balance_shafts=shafts, **more)
+
+
+def in_line_four(shafts: list[dict[str, Any]], ratio: float = 0.3, **more: Any) -> dict[str, Any]:
+    """Cranks at 0, 180, 180, 0 degrees from the cylinders along y, 10 kg each."""
+    throws = [
+        throw(0.12 * k, angle, [row(90.0, 10.0, connecting_rod={"length_m": 0.1 / ratio})])
+        for k, angle in enumerate((90.0, 270.0, 270.0, 90.0))
+    ]
+    return machine(throws, [], balance_shafts=shafts, **more)
+
+
+def at(body: dict[str, Any], answer: dict[str, Any], theta_deg: float, first: bool = False) -> tuple[complex, complex]:
+    """Force [N] and couple [N m] at one shaft angle from the definitions alone: masses times accelerations.
+
+    Parameters
+    ----------
+    first : of the first order of the pistons, in place of their true motion.
+    """
+    s = 1.0 if body.get("rotation", "ccw") == "ccw" else -1.0
+    omega, theta = body["speed_rpm"] * math.pi / 30.0, math.radians(theta_deg)
+    planes = [one["position_m"] for one in body["throws"]]
+    middle = 0.5 * (min(planes) + max(planes))
+    pushed: list[tuple[complex, float]] = []
+    for one in body["throws"]:
+        radius, turn = one["crank_radius_m"], cmath.exp(1j * (math.radians(one["crank_angle_deg"]) + s * theta))
+        pushed.append((one["rotating_mass_kg"] * radius * omega**2 * turn, one["position_m"]))
+        for each in one["rows"]:
+            axis = cmath.exp(1j * math.radians(each["axis_deg"]))
+            lam = radius / each["connecting_rod"]["length_m"]
+            own = (turn * axis.conjugate()).real, (turn * axis.conjugate()).imag
+            w = 1.0 - (lam * own[1]) ** 2
+            # second derivative of r cos phi + l cos beta, negated
+            true = own[0] + lam * (own[0] ** 2 - own[1] ** 2) / math.sqrt(w)
+            true += lam**3 * (own[0] * own[1]) ** 2 / w**1.5
+            share = own[0] if first else true
+            pushed.append((each["reciprocating_mass_kg"] * radius * omega**2 * share * axis, one["position_m"]))
+    turning = [(1, body["webs"], answer["counterweights"])]
+    turning += [
+        (one["speed_ratio"], one["webs"], found["counterweights"])
+        for one, found in zip(body["balance_shafts"], answer["balance_shafts"], strict=True)
+    ]
+    for ratio, places, fitted in turning:
+        if first and abs(ratio) != 1:
+            continue
+        for place, found in zip(places, fitted, strict=True):
+            angle = math.radians(found["angle_deg"]) + s * ratio * theta
+            size = found["mass_kg"] * place["counterweight_radius_m"] * (ratio * omega) ** 2
+            pushed.append((size * cmath.exp(1j * angle), place["position_m"]))
+    return sum(force for force, _ in pushed), sum((z - middle) * force for force, z in pushed)

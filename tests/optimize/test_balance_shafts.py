@@ -1,0 +1,154 @@
+"""Balance shafts of the first order: one backwards takes what no counterweight on the crankshaft can."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from optimizer.analyze import analyze
+from schemas.accuracy import AccuracyRequest
+from schemas.answers import OptimizeAnswer
+from schemas.pareto import ParetoRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep import SweepRequest
+from tests.optimize.machines import throw, web
+from tests.optimize.shafts import WHOLE, at, in_line_four, shaft, single
+from tests.verification.checking import optimized
+
+
+def answer(body: dict[str, Any], **objective: Any) -> OptimizeAnswer:
+    return optimized({"machine": body, "objective": objective})
+
+
+def test_one_shaft_backwards_takes_the_other_half_of_a_single_cylinder() -> None:
+    # published: half of the reciprocating mass on either shaft, opposite the crank, cancels the first order
+    found = answer(single([shaft("back", -1, radius=0.05)]))
+    (back,) = found.balance_shafts
+    (on_shaft,) = back.counterweights
+    assert found.status == "optimal"
+    assert found.residual.after.force.peak_N <= 2e-6 * WHOLE
+    assert found.certificate.lower_bound >= 0.0
+    assert found.total_mass_kg == pytest.approx(5.0, rel=3e-6)
+    assert found.balance_shafts_mass_kg == back.total_mass_kg == pytest.approx(10.0, rel=3e-6)
+    assert on_shaft.angle_deg == pytest.approx(270.0, abs=1e-4)
+    assert on_shaft.centrifugal_force_N == pytest.approx(0.5 * WHOLE, rel=3e-6)
+    assert (on_shaft.throw, on_shaft.angle_from_crank_deg) == (None, None)
+    assert back.gearing.startswith("Turns against the crankshaft at its speed")
+    assert (found.floor.force_N, found.floor.moment_Nm) == (0.0, 0.0)
+    # the least mass of all shafts together
+    assert found.certificate.mass_lower_bound_kg == pytest.approx(15.0, rel=3e-6)
+
+
+@pytest.mark.parametrize(("ratio", "left"), [(1, 0.5), (-1, 0.5), (2, 1.0), (-2, 1.0)])
+def test_a_shaft_answers_its_own_phasor_alone(ratio: int, left: float) -> None:
+    # analytic: without counterweights on the crankshaft
+    found = answer(single([shaft("one", ratio)], webs=0))
+    assert found.residual.after.force.peak_N == pytest.approx(left * WHOLE, rel=2e-6)
+    assert found.balance_shafts_mass_kg == pytest.approx(5.0 if abs(ratio) == 1 else 0.0, rel=1e-5)
+    assert found.floor.force_N == pytest.approx(0.0 if ratio == -1 else 0.5 * WHOLE)
+
+
+def test_limits_of_a_shaft_are_kept_and_priced() -> None:
+    # analytic: 2 kg of the 5 that the shaft needs
+    found = answer(single([shaft("back", -1, max_mass=2.0)]))
+    assert found.residual.after.force.peak_N == pytest.approx(0.3 * WHOLE, rel=1e-5)
+    (price,) = found.shadow_prices
+    assert (price.web, price.limit) == ("back web", "max_mass")
+    assert price.value == pytest.approx(0.1 * WHOLE, rel=1e-6)
+    # 270 degrees is best, 220 the nearest that the sector allows; what stands across is left
+    body = single([shaft("back", -1, sector={"centre_deg": 200.0, "half_angle_deg": 20.0})])
+    (on_shaft,) = answer(body).balance_shafts[0].counterweights
+    assert on_shaft.angle_deg == pytest.approx(220.0, abs=1e-6)
+    assert on_shaft.active_limits == ("sector",)
+    # the objective is flat there, and the lightest of the optima is taken
+    assert on_shaft.mass_kg == pytest.approx(5.0 * np.cos(np.deg2rad(50.0)), rel=5e-3)
+
+
+def _inclined(rotation: str) -> dict[str, Any]:
+    """Two cylinders askew on two throws, counterweights that are too small, and three shafts in other planes."""
+    rows = [
+        {"axis_deg": axis, "reciprocating_mass_kg": mass, "connecting_rod": {"length_m": 0.35}}
+        for axis, mass in ((50.0, 12.0), (110.0, 7.0))
+    ]
+    throws = [throw(0.0, 20.0, rows[:1], rotating=3.0), throw(0.4, 150.0, rows[1:], rotating=1.0)]
+    body = single([shaft("p", 1, 0.1, 1.0), shaft("q", -1, 0.5, 3.0), shaft("r", -1, -0.2, 4.0)])
+    return body | {"throws": throws, "webs": [web("a", -0.1, 4.0), web("b", 0.6, 2.0)], "rotation": rotation}
+
+
+@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@pytest.mark.parametrize(
+    "objective",
+    [{}, {"combine": "max"}, {"direction_weights": {"x": 1, "y": 0.3}}, {"moment_weight": 0, "force_ceiling_y_N": 900}],
+)
+def test_figures_are_those_of_masses_times_accelerations(rotation: str, objective: dict[str, Any]) -> None:
+    """Independent: what the returned unbalances and the pistons' first order come to over the turn."""
+    body = _inclined(rotation)
+    found = answer(body, **objective)
+    assert found.status == "optimal"
+    turn = np.array([at(body, found.model_dump(), theta, first=True) for theta in np.arange(0.0, 360.0, 0.25)])
+    after = found.residual.after
+    assert after.force.peak_N == pytest.approx(np.max(np.abs(turn[:, 0])), rel=1e-5)
+    assert after.moment.peak_Nm == pytest.approx(np.max(np.abs(turn[:, 1])), rel=1e-5)
+    assert after.force.peak_y_N == pytest.approx(np.max(np.abs(turn[:, 0].imag)), rel=1e-5)
+    # nobody near is better
+    rest = found.certificate.objective_without_counterweights
+    assert found.certificate.objective - found.certificate.lower_bound <= 1e-6 * rest
+
+
+def test_given_unbalances_are_counted_at_the_order_of_their_shaft() -> None:
+    body = in_line_four([shaft("up", 2, 0.18), shaft("low", -2, 0.18)])
+    given = [
+        {"web": "up web", "mass_kg": 1.0, "angle_deg": 30.0},
+        {"web": "low web", "mass_kg": 2.0, "angle_deg": 300.0},
+    ]
+    asked = {"machine": body, "counterweights": given, "outputs": ["residual", "orders"]}
+    found = analyze(AnalyzeRequest.model_validate(asked))
+    # analytic: (2 omega)^2 m R, beside m r A_2 / 2 of four cylinders along y either way
+    second, was = found.residual.orders.after[1], found.residual.orders.before[1]
+    for sense, mass, degrees in (("co_rotating", 1.0, 30.0), ("counter_rotating", 2.0, 300.0)):
+        left, there = getattr(second.force, sense), getattr(was.force, sense)
+        added = complex(left.real_N - there.real_N, left.imag_N - there.imag_N)
+        assert added == pytest.approx(4.0 * mass * 0.1 * WHOLE * np.exp(1j * np.deg2rad(degrees)), rel=1e-12)
+    assert found.orders.after[1] == second
+    assert found.residual.orders.after[0] == found.residual.orders.before[0]
+    assert [one.total_mass_kg for one in found.balance_shafts] == [1.0, 2.0]
+    assert found.balance_shafts_mass_kg == 3.0
+
+
+def _refused(model: type, body: dict[str, Any]) -> tuple[Any, ...]:
+    with pytest.raises(ValidationError) as refused:
+        model.model_validate(body)
+    (error,) = refused.value.errors()
+    return error["ctx"]["problems"][0].path if error["type"] == "cross_field" else error["loc"]
+
+
+def test_what_a_balance_shaft_cannot_be_is_refused_by_name() -> None:
+    odd = single([shaft("odd", -1) | {"speed_ratio": 3}])
+    assert _refused(OptimizeRequest, {"machine": odd})[-3:] == ("balance_shafts", 0, "speed_ratio")
+    bare = single([shaft("one", -1) | {"webs": []}])
+    assert _refused(OptimizeRequest, {"machine": bare})[-3:] == ("balance_shafts", 0, "webs")
+    twice = single([shaft("one", -1), shaft("two", 1)])
+    twice["balance_shafts"][1]["webs"][0]["name"] = "a"
+    assert _refused(OptimizeRequest, {"machine": twice}) == ("balance_shafts", 1, "webs", 0, "name")
+    named = single([shaft("one", -1), shaft("one", 1) | {"webs": [web("else", 0.0)]}])
+    assert _refused(OptimizeRequest, {"machine": named}) == ("balance_shafts", 1, "name")
+    cranked = single([shaft("one", -1)])
+    cranked["balance_shafts"][0]["webs"][0]["throw"] = 0
+    assert _refused(OptimizeRequest, {"machine": cranked}) == ("balance_shafts", 0, "webs", 0, "throw")
+    limited = single([shaft("one", -1)], max_total_mass_kg=5.0)
+    assert _refused(OptimizeRequest, {"machine": limited}) == ("max_total_mass_kg",)
+
+
+def test_what_is_not_done_with_balance_shafts_is_refused_by_name() -> None:
+    body = {"machine": single([shaft("one", -1)])}
+    for field in ("force_ceiling_N", "moment_ceiling_Nm"):
+        assert _refused(OptimizeRequest, {**body, "objective": {field: 100.0}}) == ("objective", field)
+    assert _refused(ParetoRequest, body) == ("machine", "balance_shafts")
+    assert _refused(AccuracyRequest, body) == ("machine", "balance_shafts")
+    swept = {"base": body, "axes": [{"path": "/machine/speed_rpm", "values": [500, 600]}]}
+    assert _refused(SweepRequest, swept) == ("base", "machine", "balance_shafts")
+    assert _refused(OptimizeRequest, {**body, "tolerances": {"mass_relative": 0.1}}) == ("tolerances",)
+    assert _refused(OptimizeRequest, {**body, "scenarios": [{"name": "as it is"}]}) == ("scenarios",)
+    forward = {"machine": single([shaft("one", 1)]), "objective": {"force_ceiling_N": 0.7 * WHOLE}}
+    assert optimized(forward).status == "optimal"
