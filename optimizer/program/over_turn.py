@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Samples, Scatter, reached
 from optimizer.program.limits import Limits
 from optimizer.program.scaling import natural_reach
@@ -210,6 +210,8 @@ class OverTurn:
                 for cut in cuts[each.quantity]:
                     terms.add_cut(n, self.quantities[each.quantity], cut, each)
         influence: Real | Complex = np.stack(terms.influence)  # type: ignore[assignment]  # real or complex
+        # what is too small to divide by has no influence
+        influence = np.where(np.abs(influence) > SMALLEST, influence, 0.0)
         norms = Norms(np.array(terms.constant, dtype=complex), influence, self.scatter.share)
         none = limited((), norms, self.limits.radius.size)
         owner, group_of = np.array(terms.row), np.array(terms.group)

@@ -1,0 +1,30 @@
+"""Hard cases with scenarios and tolerances: nothing is silent. Expected numbers are independent, to 100 digits."""
+
+import pytest
+
+from tests.hard import stored
+from tests.hard.cases import all_cases
+from tests.hard.worst_case import KINDS, faults
+
+_CASES = all_cases()
+_KNOWN = stored.read()
+
+
+def _held(kind: str, cases: range) -> None:
+    found = {
+        case.name: wrong
+        for case in _CASES[cases.start :: cases.step]
+        if (wrong := faults(kind, case, _KNOWN[stored.digest(case.body)])[1])
+    }
+    assert not found, found
+
+
+@pytest.mark.parametrize(("offset", "kind"), list(enumerate(KINDS)))
+def test_some_cases_of_each_kind(offset: int, kind: str) -> None:
+    _held(kind, range(offset, len(_CASES), 12))
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("kind", KINDS)
+def test_all_cases(kind: str) -> None:
+    _held(kind, range(0, len(_CASES), 1))
