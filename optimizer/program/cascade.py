@@ -15,7 +15,7 @@ from optimizer.arrays import Complex
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.compiled import suits_kernel
 from optimizer.program.edge import AMPLE, Unreachable, at_rest, proven_again, raised, smallest_excess
-from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS, PRECISIONS, Precision
+from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
 from optimizer.program.polish import lightened, polished
 from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, Found, enough, interior_point
@@ -93,9 +93,7 @@ def _by_all(
         if enough(found, asked) or not few or not suits_kernel(statement):
             break
         fine = polished(statement, asked, interior_point(statement, asked, precision, inside), inside)
-        if precision is not FIFTY_DIGITS:
-            # to which no unit of mass is too coarse
-            fine = lightened(statement, asked, fine, precision)
+        fine = lightened(statement, asked, fine, precision)
         found = fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
     return found
 

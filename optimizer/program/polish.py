@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.arrays import Complex
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.compiled import ENOUGH, ENOUGH_FOR_MASS, pulled
-from optimizer.program.kernel.finer_numbers import Precision
+from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS, Precision
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, supporting_multipliers
 from optimizer.program.single import Asked, Found, interior_point, light
 from optimizer.program.solution import Solution
@@ -16,8 +16,8 @@ from optimizer.program.statement import Statement
 
 #: how often the least mass is sought again in units of the least so far, and what a web may carry of it then
 _LIGHTENINGS, _ROOM_FOR_MASS = 8, 4.0
-#: and the share of a limit below which that is another program
-_WORTH_LESS = 0.1
+#: and the share of a limit below which that is another program, in so many digits that few units are too coarse too
+_WORTH_LESS, _WORTH_LESS_IN_FIFTY = 0.1, 1e-3
 
 
 def polished(statement: Statement, asked: Asked, found: Found, inside: Complex | None) -> Found:
@@ -53,12 +53,13 @@ def lightened(statement: Statement, asked: Asked, found: Found, precision: Preci
     """
     if found.certified or not asked.least_mass or statement.limits.radius.size == 0:
         return found
+    worth_less = _WORTH_LESS_IN_FIFTY if precision is FIFTY_DIGITS else _WORTH_LESS
     for _ in range(_LIGHTENINGS):
         before = found.lightest
         if not (before.below_ceilings and before.gap <= asked.share) or light(before):
             break
         limits = statement.limits
-        if not np.any(_ROOM_FOR_MASS * before.mass < _WORTH_LESS * np.minimum(limits.max_mass, limits.max_total_mass)):
+        if not np.any(_ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass, limits.max_total_mass)):
             break
         near = replace(limits, max_mass=np.minimum(limits.max_mass, _ROOM_FOR_MASS * before.mass))
         again = interior_point(replace(statement, limits=near), asked, precision).lightest
