@@ -14,20 +14,24 @@ from schemas.answers import Counterweight
 from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine, Web
 from schemas.requests import AnalyzeRequest
 
+#: of a mass, relative to it, and of an angle, relative to a turn
+_ROUNDING = 8 * float(np.finfo(float).eps)
+
 
 def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] of unbalances [kg m] (..., K), within the limits of the webs to the last digit.
 
-    What a sum or the rounding of an angle has left outside is brought to the nearest place inside.
+    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit.
 
     Parameters
     ----------
     limits : (..., K) of the machine.
     """
-    mass, angle = np.minimum(np.abs(unbalance) / limits.radius, limits.max_mass), angle_deg(unbalance)
+    mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
+    mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
     if np.all(free):
-        return mass, angle
+        return mass, np.where(mass > 0, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)
     off = np.mod(angle - centre + 180.0, 360.0) - 180.0
@@ -35,7 +39,8 @@ def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> t
     outside = ~free & (over > 0) & (mass > 0)
     mass = np.where(outside, mass * np.maximum(np.cos(np.deg2rad(over)), 0.0), mass)
     edge = np.mod(centre + np.copysign(half_angle, off), 360.0)
-    return mass, np.where(mass > 0, np.where(outside, edge, angle), 0.0)
+    at_edge = ~free & (over > -_ROUNDING * 360.0)
+    return mass, np.where(mass > 0, np.where(at_edge, edge, angle), 0.0)
 
 
 def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:

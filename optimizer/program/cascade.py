@@ -11,13 +11,17 @@ With ceilings it is first found out whether they can be kept, and with how much 
 
 from dataclasses import replace
 
+import numpy as np
+
 from optimizer.arrays import Complex
 from optimizer.program.certificate import nothing_proven
-from optimizer.program.compiled import suits_kernel
+from optimizer.program.compiled import ENOUGH, TARGET, suits_kernel
 from optimizer.program.edge import AMPLE, Unreachable, at_rest, proven_again, raised, smallest_excess
 from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
+from optimizer.program.points import points_at
 from optimizer.program.polish import lightened, polished
 from optimizer.program.reference.solver import Solver
+from optimizer.program.settled import settled
 from optimizer.program.single import Asked, Found, enough, interior_point
 from optimizer.program.solution import CEILING_ROUNDING, Solution
 from optimizer.program.statement import Statement
@@ -42,10 +46,25 @@ def cascade(statement: Statement, asked: Asked, solver: Solver, quick: Found) ->
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
     found = find(statement, asked, solver, quick)
-    if isinstance(found, Solution) and asked.least_mass and found.mass_multipliers is None:
+    if isinstance(found, Unreachable):
+        return found
+    if asked.least_mass and found.mass_multipliers is None:
         # nothing is proven about the mass but that it is not below 0
         found = replace(found, mass_multipliers=nothing_proven(statement), mass_target=found.objective + asked.share)
-    return found
+    return _settled(statement, asked, found)
+
+
+def _settled(statement: Statement, asked: Asked, found: Solution) -> Solution:
+    """The same without dust, and at the limits that it touches."""
+    target = found.objective
+    if found.below_ceilings:
+        # what exceeds the ceilings is judged by a lower bound
+        share = (TARGET if asked.least_mass else ENOUGH) * asked.share
+        target = found.lower_bound + share - float(statement.rounding(found.unbalance))
+    bound = np.array([found.mass_lower_bound]) if asked.least_mass else None
+    alone = statement.alone()
+    points = settled(alone, points_at(alone, found.unbalance[None]), np.array([target]), bound)
+    return found.moved_to(statement, points.unbalance[0])
 
 
 def _under_ceilings(statement: Statement, asked: Asked, solver: Solver, quick: Found) -> Solution | Unreachable:

@@ -10,8 +10,10 @@ from optimizer.arrays import Complex, Real, mapped
 from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.multipliers import resting_multipliers
+from optimizer.program.points import Points, excess_at, points_at
 from optimizer.program.scaling import natural_reach
-from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE, Solutions
+from optimizer.program.settled import settled
+from optimizer.program.solution import CEILING_ROUNDING, Solutions
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 if TYPE_CHECKING:
@@ -38,7 +40,7 @@ _ELSEWHERE = _DOUBLE._replace(ceilings=2e-11)
 #: the answer and where the lightest is; and the largest relative gap of the mass
 ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
 #: optima reach this far into the share, which leaves room for rounding
-_TARGET = 1.0 - 1e-7
+TARGET = 1.0 - 1e-7
 
 
 @dataclass(frozen=True)
@@ -85,7 +87,7 @@ def both_stages(
         return found
     left = np.flatnonzero(~found.certified)
     nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
-    room = _excess(statement.chosen(left), nearest) < 0
+    room = excess_at(statement.chosen(left), nearest) < 0
     left, inside = left[room], nearest[room]
     for tolerances in (_DOUBLE, _ELSEWHERE):
         if not left.size:
@@ -112,19 +114,17 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         better = bound > np.where(np.isnan(lower_bound), -np.inf, lower_bound)
         lower_bound, proof = np.where(better, bound, lower_bound), each.where(better, proof)
     certify_s = time.perf_counter() - began
-    rest = _evaluated(statement, np.zeros_like(smallest))
-    best = _better(rest, _evaluated(statement, smallest))
-    target = np.maximum(best.objective, lower_bound + _TARGET * share - statement.rounding(best.unbalance))
+    rest = points_at(statement, np.zeros_like(smallest))
+    best = _better(rest, points_at(statement, smallest))
+    target = np.maximum(best.objective, lower_bound + TARGET * share - statement.rounding(best.unbalance))
     counted, mass_proof = np.maximum(best.objective, lower_bound) + share, nothing_proven(statement)
     chosen, mass_bound = best, np.zeros_like(share)
     if least_mass:
-        light = _evaluated(statement, lightest)
-        size = np.abs(lightest)
+        light = points_at(statement, lightest)
         # what can be kept up to rounding is not traded for their tolerance
         kept = np.clip(light.excess, CEILING_ROUNDING, CEILING_TOLERANCE)
-        tidied = np.where(size < NEGLIGIBLE * np.max(size, axis=-1, keepdims=True, initial=0.0), 0.0, lightest)
         nearer = _nearer(statement, light, best, target)
-        for point in (light, _evaluated(statement, nearer), _evaluated(statement, tidied), rest):
+        for point in (light, points_at(statement, nearer), rest):
             lighter = point.mass < chosen.mass
             admitted = (point.objective <= target) & (point.excess <= kept)
             chosen = chosen.where(~(lighter & admitted), point)
@@ -138,6 +138,9 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     if least_mass:
         # what counts as an optimum is told from a point that keeps the ceilings
         certified &= (best.excess <= CEILING_ROUNDING) & (chosen.mass - mass_bound <= MASS_ENOUGH * chosen.mass)
+        chosen = settled(statement, chosen, target, mass_bound)
+    else:
+        chosen = settled(statement, chosen, lower_bound + ENOUGH * share, None)
     return BothStages(
         unbalance=chosen.unbalance,
         objective=chosen.objective,
@@ -219,33 +222,13 @@ def _solve(
 
 def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
     """Points above a ceiling, moved towards ones below it just so far; excesses are convex (..., K)."""
-    above, below = _excess(statement, u), _excess(statement, inside)
+    above, below = excess_at(statement, u), excess_at(statement, inside)
     needed = above > CEILING_ROUNDING
     step = np.where(needed, above / np.where(needed, above - np.minimum(below, 0.0), 1.0), 0.0)
     return u + step[..., None] * (inside - u)
 
 
-class _Points(NamedTuple):
-    """One point of each of N programs, and what it comes to."""
-
-    unbalance: Complex  # (N, K) kg m
-    objective: Real  # (N,)
-    mass: Real  # (N,) kg
-    excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
-
-    def where(self, kept: np.ndarray, other: "_Points") -> "_Points":
-        """These where ``kept`` (N,), others elsewhere."""
-        return _Points(
-            np.where(kept[:, None], self.unbalance, other.unbalance),
-            *(np.where(kept, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),
-        )
-
-
-def _evaluated(statement: Statement, u: Complex) -> _Points:
-    return _Points(u, statement.objective(u), statement.mass(u), _excess(statement, u))
-
-
-def _better(old: _Points, new: _Points) -> _Points:
+def _better(old: Points, new: Points) -> Points:
     """Of two points the one with the smaller objective, or the smaller excess where one breaks a ceiling."""
     kept = old.excess <= CEILING_TOLERANCE, new.excess <= CEILING_TOLERANCE
     smaller = new.objective < old.objective
@@ -253,17 +236,13 @@ def _better(old: _Points, new: _Points) -> _Points:
     return new.where(better, old)
 
 
-def _nearer(statement: Statement, lightest: _Points, smallest: _Points, target: Real) -> Complex:
+def _nearer(statement: Statement, lightest: Points, smallest: Points, target: Real) -> Complex:
     """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target."""
     over = lightest.objective - target + statement.rounding(smallest.unbalance)
     fall = lightest.objective - smallest.objective
     needed = (over > 0) & (fall > over)
     step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
     return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
-
-
-def _excess(statement: Statement, u: Complex) -> Real:
-    return np.max(statement.ceilings.excess(u), axis=-1, initial=-np.inf)
 
 
 def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":

@@ -56,6 +56,8 @@ class Limits:
 
     def into_sectors(self, u: Complex) -> Complex:
         """The nearest unbalance inside the sectors, kg m (..., K)."""
+        if np.all(self.free):
+            return u
         v = u * np.conj(self.centre)
         edge = self.half_angle_cos + 1j * np.where(v.imag < 0, -1.0, 1.0) * self.half_angle_sin
         along = np.maximum((v * np.conj(edge)).real, 0.0)

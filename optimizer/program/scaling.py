@@ -72,13 +72,23 @@ def cancelling(statement: Statement, passes: int = 1) -> Complex:
     """
     norms, ceilings = statement.norms, statement.ceilings.norms
     influence = np.concatenate([norms.influence, ceilings.influence], axis=-2)
-    constant = np.concatenate([norms.constant, ceilings.constant], axis=-1)
+    return least_change(influence, np.concatenate([norms.constant, ceilings.constant], axis=-1), passes)
+
+
+def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) -> Complex:
+    """The least u (..., K) for which constant (..., J) + influence (..., J, K) u is 0, as far as it can be.
+
+    One row after the other, each by the least change that leaves those before it alone.
+
+    Parameters
+    ----------
+    passes : three are exact to rounding also where rows hardly differ.
+    """
     size = np.max(np.abs(influence), axis=-1, initial=0.0)
     known = size > 0
     size = np.where(known, size, 1.0)
     influence = influence / size[..., None]
     constant = np.where(known, constant / size, 0.0)
-    # one term after the other, each by the least change that leaves those before it alone
     u = np.zeros_like(influence[..., 0, :], dtype=complex)
     for _ in range(passes):
         basis: list[Real | Complex] = []

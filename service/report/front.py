@@ -122,10 +122,9 @@ def _sectors(drawing: Drawing, view: _View, webs: Sequence[Web]) -> None:
 
 def _counterweights(drawing: Drawing, view: _View, machine: Machine, fitted: Sequence[Counterweight]) -> None:
     webs = {web.name: web for web in machine.webs}
-    heaviest = max((one.mass_kg for one in fitted), default=0.0)
     # area = half angle x thickness x radius^2 in proportion to the mass, the thickness in proportion to the radius
     unit = max((one.mass_kg / webs[one.web].counterweight_radius_m ** 2 for one in fitted), default=0.0)
-    shown = [one for one in fitted if heaviest > 0 and one.mass_kg > 1e-9 * heaviest]
+    shown = [one for one in fitted if one.mass_kg > 0]
     for one in shown:
         radius = webs[one.web].counterweight_radius_m
         half = _WIDEST_DEG * one.mass_kg / (unit * radius**2)

@@ -117,7 +117,7 @@ def _counterweights(drawing: Drawing, view: _View, machine: Machine, fitted: Seq
         drawing.line([(view.z(web.position_m), _MIDDLE - 5), (view.z(web.position_m), _MIDDLE + 5)], AFTER, 1.2)
     heaviest = max((one.mass_kg for one in fitted), default=0.0)
     for one in fitted:
-        if not one.mass_kg > 1e-9 * heaviest:
+        if not one.mass_kg > 0:
             continue
         web = webs[one.web]
         place, half = view.z(web.position_m), 2.0 + 7.0 * one.mass_kg / heaviest

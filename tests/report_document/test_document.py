@@ -52,6 +52,13 @@ def test_the_counterweights_and_the_prices_of_their_limits(made: Make) -> None:
     assert len(prices.rows) == 3
 
 
+def test_a_web_without_a_counterweight_says_none(made: Make) -> None:
+    machine = asked("2d12").machine.model_dump(mode="json", exclude_none=True)
+    machine["webs"][1]["max_mass_kg"] = 0
+    weights, _ = tables(made("2d12", machine=machine), "Counterweights")
+    assert values(weights)[1] == ("1b", "none", *5 * ("–",), "largest mass")
+
+
 def test_a_machine_that_no_limit_holds_up(made: Make) -> None:
     assert "all shadow prices are 0" in words(made("scroll-three-pins"), "Counterweights")
 

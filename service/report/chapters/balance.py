@@ -175,8 +175,15 @@ def places(fitted: Sequence[Counterweight]) -> Table:
             ],
             [
                 (
-                    one.web, one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.mass_radius_kg_m, one.x_kg_m,
-                    one.y_kg_m,
+                    one.web,
+                    *(
+                        (
+                            one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.mass_radius_kg_m, one.x_kg_m,
+                            one.y_kg_m,
+                        )
+                        if one.mass_kg > 0
+                        else ("none", *5 * (None,))
+                    ),
                     limits(one.active_limits) or "none",
                 )
                 for one in fitted

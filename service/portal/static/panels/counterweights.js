@@ -19,7 +19,10 @@ export function counterweightTable(counterweights, prices = []) {
   return table("Counterweights, angles as drawn at shaft angle 0",
     ["web", "mass, kg", "angle, °", "from its crank, °", "mass × radius, kg m", "at the limit of", ...(priced ? ["shadow price"] : [])],
     counterweights.map((one) => [
-      one.web, number(one.mass_kg), number(one.mass_kg > 0 ? one.angle_deg : null), number(one.angle_from_crank_deg), number(one.mass_radius_kg_m),
+      one.web,
+      ...(one.mass_kg > 0
+        ? [number(one.mass_kg), number(one.angle_deg), number(one.angle_from_crank_deg), number(one.mass_radius_kg_m)]
+        : [{ number: true, text: "none" }, number(null), number(null), number(null)]),
       one.active_limits.map((limit) => LIMITS[limit] ?? limit).join(", ") || "–",
       ...(priced ? [{ number: true, text: of(one.web).map(worth).join(", ") || "–" }] : []),
     ]));

@@ -1,0 +1,47 @@
+"""Points of many programs, and what they come to."""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.statement import Statement
+
+
+class Points(NamedTuple):
+    """One point of each of N programs, and what it comes to."""
+
+    unbalance: Complex  # (N, K) kg m
+    objective: Real  # (N,)
+    mass: Real  # (N,) kg
+    excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
+
+    def where(self, kept: np.ndarray, other: "Points") -> "Points":
+        """These where ``kept`` (N,), others elsewhere."""
+        return Points(
+            np.where(kept[:, None], self.unbalance, other.unbalance),
+            *(np.where(kept, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),
+        )
+
+    def chosen(self, programs: np.ndarray) -> "Points":
+        """Those of some of the programs."""
+        return Points(*(values[programs] for values in self))
+
+    def put(self, programs: np.ndarray, others: "Points") -> "Points":
+        """Others for some of the programs."""
+        if programs.size == self.mass.size:
+            return others
+        copies = self.chosen(np.arange(self.mass.size))
+        for mine, other in zip(copies, others, strict=True):
+            mine[programs] = other
+        return copies
+
+
+def points_at(statement: Statement, u: Complex) -> Points:
+    """What unbalances (N, K) [kg m] come to."""
+    return Points(u, statement.objective(u), statement.mass(u), excess_at(statement, u))
+
+
+def excess_at(statement: Statement, u: Complex) -> Real:
+    """Largest relative excess over a ceiling (N,); -inf without ceilings."""
+    return np.max(statement.ceilings.excess(u), axis=-1, initial=-np.inf)

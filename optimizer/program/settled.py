@@ -1,0 +1,88 @@
+"""Counterweights that nearly vanish, or nearly touch a limit, exactly there: no dust, and limits to the last digit.
+
+An interior point ends inside all limits. What is small beside the other counterweights is taken away, what is next to
+a limit is put there, and the counterweights between their limits make up for it: by the least change, relative to
+their size, that leaves every term of the objective and every response under a ceiling as it was.
+"""
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.points import Points, points_at
+from optimizer.program.scaling import least_change
+from optimizer.program.solution import CEILING_ROUNDING
+from optimizer.program.statement import Statement
+
+#: how near to nothing, or to a limit, as a share of the largest mass or of the limit: the next where one is too much
+_NEAR = (1e-4, 1e-6, 1e-8)
+#: relative gap of the least mass that may be left
+_HEAVIER = 1e-5
+
+
+def settled(statement: Statement, points: Points, target: Real, mass_bound: Real | None) -> Points:
+    """The same without dust, and at the limits that they touch, where they are no worse for it.
+
+    Parameters
+    ----------
+    statement : programs of one leading axis (N,).
+    points : within the limits.
+    target : (N,) largest objective of an optimum; the points may be above it.
+    mass_bound : (N,) kg, no optimum is lighter; None where the mass does not count.
+    """
+    every = np.arange(target.size)
+    heaviest = np.full(target.shape, np.inf) if mass_bound is None else mass_bound / (1.0 - _HEAVIER)
+
+    def attempt(points: Points, programs: np.ndarray, dust: float, touched: float) -> tuple[Points, np.ndarray]:
+        part = statement if programs is every else statement.chosen(programs)
+        old = points if programs is every else points.chosen(programs)
+        unbalance, moved = _moved(part, old.unbalance, dust, touched)
+        if not moved.size:
+            return points, moved
+        new = points_at(part, unbalance)
+        kept = new.objective <= np.maximum(target[programs], old.objective) + part.rounding(unbalance)
+        kept &= new.excess <= np.maximum(old.excess, CEILING_ROUNDING)
+        kept &= new.mass <= np.maximum(old.mass, heaviest[programs])
+        return points.put(programs, new.where(kept, old)), programs[moved][~kept[moved]]
+
+    points, undone = attempt(points, every, _NEAR[0], _NEAR[0])
+    for ladder in ([(dust, 0.0) for dust in _NEAR[1:]], [(0.0, touched) for touched in _NEAR]):
+        left = undone
+        for dust, touched in ladder:
+            if left.size:
+                points, left = attempt(points, left, dust, touched)
+    return points
+
+
+def _moved(statement: Statement, u: Complex, dust: float, touched: float) -> tuple[Complex, np.ndarray]:
+    """The points within the limits where all that is near enough is settled, and the programs (n,) that differ.
+
+    Parameters
+    ----------
+    dust : share of the largest mass that is next to nothing.
+    touched : share of a limit that is next to it.
+    """
+    limits = statement.limits
+    size = np.abs(u)
+    mass = size / limits.radius
+    none = (mass > 0) & (mass <= dust * np.max(mass, axis=-1, keepdims=True, initial=0.0))
+    next_to = mass >= limits.max_mass * (1.0 - touched)
+    full = ~none & next_to & (mass < limits.max_mass)
+    put = np.where(none, 0.0, u)
+    put = np.where(full, limits.radius * limits.max_mass / np.where(full, size, 1.0) * u, put)
+    edge = np.zeros_like(none)
+    if not np.all(limits.free):
+        v = u * np.conj(limits.centre)
+        inwards = v.real * limits.half_angle_sin - np.abs(v.imag) * limits.half_angle_cos
+        edge = ~limits.free & ~none & (size > 0) & (inwards <= touched * limits.half_angle_sin * size)
+        side = limits.half_angle_cos + 1j * np.copysign(limits.half_angle_sin, v.imag)
+        put = np.where(edge, np.abs(put) * side * limits.centre, put)
+    moved = np.flatnonzero(np.any(put != u, axis=-1))
+    if not moved.size:
+        return u, moved
+    part = statement if moved.size == len(u) else statement.chosen(moved)
+    influence = np.concatenate([part.norms.influence, part.ceilings.norms.influence], axis=-2)
+    change = np.sum(influence * (put - u)[moved][:, None, :], axis=-1)
+    between = np.where(none | edge | next_to, 0.0, size)[moved]
+    put[moved] += between * least_change(influence * between[:, None, :], change)
+    put[moved] = part.limits.into(put[moved])
+    return put, moved

@@ -1,0 +1,61 @@
+"""What is fitted is fitted: no dust, no mass a hair below its limit, no angle a hair inside its sector."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.sweep import run_chunk
+from tests.hard.cases.case import Body, machine, row, throw
+from tests.sweep.single import sweep
+from tests.verification.checking import optimized
+
+
+def crank(webs: int, rng: np.random.Generator, **limits: Any) -> Body:
+    """Two throws at a right angle and more webs than are needed; ``limits`` are of every web."""
+    throws = [
+        throw(z, a, [row(a, float(rng.uniform(5, 20)))], rotating=float(rng.uniform(5, 10)))
+        for z, a in ((-0.3, 0.0), (0.3, 90.0))
+    ]
+    places = [
+        {"name": str(k), "position_m": z, "counterweight_radius_m": float(rng.uniform(0.15, 0.25)), **limits}
+        for k, z in enumerate(np.linspace(-0.4, 0.4, webs).tolist())
+    ]
+    return {"machine": machine(throws, places)}
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("largest", [3.0, 1000.0])
+def test_masses_are_something_or_nothing(seed: int, largest: float) -> None:
+    """With ample limits no lightest optimum needs all of seven webs, of which an interior point leaves none empty."""
+    found = optimized(crank(7, np.random.default_rng(seed), max_mass_kg=largest))
+    assert found.status == "optimal"
+    mass = np.array([one.mass_kg for one in found.counterweights])
+    fitted = mass > 0
+    assert np.all(mass[fitted] > 1e-3 * np.max(mass))
+    assert np.all((mass == largest) | (mass < largest * (1 - 1e-4)))
+    assert [one.angle_deg for one in found.counterweights if one.mass_kg == 0] == [0.0] * int(np.sum(~fitted))
+    assert largest < 10.0 or not np.all(fitted)
+    assert [one.active_limits for one in found.counterweights] == [("max_mass",) if m == largest else () for m in mass]
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_angles_at_an_edge_are_the_edge(seed: int) -> None:
+    body = crank(
+        4, np.random.default_rng(seed), max_mass_kg=1000.0, sector={"centre_deg": 200.0, "half_angle_deg": 7.0}
+    )
+    found = optimized(body)
+    assert found.status == "optimal"
+    at_edge = [one.angle_deg for one in found.counterweights if "sector" in one.active_limits]
+    assert at_edge
+    assert set(at_edge) <= {193.0, 207.0}
+
+
+def test_a_sweep_fits_what_a_request_does() -> None:
+    body = crank(7, np.random.default_rng(0), max_mass_kg=3.0)
+    request = sweep(body, {"path": "/machine/webs/2/max_mass_kg", "values": [0.5, 3.0, 30.0]})
+    rows = run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist()
+    for found, value in zip(rows, (0.5, 3.0, 30.0), strict=True):
+        body["machine"]["webs"][2]["max_mass_kg"] = value
+        for one in optimized(body).counterweights:
+            assert (found[f"mass_kg.{one.web}"], found[f"angle_deg.{one.web}"]) == (one.mass_kg, one.angle_deg)
