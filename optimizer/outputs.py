@@ -16,7 +16,7 @@ from optimizer.figures.orders import ORDERS
 from optimizer.figures.output import Output
 from optimizer.figures.pins import PIN_LOADS
 from optimizer.figures.stages import STAGES
-from optimizer.scene import Prepared, simulated
+from optimizer.scene import Prepared, simulated, turns_over
 from schemas.base import FieldProblem
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.requests import Scene
@@ -112,7 +112,7 @@ def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -
 
     Parameters
     ----------
-    samples : number of shaft angles asked for.
+    samples : number of shaft angles asked for in one turn.
 
     Raises
     ------
@@ -124,7 +124,7 @@ def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -
         if broken:
             problems.setdefault(path, FieldProblem(path, message))
     needs = [need for output in outputs for need in OUTPUTS[output].needs]
-    if "kinematics" in effects_of(needs) and _series(machine) * samples > MAX_SAMPLES:
+    if "kinematics" in effects_of(needs) and _series(machine) * samples * turns_over(machine, needs) > MAX_SAMPLES:
         path = ("angles", "step_deg")
         message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
         problems[path] = FieldProblem(path, message)

@@ -8,13 +8,14 @@ from typing import Any
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.effects.registry import Simulated, simulate
+from optimizer.effects.registry import Simulated, closure, simulate
 from optimizer.formulate import responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
+from optimizer.mechanics.cylinders import cycle_turns
 from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.response import Response
-from schemas.machine import ReciprocatingMachine, ScrollMachine
+from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
 from schemas.requests import Scene
 
 
@@ -31,6 +32,7 @@ class Prepared:
     simulated: Simulated
     mechanics_ms: float
     shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
+    turns: int = 1  # over which the samples go: 2 where gas takes so long
 
     @property
     def machine(self) -> ReciprocatingMachine | ScrollMachine:
@@ -70,9 +72,9 @@ class Prepared:
         return responses(self.layout, self.simulated.first_order)
 
     @property
-    def turned_rad(self) -> Real:
-        """How far the shaft has turned about +z at the samples, s*theta (..., T) rad."""
-        return self.layout.sense[..., None] * np.deg2rad(self.angle_deg)
+    def first_turn_deg(self) -> Real:
+        """The samples of the first turn."""
+        return self.angle_deg[: self.angle_deg.size // self.turns]
 
 
 def simulated(
@@ -84,13 +86,19 @@ def simulated(
     ----------
     request : its machine gives what the effects need; its fields may hold columns of the leading axes.
     asked : outputs by name, with the effects that each needs.
-    samples : number of sampled shaft angles.
+    samples : number of sampled shaft angles in one turn.
     leading : axes of all results; none for one machine.
     """
     start = time.perf_counter()
     plan = layout(request.machine)
     if leading:
         plan = spread(plan, leading)
-    turn: Real = np.arange(samples, dtype=float) * (360.0 / samples)
-    found = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(turn))
-    return Prepared(request, plan, turn, found, (time.perf_counter() - start) * 1e3)
+    turns = turns_over(request.machine, [need for needs in asked.values() for need in needs])
+    angle: Real = np.arange(samples * turns, dtype=float) * (360.0 / samples)
+    found = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(angle))
+    return Prepared(request, plan, angle, found, (time.perf_counter() - start) * 1e3, turns=turns)
+
+
+def turns_over(machine: Machine, needs: Sequence[str]) -> int:
+    """Turns of the shaft over which results of effects go: 2 where they hold gas of a cycle that takes so long."""
+    return cycle_turns(machine) if isinstance(machine, ReciprocatingMachine) and "gas" in closure(machine, needs) else 1

@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field, Strict
 
 from schemas.base import Model
+from schemas.indicated import IndicatedPressure
 from schemas.quantities import Area, Length, Pressure
 from schemas.rules import Rule, Ruled
 from schemas.units import Unit, between, non_negative
@@ -60,6 +61,12 @@ class Cylinder(GasState, Ruled):
     )
     crank: GasState | None = Field(
         None, description="data of the crank side where they differ", examples=[{"relative_clearance": 0.12}]
+    )
+    pressure: IndicatedPressure | None = Field(
+        None,
+        description="indicated pressure of an engine or of a measured compressor; a side that has one needs no other "
+        "gas data than its area",
+        examples=[None],
     )
 
     def rules(self) -> Iterator[Rule]:

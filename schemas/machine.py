@@ -200,7 +200,7 @@ class ReciprocatingMachine(Rotor):
         yield Rule(rows > MAX_ROWS_TOGETHER, ("throws",), message)
         yield from _unique_names(("throws",), [throw.name for throw in self.throws])
         for t, throw in enumerate(self.throws):
-            yield from _throw_rules(("throws", t), throw)
+            yield from _throw_rules(("throws", t), throw, 1.0 if self.rotation == "ccw" else -1.0)
         for k, web in enumerate(self.webs):
             if web.throw is not None:
                 beyond = web.throw >= len(self.throws)
@@ -290,13 +290,17 @@ def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
         yield Rule(bool(machine.balance_shafts), (*path, "balance_shafts"), message)
 
 
-def _throw_rules(path: Path, throw: Throw) -> Iterator[Rule]:
+def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
     yield from _unique_names((*path, "rows"), [row.name for row in throw.rows])
     for i, row in enumerate(throw.rows):
         if row.connecting_rod is not None and row.connecting_rod.length_m is not None:
             short = row.connecting_rod.length_m <= throw.crank_radius_m
             message = "the connecting rod must be longer than the crank radius"
             yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
+        if row.cylinder is not None and row.cylinder.pressure is not None:
+            at = (*path, "rows", i, "cylinder", "pressure")
+            for broken, rest, words in row.cylinder.pressure.row_rules(sense, throw.crank_angle_deg, row.axis_deg):
+                yield Rule(broken, (*at, *rest), words)
 
 
 def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:

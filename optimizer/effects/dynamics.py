@@ -19,9 +19,10 @@ from optimizer.effects.results import (
     TorqueIntegrals,
     TorqueSeries,
 )
-from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, without_gas
+from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, trace_rules, traces, without_gas
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import gas_forces
+from optimizer.mechanics.indicated import turns_of
 from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
@@ -77,7 +78,9 @@ def _friction_problems(machine: Machine) -> Iterator[FieldProblem]:
 
 
 def _gas_rules(machine: Machine) -> Iterator[Rule]:
-    return delivery_rules(_reciprocating(machine), layout_of(machine))
+    layout = layout_of(machine)
+    yield from delivery_rules(_reciprocating(machine), layout)
+    yield from trace_rules(_reciprocating(machine), layout)
 
 
 def _flywheel_problems(machine: Machine) -> Iterator[FieldProblem]:
@@ -101,7 +104,8 @@ def _kinematics(context: Context) -> Motion:
 def _gas(context: Context) -> GasCycle:
     layout = context.layout
     data = chambers(_reciprocating(context.machine), layout.omega.shape)
-    return GasCycle(data, layout, gas_forces(data, context.given["kinematics"], layout))
+    given = traces(_reciprocating(context.machine), layout)
+    return GasCycle(data, layout, gas_forces(data, context.given["kinematics"], layout, given), given)
 
 
 def _friction(context: Context) -> FrictionForces:
@@ -165,11 +169,19 @@ def _torque_at(context: Context, angle: Real) -> tuple[Real, Real]:
 
 def _breaks(context: Context) -> Real:
     """Shaft angles between which all is smooth, (..., B) rad."""
-    return break_angles(context.layout, context.given["gas"].opens if "gas" in context.given else ())
+    if "gas" not in context.given:
+        return break_angles(context.layout)
+    gas = context.given["gas"]
+    return break_angles(context.layout, gas.opens, gas.traces)
+
+
+def _turns(context: Context) -> int:
+    """Turns of the shaft after which all repeats."""
+    return turns_of(context.given["gas"].traces) if "gas" in context.given else 1
 
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:
-    fine = panels(_breaks(context), _WIDEST_PANEL, halved=True)
+    fine = panels(_breaks(context), _WIDEST_PANEL, halved=True, turns=_turns(context))
     rows, total = _torque_at(context, fine.angle)
     omega = context.layout.omega
     friction_power = np.zeros(omega.shape)
@@ -190,7 +202,8 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
 
 
 def _torque_errors(context: Context) -> TorqueErrors:
-    coarse, fine = panels(_breaks(context), _WIDEST_PANEL), context.given["torque_integrals"]
+    coarse = panels(_breaks(context), _WIDEST_PANEL, turns=_turns(context))
+    fine = context.given["torque_integrals"]
     _, total = _torque_at(context, coarse.angle)
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))
@@ -218,6 +231,7 @@ def _whole_turn(context: Context) -> WholeTurn:
         context.fidelity.kinematics == "exact",
         given["friction"].magnitude if "friction" in given else None,
         given["gas"].chambers if "gas" in given else None,
+        given["gas"].traces if "gas" in given else (),
     )
     return whole_turn(rows, _breaks(context))
 
@@ -226,7 +240,7 @@ DYNAMICS = (
     Effect("kinematics", "motion of the rows", _kinematics, inputs=RODS, problems=_motion_problems),
     Effect(
         "gas",
-        "four-process cycle in every chamber, where rows have cylinders",
+        "four-process cycle or indicated pressure in every chamber, where rows have cylinders",
         _gas,
         needs=("kinematics",),
         inputs=("machine.throws.rows.cylinder",),

@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, GasForces, indicated_work, switching_angles
+from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.layout import Layout
 
 
@@ -17,6 +18,7 @@ class GasCycle:
     chambers: Chambers
     layout: Layout
     forces: GasForces
+    traces: tuple[Trace, ...] = ()  # of the chambers whose pressure is given
 
     @cached_property
     def opens(self) -> tuple[Real, Real]:
@@ -25,8 +27,15 @@ class GasCycle:
 
     @cached_property
     def work(self) -> Real:
-        """(..., rows, 2) J, indicated."""
-        return indicated_work(self.chambers, self.layout)
+        """(..., rows, 2) J, indicated in one turn, in the mean of a cycle of two."""
+        work, rows = indicated_work(self.chambers, self.layout), self.layout.reciprocating
+        for trace in self.traces:
+            place = (..., trace.row)
+            area = self.chambers.area[*place, trace.side]
+            work[*place, trace.side] = trace.work(
+                area, rows.crank_radius[place], rows.rod_ratio[place], rows.rod_margin[place]
+            )
+        return work
 
     @cached_property
     def power(self) -> Real:

@@ -85,10 +85,11 @@ def _second_order(scene: Prepared, with_shafts: bool) -> Order | None:
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
     """First order of one machine over the turn."""
+    turned = scene.layout.sense * np.deg2rad(scene.first_turn_deg)
     return Hodographs(
-        angle_deg=scene.angles,
-        before=_hodograph(scene.first_order(), scene.turned_rad),
-        after=None if unbalance is None else _hodograph(scene.first_order(unbalance), scene.turned_rad),
+        angle_deg=tuple(scene.first_turn_deg.tolist()),
+        before=_hodograph(scene.first_order(), turned),
+        after=None if unbalance is None else _hodograph(scene.first_order(unbalance), turned),
     )
 
 

@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves
 from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
 from optimizer.pieces import Bracket, Index
@@ -116,11 +117,12 @@ def _one(found: Bracket) -> Bracket:
 
 
 def _reshaped(scene: Prepared, found: Bracket) -> Bracket:
-    """With the leading axes of the scene, and angles within the turn."""
+    """With the leading axes of the scene, and angles within the turns after which all repeats."""
     leading = scene.layout.omega.shape
     count = found.angle.size // max(int(np.prod(leading)), 1)
     shape = (*leading, count)
-    angle = np.mod(found.angle, 2.0 * np.pi)
+    whole: WholeTurn = scene.results["whole_turn"]
+    angle = np.mod(found.angle, TURN * whole.turns)
     return Bracket(
         angle.reshape(shape), found.value.reshape(shape), found.lower.reshape(shape), found.upper.reshape(shape)
     )

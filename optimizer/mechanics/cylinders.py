@@ -1,13 +1,18 @@
-"""Cylinders of a machine as arrays, and what is missing or impossible in their data."""
+"""Cylinders of a machine as arrays, and what is missing, impossible or too much in their data."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
+from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, switching_travels
+from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries
+from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout, stacked
 from schemas.base import FieldProblem
 from schemas.cylinder import Cylinder
+from schemas.indicated import DEAD_CENTRE_DEG, TURN_DEG, IndicatedPressure, PressureTrace
 from schemas.machine import ReciprocatingMachine
 from schemas.rules import Path, Rule
 
@@ -19,6 +24,8 @@ _STATE = (
     "expansion_exponent",
     "compression_exponent",
 )
+#: rows times entries of all traces at which the turns of a cycle are cut; so many take some ten seconds
+MAX_ENTRIES = 200_000
 _NEVER_DELIVERS = "with this clearance and pressure ratio the chamber never delivers"
 
 
@@ -41,6 +48,58 @@ def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Ch
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 
 
+def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
+    """Indicated pressures of the chambers that have one, with the leading axes of layout and columns together."""
+    ahead = own_angle(layout, np.zeros(1))[..., 0]
+    found = [
+        _trace(k, side, given, getattr(given, name), _start_deg(machine, k, given), ahead[..., k])
+        for k, (_, cylinder) in enumerate(_cylinders(machine))
+        for given in (() if cylinder is None or cylinder.pressure is None else (cylinder.pressure,))
+        for side, name in enumerate(_SIDES)
+        if getattr(given, name) is not None
+    ]
+    leading = np.broadcast_shapes(layout.omega.shape, *(part.shape for one in found for part in (one.table, one.lead)))
+    return tuple(
+        replace(one, table=np.broadcast_to(one.table, leading), lead=np.broadcast_to(one.lead, leading))
+        for one in found
+    )
+
+
+def _start_deg(machine: ReciprocatingMachine, number: int, given: IndicatedPressure) -> Real:
+    """Shaft angle of the outer dead centre from which the pressure of a row counts, degrees."""
+    if given.dead_centre_deg is not None:
+        return np.asarray(given.dead_centre_deg, dtype=float)
+    throw, row = [(throw, row) for throw in machine.throws for row in throw.rows][number]
+    sense = 1.0 if machine.rotation == "ccw" else -1.0
+    first = np.mod(sense * (row.axis_deg - throw.crank_angle_deg), TURN_DEG)
+    # what a rounding has left short of a turn is the beginning of the first
+    return np.where(first > TURN_DEG - DEAD_CENTRE_DEG, 0.0, first)
+
+
+def _trace(row: int, side: int, given: IndicatedPressure, table: PressureTrace, start_deg: Real, ahead: Real) -> Trace:
+    """One trace, from an entry of the cycle before to one of the next."""
+    angle, pressure = (np.atleast_2d(stacked(each)) for each in (table.angle_deg, table.pressure_Pa))
+    angle, cycle = np.deg2rad(angle), TURN * given.cycle_turns
+    angle = np.concatenate([angle[:, -1:] - cycle, angle, angle[:, :1] + cycle], axis=-1)
+    pressure = np.concatenate([pressure[:, -1:], pressure, pressure[:, :1]], axis=-1)
+    angle, pressure = np.broadcast_arrays(angle, pressure)
+    return Trace(
+        row=row,
+        side=side,
+        turns=given.cycle_turns,
+        angle=angle,
+        pressure=pressure,
+        table=np.arange(len(angle)) if len(angle) > 1 else np.zeros((), dtype=np.intp),
+        lead=TURN * np.round((np.deg2rad(start_deg) + ahead) / TURN),
+    )
+
+
+def cycle_turns(machine: ReciprocatingMachine) -> int:
+    """Turns of the shaft after which the gas of all rows repeats, 1 or 2."""
+    given = [cylinder.pressure for _, cylinder in _cylinders(machine) if cylinder is not None]
+    return max((one.cycle_turns for one in given if one is not None), default=1)
+
+
 def without_gas(machine: ReciprocatingMachine) -> tuple[Path, ...]:
     """Where rows have no cylinder, by paths from the machine."""
     return tuple(path for path, cylinder in _cylinders(machine) if cylinder is None)
@@ -50,8 +109,9 @@ def gas_problems(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
     """Fields that the gas forces of cylinders need and the machine does not give, by paths from the machine."""
     for path, cylinder in _cylinders(machine):
         if cylinder is not None:
+            words = "" if cylinder.pressure is None else " on the side without an indicated pressure"
             for field in _missing(cylinder):
-                yield FieldProblem((*path, field), "gas forces need this field")
+                yield FieldProblem((*path, field), f"gas forces need this field{words if field in _STATE else ''}")
 
 
 def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
@@ -63,6 +123,18 @@ def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Ru
         yield Rule(never[..., number], (*path, "relative_clearance"), _NEVER_DELIVERS)
 
 
+def trace_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
+    """Not more entries than can be worked on: every row is looked at between any two of them."""
+    given = traces(machine, layout)
+    if given:
+        angles = entries(given, own_angle(layout, np.zeros(1))[..., 0])
+        different = 1 + np.count_nonzero(np.diff(angles, axis=-1) > SLIVER, axis=-1)
+        many = layout.reciprocating.mass.shape[-1] * different > MAX_ENTRIES
+        path = next(path for path, one in _cylinders(machine) if one is not None and one.pressure is not None)
+        words = f"rows times the different angles of all indicated pressures must be at most {MAX_ENTRIES}"
+        yield Rule(many, (*path, "pressure"), words)
+
+
 def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[Path, Cylinder | None]]:
     for t, throw in enumerate(machine.throws):
         for i, row in enumerate(throw.rows):
@@ -71,6 +143,11 @@ def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[Path, Cylinder |
 
 def _acts(cylinder: Cylinder, side: str) -> bool:
     return cylinder.acting in ("double", side)
+
+
+def _indicated(cylinder: Cylinder, side: str) -> PressureTrace | None:
+    trace: PressureTrace | None = None if cylinder.pressure is None else getattr(cylinder.pressure, side)
+    return trace
 
 
 def _value(cylinder: Cylinder, side: str, field: str) -> float | None:
@@ -93,10 +170,11 @@ def _missing(cylinder: Cylinder) -> Iterator[str]:
         yield "bore_m"
     if crank is None:
         yield "piston_rod_diameter_m" if cylinder.bore_m is not None else "crank_area_m2"
-    if cylinder.acting != "double" and cylinder.ambient_pressure_Pa is None:
+    cycled = [side for side in _SIDES if _indicated(cylinder, side) is None]
+    if not all(_acts(cylinder, side) for side in cycled) and cylinder.ambient_pressure_Pa is None:
         yield "ambient_pressure_Pa"
     for field in _STATE:
-        if any(_acts(cylinder, side) and _value(cylinder, side, field) is None for side in _SIDES):
+        if any(_acts(cylinder, side) and _value(cylinder, side, field) is None for side in cycled):
             yield field
 
 
@@ -104,11 +182,13 @@ def _row(cylinder: Cylinder | None) -> list[list[float | None]]:
     if cylinder is None:
         return [[0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0]] * 2
     areas = _areas(cylinder)
-    ambient = cylinder.ambient_pressure_Pa
-    return [
-        [area, *(_value(cylinder, side, field) for field in _STATE), 1.0]
-        if _acts(cylinder, side)
-        # an open side: ambient pressure all the way round; the other numbers are not used
-        else [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]
-        for side, area in zip(_SIDES, areas, strict=True)
-    ]
+    return [_side(cylinder, side, area) for side, area in zip(_SIDES, areas, strict=True)]
+
+
+def _side(cylinder: Cylinder, side: str, area: float | None) -> list[float | None]:
+    given = _indicated(cylinder, side) is not None
+    if _acts(cylinder, side) and not given:
+        return [area, *(_value(cylinder, side, field) for field in _STATE), 1.0]
+    # an open side: ambient pressure all the way round, unless it is given; the other numbers are not used
+    ambient = 0.0 if given else cylinder.ambient_pressure_Pa
+    return [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]

@@ -28,6 +28,7 @@ def share_of_losses(
 
     N_m = N_i (1/eta - 1); a row's share does its work over two strokes a turn, the rest turns with
     the shaft: R_s = share N_m 60 / (2 S n), M_r = (1 - share) N_m / omega (seed 004, 2-17..2-19).
+    Of a row whose gas gives power the losses are its share 1 - eta.
 
     Parameters
     ----------
@@ -36,7 +37,8 @@ def share_of_losses(
     stroke : (..., rows) m.
     """
     # 1/eta - 1 would cancel for small losses
-    losses = indicated_power * ((1.0 - efficiency) / efficiency)[..., None]
+    lost = (1.0 - efficiency)[..., None]
+    losses = np.where(indicated_power < 0.0, -indicated_power * lost, indicated_power * (lost / efficiency[..., None]))
     per_turn = losses * 2.0 * np.pi / omega[..., None]
     force = reciprocating_share[..., None] * per_turn / (2.0 * stroke)
     torque = (1.0 - reciprocating_share) * np.sum(losses, axis=-1) / omega

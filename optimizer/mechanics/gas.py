@@ -1,16 +1,18 @@
-"""Gas forces: a four-process cycle in every chamber, with its switching angles and its work.
+"""Gas forces: a four-process cycle in every chamber, with its switching angles and its work; or a pressure as given.
 
 Chamber axis: index 0 the head side, 1 the crank side. A chamber's own travel is the piston's
 distance from the dead centre at which that chamber is smallest. Forces are positive in rod tension:
 head side -p A, crank side +p A (seed 004, 2-14 and 2-15).
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from optimizer.arrays import Real
+from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
 
@@ -51,11 +53,15 @@ class GasForces:
         return np.sum(self.force, axis=-2)
 
 
-def gas_forces(chambers: Chambers, motion: Motion, layout: Layout) -> GasForces:
+def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Sequence[Trace] = ()) -> GasForces:
     """Pressures and gas forces over the turn.
 
     Volume growing: re-expansion p_d (x_0 / (x + x_0))^m until p_s, then suction; volume shrinking:
     compression p_s ((S + x_0) / (x + x_0))^n until p_d, then discharge (seed 004, 2-10..2-13).
+
+    Parameters
+    ----------
+    traces : pressures of chambers, in place of these.
     """
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None, None]
     head = motion.displacement[..., None, :]
@@ -72,6 +78,8 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout) -> GasForces:
     compression = low * ((stroke + safe) / (travel + safe)) ** chambers.compression_exponent[..., None]
     pressure = np.where(growing, np.maximum(expansion, low), np.minimum(compression, high))
     pressure = np.where(closed, pressure, low)
+    for trace in traces:
+        pressure[..., trace.row, trace.side, :], _ = trace.at(motion.crank_angle[..., trace.row, :])
     return GasForces(pressure, chambers.area)
 
 

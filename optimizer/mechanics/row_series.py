@@ -8,7 +8,8 @@ an angle within the piece.
 Shapes: N designs or places, R rows, P angles.
 """
 
-from dataclasses import dataclass, fields
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +17,7 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers
+from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.taylor import Taylor, cosine, sine
@@ -44,6 +46,7 @@ class RowData:
     expansion_exponent: Real | None = None
     compression_exponent: Real | None = None
     closed: Real | None = None
+    traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
 
     def chosen(self, design: np.ndarray) -> "RowData":
         """Those of some designs, as often as named."""
@@ -53,22 +56,26 @@ class RowData:
             return value[design] if varies else value
 
         chosen = {field.name: each(getattr(self, field.name)) for field in fields(self)}
-        return RowData(**chosen | {"designs": len(design)})
+        traces = tuple(replace(one, table=each(one.table), lead=each(one.lead)) for one in self.traces)
+        return RowData(**chosen | {"designs": len(design), "traces": traces})
 
 
-def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chambers | None) -> RowData:
+def row_data(
+    layout: Layout, exact: bool, friction: Real | None, chambers: Chambers | None, traces: Sequence[Trace] = ()
+) -> RowData:
     """Data of designs whose leading axes become one, N.
 
     Parameters
     ----------
     friction : (..., R) N, of the rows; None where there is none.
     chambers : of the rows; None where there is no gas.
+    traces : of chambers whose pressure is given.
     """
     rows = layout.reciprocating
     leading = layout.omega.shape
     designs, count = int(np.prod(leading)), rows.mass.shape[-1]
 
-    def flat(value: Real, *own: int) -> Real:
+    def flat(value: Any, *own: int) -> Any:
         return shared(np.broadcast_to(value, (*leading, *own)).reshape(designs, *own))
 
     gas: dict[str, Any] = {"area": None}
@@ -84,6 +91,7 @@ def row_data(layout: Layout, exact: bool, friction: Real | None, chambers: Chamb
         sense=flat(layout.sense[..., None], 1),
         friction=flat(np.zeros(()) if friction is None else friction, count),
         exact=exact,
+        traces=tuple(replace(trace, table=flat(trace.table), lead=flat(trace.lead)) for trace in traces),
         **gas,
     )
 
@@ -201,12 +209,41 @@ class RowSeries:
         return sides[0] + sides[1]
 
     def _pressure(self, side: int) -> Taylor:
-        """Pressure in the chambers of one side, Pa: constant, or a power of the volume."""
+        """Pressure in the chambers of one side, Pa: of a cycle, or as it is given."""
+        cycle = self._of_cycle(side)
+        given = [
+            (trace.row, *trace.at(self._angle[:, trace.row], self._within[:, trace.row]))
+            for trace in self.data.traces
+            if trace.side == side
+        ]
+        if not given:
+            return cycle
+        # the pressures may differ between designs that have all else in common
+        rows = np.broadcast_shapes(cycle.middle.shape[1:], *((len(value), 1, 1) for _, value, _ in given))
+        shape = (self.order + 1, *rows)
+        middle = np.array(np.broadcast_to(cycle.middle, shape))
+        radius = None if cycle.radius is None else np.array(np.broadcast_to(cycle.radius, shape))
+        for row, value, slope in given:
+            middle[:, :, row] = 0.0
+            middle[0, :, row] = value
+            if self.order > 0:
+                middle[1, :, row] = slope
+            if radius is not None and self.half is not None:
+                radius[:, :, row] = 0.0
+                radius[0, :, row] = np.abs(slope) * self.half
+        return Taylor(middle, radius)
+
+    def _of_cycle(self, side: int) -> Taylor:
+        """Pressure of the four processes, Pa: constant, or a power of the volume."""
         data = self.data
         low, high, clear, expansion, compression, closed = (
             self._each(getattr(data, name)[..., side])
             for name in ("suction", "discharge", "clearance", "expansion_exponent", "compression_exponent", "closed")
         )
+        if not np.any(closed):
+            middle = np.zeros((self.order + 1, *np.broadcast_shapes(self._angle.shape, low.shape)))
+            middle[0] = low
+            return Taylor(middle, None if self.half is None else np.zeros_like(middle))
         # in units of the crank radius; an open side has no clearance to divide by
         clear = np.where(closed, 2.0 * clear, 1.0)
         travel = self._travel(side)

@@ -1,7 +1,7 @@
-"""Integrals over one turn that do not depend on how the outputs are sampled.
+"""Integrals over one turn, or over two where gas takes so long, that do not depend on how the outputs are sampled.
 
-Forces jump or have kinks where valves open and rows reverse. Between those angles they are smooth, so
-Gauss-Legendre panels between them converge fast; the end point of the turn is not counted twice.
+Forces jump or have kinks where valves open and rows reverse, and at the entries of tables. Between those angles they
+are smooth, so Gauss-Legendre panels between them converge fast; the end point of the turn is not counted twice.
 """
 
 from dataclasses import dataclass
@@ -40,10 +40,11 @@ def _rule(nodes: int) -> _Rule:
 
 @dataclass(frozen=True)
 class Turn:
-    """Panels over one turn. P panels with Gauss nodes each."""
+    """Panels over all turns. P panels with Gauss nodes each."""
 
     start: Real  # (..., P) rad
     width: Real  # (..., P) rad; 0 where two break angles coincide
+    turns: int = 1  # of the shaft, after which all repeats
 
     @property
     def rule(self) -> _Rule:
@@ -58,34 +59,37 @@ class Turn:
         return nodes.reshape(*nodes.shape[:-2], -1)
 
 
-def panels(breaks: Real, widest: float, halved: bool = False) -> Turn:
+def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) -> Turn:
     """Panels between break angles, cut at a regular grid as well; their number grows with that of the breaks.
 
     Parameters
     ----------
-    breaks : (..., B) rad, any order; taken modulo one turn, nan counts as none.
+    breaks : (..., B) rad, any order; taken modulo all turns, nan counts as none.
     widest : rad, step of the grid.
     halved : every panel cut in two, for an estimate of the error.
+    turns : of the shaft, after which all repeats.
     """
-    inner = np.mod(np.where(np.isnan(breaks), 0.0, breaks), 2.0 * np.pi)
-    grid = np.linspace(0.0, 2.0 * np.pi, int(np.ceil(2.0 * np.pi / widest)) + 1)
+    period = 2.0 * np.pi * turns
+    inner = np.mod(np.where(np.isnan(breaks), 0.0, breaks), period)
+    grid = np.linspace(0.0, period, int(np.ceil(period / widest)) + 1)
     edges = np.sort(np.concatenate([inner, np.broadcast_to(grid, (*inner.shape[:-1], grid.size))], axis=-1), axis=-1)
     width = np.diff(edges, axis=-1)
     if not halved:
-        return Turn(edges[..., :-1], width)
+        return Turn(edges[..., :-1], width, turns)
     half = np.repeat(0.5 * width, 2, axis=-1)
     start = np.repeat(edges[..., :-1], 2, axis=-1)
     start[..., 1::2] += half[..., 1::2]
-    return Turn(start, half)
+    return Turn(start, half, turns)
 
 
 def mean(turn: Turn, values: Real) -> Real:
-    """Mean over the turn of values at its nodes (...)."""
-    return np.sum(_per_panel(turn, values) @ turn.rule.weights * (0.5 * turn.width), axis=-1) / (2.0 * np.pi)
+    """Mean over all turns of values at the nodes (...)."""
+    whole = np.sum(_per_panel(turn, values) @ turn.rule.weights * (0.5 * turn.width), axis=-1)
+    return whole / (2.0 * np.pi * turn.turns)
 
 
 def fluctuation(turn: Turn, values: Real) -> Real:
-    """Range of the running integral of values - mean over the turn (...).
+    """Range of the running integral of values - mean over all turns (...).
 
     For a torque that is the energy a flywheel has to take up and give back (seed 004, 2-27, E004-17).
     The extremes lie at the ends of panels and where the value crosses its mean: roots of its interpolant, where the

@@ -4,6 +4,7 @@ A curve is a sum over the rows of one of their forces (:mod:`row_series`) times 
 the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod:`optimizer.pieces` brackets peaks with.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Literal
@@ -12,6 +13,7 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from optimizer.arrays import Complex, Real
+from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import RowData, RowSeries, shared
@@ -21,8 +23,6 @@ from optimizer.pieces import Index, Pieces
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)
-#: rad; breaks nearer to each other are one
-_SLIVER = 1e-12
 #: nodes of the quadrature in each part of a piece: exact for the square of a cubic
 _GAUSS = 4
 #: what a cubic leaves out of a part, as a share of the size of the curve, and the parts of a piece at most
@@ -35,22 +35,31 @@ Reading = Literal[
 ]
 
 
-def break_angles(layout: Layout, opens: tuple[Real, ...] = ()) -> Real:
+def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[Trace] = ()) -> Real:
     """Shaft angles between which all is smooth, (..., B) rad; nan where a design has one less.
 
     Parameters
     ----------
     opens : (..., rows, n) own crank angles at which valves open; nan where they do not.
+    traces : indicated pressures; the breaks are those of all turns after which they repeat.
     """
     ratio = layout.reciprocating.rod_ratio
     # rows reverse at their dead centres
     dead = np.broadcast_to([0.0, np.pi], (*ratio.shape, 2))
     own = np.concatenate([*opens, dead, steep_angles(ratio)], axis=-1)
-    found = (own - own_angle(layout, np.zeros(1))).reshape(*ratio.shape[:-1], -1)
+    ahead = own_angle(layout, np.zeros(1))
+    found = (own - ahead).reshape(*ratio.shape[:-1], -1)
     designs = tuple(range(found.ndim - 1))
-    found = np.sort(found[..., ~np.all(np.isnan(found), axis=designs)], axis=-1)
-    # rows that reverse together would only make panels without width
-    return found[..., np.any(np.diff(found, axis=-1, prepend=-np.inf) != 0.0, axis=designs)]
+    found = found[..., ~np.all(np.isnan(found), axis=designs)]
+    apart = 0.0
+    if traces:
+        turns, apart = turns_of(traces), SLIVER
+        again = [np.mod(found + TURN * k, TURN * turns) for k in range(turns)]
+        found = np.concatenate([*again, entries(traces, ahead[..., 0])], axis=-1)
+    found = np.sort(found, axis=-1)
+    # rows that reverse together, and tables that have the same entries, would only make panels without width
+    same = np.diff(found, axis=-1, prepend=-np.inf) <= apart
+    return found[..., ~np.all(same, axis=designs)]
 
 
 @dataclass(frozen=True)
@@ -58,11 +67,13 @@ class WholeTurn:
     """The rows of N designs over P pieces of the turn.
 
     centre, half : (N, P) rad; half is 0 where breaks coincide.
+    turns : of the shaft, after which all repeats.
     """
 
     rows: RowData
     centre: Real
     half: Real
+    turns: int = 1
 
     def curves(self, reading: Reading, weights: Complex | Real, constant: Complex | Real | float = 0.0) -> "TurnCurves":
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
@@ -101,12 +112,14 @@ class WholeTurn:
 
 def whole_turn(rows: RowData, breaks: Real) -> WholeTurn:
     """The turn cut at breaks (..., B) rad and at regular angles; the leading axes become one."""
-    turn = panels(breaks, _WIDEST)
+    turns = turns_of(rows.traces)
+    turn = panels(breaks, _WIDEST, turns=turns)
     pieces = turn.width.shape[-1]
     half = 0.5 * turn.width.reshape(-1, pieces)
     centre = turn.start.reshape(half.shape) + half
-    half = np.where(half > 0.5 * _SLIVER, half, 0.0)
-    return WholeTurn(rows, *(np.broadcast_to(each, (rows.designs, pieces)) for each in (centre, half)))
+    half = np.where(half > 0.5 * SLIVER, half, 0.0)
+    shape = (rows.designs, pieces)
+    return WholeTurn(rows, np.broadcast_to(centre, shape), np.broadcast_to(half, shape), turns)
 
 
 @dataclass(frozen=True)
@@ -122,7 +135,10 @@ class TurnCurves:
     reading: Reading
     weights: Complex | Real
     constant: Complex | Real
-    period_deg: float = 360.0
+
+    @property
+    def period_deg(self) -> float:
+        return 360.0 * self.whole.turns
 
     @cached_property
     def pieces(self) -> Pieces:
@@ -158,7 +174,7 @@ class TurnCurves:
         differ by no more than both of what the cubics leave out, which is at most the rest of the parts.
         """
         pieces = self.pieces
-        share, rest = pieces.half / np.pi, pieces.rest / self._parts**4.0
+        share, rest = pieces.half / (np.pi * self.whole.turns), pieces.rest / self._parts**4.0
         return 2.0 * np.sqrt(np.sum(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
 
     @cached_property
@@ -178,7 +194,7 @@ class TurnCurves:
         wide, centre = whole.half[:, piece], whole.centre[:, piece]
         half = wide / parts[piece]
         angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * nodes
-        shares = (half[..., None] * (weights / (2.0 * np.pi))).reshape(len(half), -1)
+        shares = (half[..., None] * (weights / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
         series = getattr(RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0), self.reading)
         return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]

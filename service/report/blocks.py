@@ -73,6 +73,11 @@ class Table:
         return len(self.rows) <= _MAX_SHORT
 
 
+def turns_of(angle_deg: Sequence[float]) -> int:
+    """Turns over which samples go, the end point not repeated: 2 where gas takes two."""
+    return int(angle_deg[-1] // 360.0) + 1 if angle_deg else 1
+
+
 @dataclass(frozen=True)
 class Samples:
     """Values over the turn, for those who cannot see a drawing of them."""

@@ -4,7 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from service.report.blocks import digits
+from service.report.blocks import digits, turns_of
 from service.report.drawing import (
     AFTER,
     BEFORE,
@@ -27,7 +27,6 @@ _BINS = 720
 _DOT = 2.5
 #: smallest value that a prefix is used for, factor and prefix
 _PREFIXES = ((1e10, 1e9, "G"), (1e7, 1e6, "M"), (1e4, 1e3, "k"))
-_TURN = (0.0, 60.0, 120.0, 180.0, 240.0, 300.0, 360.0)
 
 
 class Line(NamedTuple):
@@ -62,9 +61,11 @@ class _Scale(NamedTuple):
 
 
 def over_turn(title: str, unit: str, angle_deg: Sequence[float], lines: Sequence[Line]) -> Drawing:
-    """Lines over one turn of the shaft; the samples go on at 360 degrees as they began."""
+    """Lines over the turns of the shaft after which all repeats; the samples go on at their end as they began."""
     closed = [Line(line.name, [*line.values, line.values[0]]) for line in lines]
-    return chart(title, unit, "shaft angle, deg", [*angle_deg, 360.0], closed, _TURN)
+    turns = turns_of(angle_deg)
+    ticks = [60.0 * turns * mark for mark in range(7)]
+    return chart(title, unit, "shaft angle, deg", [*angle_deg, ticks[-1]], closed, ticks)
 
 
 def chart(

@@ -21,12 +21,13 @@ from service.report.blocks import (
     Table,
     digits,
     table,
+    turns_of,
 )
 from service.report.plain import plain
 
 _TONES = {"plain": "", "key": "bold", "warning": "bold yellow"}
 _MARKS = {"base": "", "sup": "^", "sub": "_"}
-#: rows of a coarse table: every 30 degrees, as nearly as the samples allow
+#: rows of a turn in a coarse table: every 30 degrees, as nearly as the samples allow
 _COARSE_STEPS = 12
 _SIDE_BY_SIDE = 6
 
@@ -84,7 +85,7 @@ def _grouped(text: str) -> str:
 
 
 def _coarse(samples: Samples) -> Iterator[Table]:
-    stride = max(1, round(len(samples.angle_deg) / _COARSE_STEPS))
+    stride = max(1, round(len(samples.angle_deg) / (_COARSE_STEPS * turns_of(samples.angle_deg))))
     for first in range(0, len(samples.lines), _SIDE_BY_SIDE):
         some = samples.lines[first : first + _SIDE_BY_SIDE]
         rows = [

@@ -16,9 +16,9 @@ from schemas.requests import OptimizeRequest
 FILES = sorted((Path(__file__).parents[2] / "examples").glob("*.json"))
 NAMES = [file.stem for file in FILES]
 EXPECTED = {
-    "2d12", "forked-rod", "inline-six", "m-type-four", "opposed-pair", "opposed-triple", "scroll-oldham",
-    "scroll-three-pins", "single-horizontal", "single-vertical", "six-columns", "two-rows-180", "two-rows-90", "v60",
-    "v8-cross-plane", "v90-equal", "v90-unequal", "w60",
+    "2d12", "forked-rod", "inline-four-engine", "inline-six", "m-type-four", "opposed-pair", "opposed-triple",
+    "scroll-oldham", "scroll-three-pins", "single-horizontal", "single-vertical", "six-columns", "two-rows-180",
+    "two-rows-90", "v60", "v8-cross-plane", "v90-equal", "v90-unequal", "w60",
 }  # fmt: skip
 
 
@@ -82,14 +82,16 @@ def features() -> set[str]:
         found |= {"unit"} if '"140 mm"' in FILES[NAMES.index(name)].read_text() else set()
         if isinstance(machine, ReciprocatingMachine):
             rows = [row for throw in machine.throws for row in throw.rows]
-            found |= {"gas"} if any(row.cylinder for row in rows) else set()
+            cylinders = [row.cylinder for row in rows if row.cylinder]
+            found |= {"gas"} if cylinders else set()
+            found |= {"indicated"} if any(cylinder.pressure for cylinder in cylinders) else set()
             found |= {"offset"} if any(row.offset_m for row in rows) else set()
     return found
 
 
 def test_the_examples_show_what_the_service_can_do() -> None:
     wanted = {"reciprocating", "scroll", "ccw", "cw", "sum", "max", "sector", "budget", "ceiling", "directions"}
-    assert features() >= wanted | {"unit", "gas", "offset"}
+    assert features() >= wanted | {"unit", "gas", "indicated", "offset"}
 
 
 @pytest.mark.parametrize("name", ["six-columns", "opposed-triple", "forked-rod", "inline-six"])

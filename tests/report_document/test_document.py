@@ -1,19 +1,23 @@
 """What the document says is what the service answers."""
 
 import hashlib
+import io
 import json
+import re
 from collections.abc import Callable, Iterator
 from typing import get_args
 
 import pytest
+from rich.console import Console
 
 from optimizer.optimize import optimize
 from schemas.outputs import OutputName
-from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Table
+from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
 from service.report.document import document
 from service.report.formula import formula
+from service.report.terminal import terminal
 from tests.report_document.conftest import AT, asked
 
 Make = Callable[..., Document]
@@ -186,3 +190,20 @@ def test_formulas(text: str, runs: list[tuple[str, str]]) -> None:
 def test_every_output_has_its_chapter() -> None:
     # the first order and the stages stand at places of their own
     assert set(CHAPTERS) | {"residual", "stages", "balance_rate"} == set(get_args(OutputName))
+
+
+def test_an_engine_is_told_over_both_turns(made: Make) -> None:
+    (pressures,) = [one for one in tables(made("inline-four-engine"), "Inputs") if one.title.startswith("Indicated")]
+    firing = [0, 540, 180, 360]
+    assert [row[:5] for row in values(pressures)] == [(str(k + 1), "head", 2, firing[k], 53) for k in range(4)]
+
+
+@pytest.mark.parametrize("turns", [1, 2])
+def test_a_terminal_tells_every_30_degrees(turns: int) -> None:
+    angle = [5.0 * step for step in range(72 * turns)]
+    figure = Figure((), "", Samples("torque", "N m", angle, [("machine", [0.5] * len(angle))]))
+    console = Console(width=80, record=True, file=io.StringIO())
+    console.print(terminal([Chapter("Torque", (figure,))]))
+    # analytic
+    told = re.findall(r"(\d+) │ *0\.5", console.export_text())
+    assert [int(each) for each in told] == [30 * step for step in range(12 * turns)]

@@ -108,3 +108,12 @@ def test_thinned_lines_keep_their_extremes() -> None:
     zero = heights[0]
     # analytic: the spike is 7.5 times as far from zero as the smallest value, -1
     assert (zero - min(heights)) / (max(heights) - zero) == pytest.approx(7.5, rel=0.01)
+
+
+@pytest.mark.parametrize("turns", [1, 2])
+def test_lines_over_the_turns_end_where_all_begins_anew(turns: int) -> None:
+    angle = [30.0 * step for step in range(12 * turns)]
+    drawing = charts.over_turn("torque", "N m", angle, [charts.Line("machine", [1.0, *angle[1:]])])
+    texts = [one.text for one in ElementTree.fromstring(drawing.svg()).iter() if one.tag.endswith("text")]
+    assert {"0", f"{120 * turns}", f"{360 * turns}"} <= set(texts)
+    assert "720" in texts or turns == 1

@@ -9,6 +9,7 @@ from schemas.outputs import OUTPUT_COLUMNS
 from schemas.sweep import SweepRequest
 from schemas.target import find_target
 from tests.analyze.driven import STYLES, random_driven
+from tests.analyze.engines import UNEVEN, cylinder, engine, trace
 from tests.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table
 
 GOAL = {"moment_weight": 1.5, "direction_weights": {"x": 1.0, "y": 0.8}}
@@ -43,6 +44,11 @@ ANALYZED = {
     "pins": fitted("scroll-three-pins", "residual", "pin_loads"),
     "pins, torque over the turn": fitted("scroll-three-pins", "pin_loads", rotation_torque_Nm=TABLE),
     "pins, gas force": fitted("scroll-three-pins", "pin_loads", rotation_torque_Nm=None, tangential_gas_force_N=900),
+    "indicated pressures": {
+        "machine": engine([0.0, 90.0], [cylinder(UNEVEN), cylinder(trace(90.0, 1), turns=1, dead_centre_deg=90.0)]),
+        "outputs": DRIVE,
+        "angles": {"step_deg": 30},
+    },
     "continuous shaft": {
         **fitted("2d12", "main_bearings"),
         "fidelity": {"shaft": "continuous", "kinematics": "order_2"},

@@ -71,11 +71,12 @@ export async function recolour() {
   }
 }
 
-// one turn is a closed line
+// one turn is a closed line, or two where gas takes two
 export const closed = (values) => [...values, values[0]];
-export const turn = (angles) => [...angles, 360];
-export const overTurn = (title, range) => ({
-  xaxis: { title: "shaft angle, deg", range: [0, 360], tickvals: [0, 60, 120, 180, 240, 300, 360] },
+const end = (angles) => 360 * (Math.floor((angles.at(-1) ?? 0) / 360) + 1);
+export const turn = (angles) => [...angles, end(angles)];
+export const overTurn = (title, angles, range) => ({
+  xaxis: { title: "shaft angle, deg", range: [0, end(angles)], tickvals: [0, 1, 2, 3, 4, 5, 6].map((part) => (part * end(angles)) / 6) },
   yaxis: { title, ...range },
 });
 export const line = (angles, values, name, style) => ({

@@ -123,20 +123,42 @@ def _cylinders(cylinders: list[tuple[str, Cylinder]]) -> Iterator[Block]:
         for side, state in (("both", one), ("head", one.head), ("crank", one.crank))
         if state is not None
     ]
-    yield table(
-        "Gas",
-        [
+    gas = [
+        (
+            name, side, state.suction_pressure_Pa, state.discharge_pressure_Pa, state.relative_clearance,
+            state.expansion_exponent, state.compression_exponent,
+        )
+        for name, side, state in states
+    ]  # fmt: skip
+    # what is indicated needs none of it
+    given = [row for row in gas if any(value is not None for value in row[2:])]
+    if given:
+        heads = [
             "row", "side", "#suction, Pa", "#discharge, Pa", "#relative clearance", "#expansion exponent",
             "#compression exponent",
-        ],
-        [
-            (
-                name, side, state.suction_pressure_Pa, state.discharge_pressure_Pa, state.relative_clearance,
-                state.expansion_exponent, state.compression_exponent,
-            )
-            for name, side, state in states
-        ],
-    )  # fmt: skip
+        ]  # fmt: skip
+        yield table("Gas", heads, given)
+    yield from _pressures(cylinders)
+
+
+def _pressures(cylinders: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+    """Indicated pressures: how many entries, over how many turns, from where to where."""
+    rows = [
+        (
+            name, side, given.cycle_turns, "the first" if given.dead_centre_deg is None else given.dead_centre_deg,
+            len(trace.angle_deg), min(trace.pressure_Pa), max(trace.pressure_Pa),
+        )
+        for name, one in cylinders
+        if (given := one.pressure) is not None
+        for side, trace in (("head", given.head), ("crank", given.crank))
+        if trace is not None
+    ]  # fmt: skip
+    if rows:
+        heads = [
+            "row", "side", "#turns in a cycle", "#from the dead centre at, deg", "#entries", "#lowest, Pa",
+            "#highest, Pa",
+        ]  # fmt: skip
+        yield table("Indicated pressures, linear between their entries", heads, rows)
 
 
 def _drive(machine: ReciprocatingMachine) -> Iterator[Block]:

@@ -29,7 +29,7 @@ export const torque = {
         line(found.angle_deg, found.torque_Nm, "machine", { color: colours().after, width: 3 }),
         line(found.angle_deg, found.angle_deg.map(() => found.mean_torque_Nm), "mean", { color: colours().floor, dash: "dot", width: 1.5 }),
       ],
-      layout: { height: 340, ...overTurn("torque against rotation, N m") },
+      layout: { height: 340, ...overTurn("torque against rotation, N m", found.angle_deg) },
       label: `Torque over the turn, mean ${figure(found.mean_torque_Nm)} N m.`,
     }));
   },
@@ -47,7 +47,7 @@ export const rodLoads = {
     for (const { name, title, node } of nodes) {
       await plot(node, () => ({
         traces: found.rows.map((row, index) => line(found.angle_deg, row[name], rowName(row), series(index))),
-        layout: overTurn(title), label: `${title} over the turn; largest rod force ${figure(found.governing_load_N)} N.`,
+        layout: overTurn(title, found.angle_deg), label: `${title} over the turn; largest rod force ${figure(found.governing_load_N)} N.`,
       }));
     }
   },
@@ -69,7 +69,7 @@ export const flywheel = {
         fillpattern: { shape: pattern, fgcolor: color } });
       return {
         traces: [part(1, "the shaft gains speed", after, ""), part(-1, "it loses speed", before, "/")],
-        layout: overTurn("mean torque less torque, N m"),
+        layout: overTurn("mean torque less torque, N m", turned.angle_deg),
         label: `What the flywheel takes up and gives back: ${figure(found.fluctuation_energy_J)} J, with J = ${figure(found.inertia_J_kg_m2)} kg m².`,
       };
     });
@@ -118,7 +118,7 @@ function overTurnPlot(found, one) {
   return {
     traces: loads(one).map(([name, load, dash]) => line(found.angle_deg,
       load.force_x_N.map((x, step) => Math.hypot(x, load.force_y_N[step])), name, { color: colours()[name], dash })),
-    layout: { height: 340, ...overTurn("force on the bearing, N") },
+    layout: { height: 340, ...overTurn("force on the bearing, N", found.angle_deg) },
     label: `Load of bearing ${one.name} over the turn, peak ${figure((one.after ?? one.before).peak_N)} N.`,
   };
 }

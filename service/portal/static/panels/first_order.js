@@ -71,7 +71,7 @@ export const overAngle = {
         if (hodograph.after) traces.push(line(angles, size(hodograph.after), "after", { color: after, width: 3 }));
         traces.push(line(angles, last[part.x], "its x", { color: series[2], dash: "dot", width: 1.5 }),
           line(angles, last[part.y], "its y", { color: series[3], dash: "dashdot", width: 1.5 }));
-        return { traces, layout: overTurn(`${part.name}, ${part.unit}`, range),
+        return { traces, layout: overTurn(`${part.name}, ${part.unit}`, angles, range),
           label: `First-order ${part.name} over the shaft angle. ${peaks(answer, part)}` };
       });
     }

@@ -25,7 +25,7 @@ export const pins = {
       h("p", {}, `A mechanism whose members bear for half a turn only would carry ${figure(found.half_turn_mechanism_peak_N)} N.`));
     await plot(node, () => ({
       traces: found.pins.map((pin, index) => line(found.angle_deg, pin.load_N, `pin ${pin.index}`, series(index))),
-      layout: { height: 360, ...overTurn("load of the pin, N") },
+      layout: { height: 360, ...overTurn("load of the pin, N", found.angle_deg) },
       label: `Pin loads over the turn; the largest is ${figure(found.peak_N)} N.`,
     }));
   },

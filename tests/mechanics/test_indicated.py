@@ -1,0 +1,193 @@
+"""Indicated pressures: values between the entries, work, breaks, series, and batches."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.arrays import Real
+from optimizer.mechanics.cylinders import chambers, cycle_turns, traces
+from optimizer.mechanics.gas import gas_forces
+from optimizer.mechanics.kinematics import motion
+from optimizer.mechanics.layout import layout, spread
+from optimizer.mechanics.row_series import RowSeries, row_data
+from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
+from schemas.machine import ReciprocatingMachine
+from tests.analyze.engines import FOUR, RADIUS, UNEVEN, cylinder, engine, trace
+
+TURN = 2.0 * np.pi
+
+
+def machine(body: dict[str, Any]) -> ReciprocatingMachine:
+    return ReciprocatingMachine.model_validate(body)
+
+
+def pressures(body: dict[str, Any], angle_deg: Real) -> Real:
+    """Of all chambers, (rows, 2, T) Pa."""
+    made = machine(body)
+    plan = layout(made)
+    moving = motion(plan, np.deg2rad(angle_deg))
+    return gas_forces(chambers(made), moving, plan, traces(made, plan)).pressure
+
+
+def work(made: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Real:
+    """Work of the only trace of the first row, (...) J."""
+    plan = spread(layout(made), leading)
+    (one,) = traces(made, plan)
+    rows, area = plan.reciprocating, chambers(made, leading).area[..., 0, one.side]
+    return one.work(area, rows.crank_radius[..., 0], rows.rod_ratio[..., 0], rows.rod_margin[..., 0])
+
+
+def turn_of(body: dict[str, Any]) -> WholeTurn:
+    made = machine(body)
+    plan = layout(made)
+    given = traces(made, plan)
+    data = row_data(plan, True, np.full(plan.reciprocating.mass.shape, 200.0), chambers(made), given)
+    return whole_turn(data, break_angles(plan, (), given))
+
+
+@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+@pytest.mark.parametrize("start", [0.0, 100.0, 460.0])
+def test_pressure_is_linear_between_the_entries_of_two_turns(start: float, rotation: str) -> None:
+    body = engine([start], [cylinder(UNEVEN, dead_centre_deg=start)], rotation=rotation)
+    angle = np.linspace(-300.0, 1500.0, 1801)
+    # independent: the interpolation of numpy
+    expected = np.interp(angle - start, UNEVEN["angle_deg"], UNEVEN["pressure_Pa"], period=720.0)
+    found = pressures(body, angle)
+    np.testing.assert_allclose(found[0, 0], expected, rtol=1e-11)
+    np.testing.assert_array_equal(found[0, 1], 1.1e5)
+
+
+def test_angles_count_from_the_first_outer_dead_centre_by_default() -> None:
+    angle = np.linspace(0.0, 719.0, 720)
+    # 1/3 is no binary fraction: the first dead centre is at 0, not short of a turn
+    for first in (0.0, 100.0, 359.9, 1.0 / 3.0, 1e-13, 360.0, -90.0, 90.0 - 1e-14):
+        expected = np.interp(angle - first % 360.0, UNEVEN["angle_deg"], UNEVEN["pressure_Pa"], period=720.0)
+        found = pressures(engine([first], [cylinder(UNEVEN)]), angle)
+        np.testing.assert_allclose(found[0, 0], expected, rtol=1e-9)  # independent
+
+
+@pytest.mark.parametrize("side", ["head", "crank"])
+def test_work_of_a_trace_in_closed_form(side: str) -> None:
+    # analytic: with an infinite rod the volume is A r (1 -+ cos), and -integral of p dV = integral of V dp
+    body = engine([0.0], [cylinder(UNEVEN)])
+    body["throws"][0]["rows"][0]["connecting_rod"] = {"length_m": None}
+    body["throws"][0]["rows"][0]["cylinder"]["pressure"] = {side: UNEVEN, "cycle_turns": 2}
+    body["throws"][0]["rows"][0]["cylinder"]["acting"] = "head" if side == "head" else "crank"
+    made = machine(body)
+    plan = layout(made)
+    (one,) = traces(made, plan)
+    rows, area = plan.reciprocating, chambers(made).area[0, one.side]
+    angle = np.deg2rad(np.append(UNEVEN["angle_deg"], UNEVEN["angle_deg"][0] + 720.0))
+    pressure = np.append(UNEVEN["pressure_Pa"], UNEVEN["pressure_Pa"][0])
+    slope = np.diff(pressure) / np.diff(angle)
+    sign = -1.0 if side == "head" else 1.0
+    volume = area * rows.crank_radius[0] * (np.diff(angle) + sign * np.diff(np.sin(angle)))
+    expected = np.sum(slope * volume) / 2.0
+    assert float(work(made)) == pytest.approx(float(expected), rel=1e-12)
+
+
+@pytest.mark.parametrize("lam", [0.05, 0.3, 0.9, 0.9999])
+def test_work_of_a_polytropic_trace_is_that_of_the_cycle(lam: float) -> None:
+    # analytic: a pressure that is a function of the volume alone does no work in a turn
+    angle = np.linspace(0.0, 360.0, 3601)
+    turned = np.deg2rad(angle)
+    moved = 1.0 - np.cos(turned) + (1.0 - np.sqrt(1.0 - (lam * np.sin(turned)) ** 2)) / lam
+    pressure = 1e5 * (2.2 / (moved + 0.2)) ** 1.3
+    pressure[-1] = pressure[0]
+    body = engine([0.0], [cylinder({"angle_deg": angle.tolist(), "pressure_Pa": pressure.tolist()}, turns=1)])
+    body["throws"][0]["rows"][0]["connecting_rod"]["length_m"] = 0.05 / lam
+    made = machine(body)
+    assert abs(float(work(made))) < 1e-8 * np.max(pressure) * 2.0 * RADIUS * float(chambers(made).area[0, 0])
+
+
+def test_breaks_are_the_entries_of_all_turns() -> None:
+    two = engine([30.0, 210.0], [cylinder(UNEVEN, dead_centre_deg=390.0), cylinder(trace(60.0, 1), turns=1)])
+    made = machine(two)
+    plan = layout(made)
+    assert cycle_turns(made) == 2
+    found = np.rad2deg(break_angles(plan, (), traces(made, plan)))
+    entries = np.concatenate([np.array(UNEVEN["angle_deg"]) + 390.0, 210.0 + np.arange(0.0, 720.0, 60.0)])
+    dead = 30.0 + np.arange(0.0, 720.0, 180.0)
+    expected = np.unique(np.round(np.concatenate([entries, dead]) % 720.0, 6) % 720.0)
+    # a break at the end of the cycle is one at its beginning
+    np.testing.assert_allclose(np.unique(np.round(found % 720.0, 6) % 720.0), expected)
+    assert found.size <= expected.size + 1
+
+
+@pytest.mark.parametrize("step", [90.0, 7.5])
+def test_no_curve_leaves_its_pieces(step: float) -> None:
+    # analytic: Taylor's theorem, at angles spread over every piece of both turns
+    turn = turn_of(engine(FOUR, [cylinder(trace(step), dead_centre_deg=one) for one in FOUR]))
+    assert turn.turns == 2
+    for reading in ("piston", "rod", "rod_at_rest", "tangential", "radial", "on_shaft"):
+        curves = turn.curves(reading, np.eye(4)[None])  # type: ignore[arg-type]
+        pieces = curves.pieces
+        assert curves.period_deg == 720.0
+        assert np.sum(2.0 * pieces.half[0]) == pytest.approx(2.0 * TURN, rel=1e-9)
+        for place in np.linspace(-1.0, 1.0, 5):
+            curve, piece = np.nonzero(pieces.half > 0)
+            angle = pieces.centre[curve, piece] + place * pieces.half[curve, piece]
+            left_out = np.abs(curves.values(curve, piece, angle) - pieces.cubic[curve, piece] @ place ** np.arange(4))
+            assert np.all(left_out <= pieces.rest[curve, piece] + 1e-12 * np.max(np.abs(pieces.cubic))), reading
+
+
+def test_series_have_the_values_of_the_samples() -> None:
+    body = engine(FOUR)
+    made = machine(body)
+    plan = layout(made)
+    turn = turn_of(body)
+    angle = np.random.default_rng(3).uniform(0.0, 2.0 * TURN, 300)
+    found = RowSeries(turn.rows, angle[None], None, angle[None], 0).gas
+    assert found is not None
+    # independent: the forces of the samples
+    expected = gas_forces(chambers(made), motion(plan, angle), plan, traces(made, plan)).total
+    np.testing.assert_allclose(found.middle[0, 0], expected, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected)))
+
+
+def test_a_batch_is_the_loop() -> None:
+    """Columns in angles, pressures, dead centres and cranks."""
+    first, last = np.array([0.0, 20.0, 77.0]), np.array([1e5, 2e5, 3e5])
+    parts = []
+    for k in range(3):
+        held = {**UNEVEN, "pressure_Pa": [*UNEVEN["pressure_Pa"][:-1], float(last[k])]}
+        held["angle_deg"] = [*held["angle_deg"][:-1], 690.0 + k]
+        parts.append(engine([float(first[k])], [cylinder(held, dead_centre_deg=float(first[k]) + 360.0)]))
+    angle = np.deg2rad(np.linspace(0.0, 719.0, 144))
+    one = machine(parts[0])
+    throw = one.throws[0]
+    row = throw.rows[0]
+    assert row.cylinder is not None
+    assert row.cylinder.pressure is not None
+    given = row.cylinder.pressure
+    assert given.head is not None
+    head = given.head.model_copy(
+        update={
+            "pressure_Pa": (*given.head.pressure_Pa[:-1], last),
+            "angle_deg": (*given.head.angle_deg[:-1], 690.0 + np.arange(3.0)),
+        }
+    )
+    pressure = given.model_copy(update={"head": head, "dead_centre_deg": first + 360.0})
+    row = row.model_copy(update={"cylinder": row.cylinder.model_copy(update={"pressure": pressure})})
+    many = one.model_copy(
+        update={"throws": (throw.model_copy(update={"rows": (row,), "crank_angle_deg": 90.0 - first}),)}
+    )
+    plan = spread(layout(many), (3,))
+    found = gas_forces(chambers(many, (3,)), motion(plan, angle), plan, traces(many, plan))
+    series = RowSeries(
+        row_data(plan, True, None, chambers(many, (3,)), traces(many, plan)),
+        np.broadcast_to(angle, (3, angle.size)),
+        None,
+        np.broadcast_to(angle, (3, angle.size)),
+        1,
+    )
+    assert series.gas is not None
+    batch = work(many, (3,))
+    for k, body in enumerate(parts):
+        alone = machine(body)
+        own = layout(alone)
+        (single,) = traces(alone, own)
+        expected = gas_forces(chambers(alone), motion(own, angle), own, (single,))
+        np.testing.assert_allclose(found.pressure[k], expected.pressure, rtol=1e-11)
+        np.testing.assert_allclose(series.gas.middle[0, k], expected.total, rtol=1e-9, atol=1e-6)
+        assert float(batch[k]) == pytest.approx(float(work(alone)), rel=1e-9)
