@@ -100,6 +100,13 @@ def cycle_turns(machine: ReciprocatingMachine) -> int:
     return max((one.cycle_turns for one in given if one is not None), default=1)
 
 
+def entry_count(machine: ReciprocatingMachine) -> int:
+    """Entries of all indicated pressures over the turns after which all repeats."""
+    turns, given = cycle_turns(machine), [cylinder.pressure for _, cylinder in _cylinders(machine) if cylinder]
+    tables = [(one, table) for one in given if one for table in (one.head, one.crank) if table]
+    return sum(len(table.angle_deg) * turns // one.cycle_turns for one, table in tables)
+
+
 def without_gas(machine: ReciprocatingMachine) -> tuple[Path, ...]:
     """Where rows have no cylinder, by paths from the machine."""
     return tuple(path for path, cylinder in _cylinders(machine) if cylinder is None)
