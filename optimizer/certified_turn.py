@@ -37,6 +37,8 @@ from schemas.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of goals and ceilings
 _CLOSE = 1e-10
+#: the same where goals are kept whose price may be high
+_CLOSER = 1e-12
 #: relative gap of the smallest peaks by themselves
 _ALONE = 1e-7
 #: share of the largest multiplier of a conflict from which on a ceiling takes part in it
@@ -82,7 +84,7 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     machine, square = request.machine, scene.omega_squared
     mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
     u = unbalance(mass, angle, found.limits.radius)
-    values = asked.program.values(u, _CLOSE)
+    values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
     judged = _judged(request, asked.program, found, u, values, mass)
     return CertifiedTurn(
         str(judged.status),

@@ -16,6 +16,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
 from optimizer.program.cut import Cut
+from optimizer.program.floors import floor_multipliers
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.reference.assembled import NoPoint, Target, solved
@@ -41,8 +42,12 @@ _SAMPLED = 1e-4
 _OPEN = 0.1
 #: by this share of their size ceilings are lowered, so that the answer keeps them; raised on the edge of what can be
 _LOWERED, _RAISED = 2e-10, CEILING_TOLERANCE - 2e-10
+#: so much more than points missed their levels by is aimed lower next time
+_MISSED = 1.5
 #: so far towards a point inside the ceilings a point is moved at least that exceeds them
 _NARROWEST = 1e-12
+#: share of a goal below which points do not keep what is aimed at
+_LEAST_MARGIN = 1e-12
 #: relative width of the brackets of a point that may be the answer
 _CLOSE = 1e-12
 #: shares of several sums, which are to sum to no more than 1
@@ -143,6 +148,10 @@ class Search:
         natural = float(natural_reach(statement))
         self.clip = min(max(_REACH * natural, needed), largest) if natural > 0 else largest
         self.certify_s = 0.0
+        self.margin = kept.margin  # that is aimed at, no more than what is small can bear
+        self.price = np.zeros(kept.margin.size)  # of what is kept, in units of what is small
+        self.aimed = kept.most  # levels that the solver was last asked to keep
+        self.missed = np.zeros(kept.most.size)  # by what its points were above them
         self.about: Real | None = None  # variables of the last program
         self.near: Point | None = None  # the last one that kept all
         self.beyond: Point | None = None  # the last one that did not
@@ -167,6 +176,7 @@ class Search:
             u, proofs = found
             for one in proofs:
                 proof = one if proof is None or one.bound > proof.bound else proof
+            self._spare(enough * (best.mass if self.of_mass else 1.0))
             if coarse:
                 # the largest samples are cuts as well, and cost next to nothing
                 values = self.program.sampled(u)
@@ -180,8 +190,23 @@ class Search:
             if gap <= enough * (best.mass if self.of_mass else 1.0) or told(self.figure(best), bound):
                 break
             if not self._learnt(statement, u, point.values):
+                proof = self._closed(proof)
+                self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
         return Stage(self._tidied(best), proof, rounds, self.certify_s)
+
+    def _closed(self, proof: Proof | None) -> Proof | None:
+        """The better of a proof and of that by the floors of all that is known by now."""
+        if self.of_mass:
+            return proof
+        resting = self._resting()
+        return resting if proof is None or resting.bound > proof.bound else proof
+
+    def _spare(self, enough: float) -> None:
+        """Keep back no more than costs a share of the gap that is asked for."""
+        least = _LEAST_MARGIN * self.program.units[: self.margin.size]
+        worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
+        self.margin = np.minimum(self.kept.margin, np.maximum(worth, least))
 
     def _learnt(self, statement: Statement, u: Complex, values: Values) -> bool:
         """Whether a point has shown a cut that was not known."""
@@ -203,7 +228,7 @@ class Search:
         """Width of brackets that leaves open a share of what is asked, or of what is still open."""
         size = self.program.units
         # what is kept has to be told from what is not
-        share = float(np.min(self.kept.margin / size[: self.kept.margin.size], initial=np.inf))
+        share = float(np.min(self.margin / size[: self.margin.size], initial=np.inf))
         if not self.of_mass:
             share = min(share, max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1]))
         if self.program.limited:
@@ -225,7 +250,7 @@ class Search:
         stage: CostStage = "mass" if self.of_mass else "objective"
         data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
         highest = posed.largest(posed.floor)
-        aimed = self.kept.most - margins * self.kept.margin
+        aimed = self.aimed = self.kept.most - margins * self.margin - self.missed
 
         def sums(n: int, most: float) -> list[Target]:
             """The sums of a goal, none above a level."""
@@ -233,6 +258,7 @@ class Search:
             return [Target(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
 
         targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
+        of_target = program.goal_of_case[program.goal_of_case < aimed.size]
         last = len(program.goals) - 1
         posed_as = data, tolerance, _TIME_LIMIT_S, goal_of == last, targets, sums(last, 0.0)
         found = solved(*posed_as, self.about)
@@ -243,6 +269,8 @@ class Search:
             self.about = None
             return None
         self.about = found.variables
+        worth = scaling.value / scaling.objective * (1.0 if self.of_mass else float(self.unit[-1]))
+        self.price = np.bincount(of_target, found.price, aimed.size) * worth / self.unit[: aimed.size]
         u = program.limits.into(scaling.unbalance(posed, found.solution))
         began = time.perf_counter()
         proofs = list(self._proofs(statement, u, scaling.multipliers(posed, found.solution)))
@@ -258,7 +286,7 @@ class Search:
         proofs = [
             Proof(float(objective_lower_bound(alone, each)), alone, each, 0.0, cuts)
             for alone in (times(statement, (self.program.case_of == case).astype(float)) for case in last)
-            for each in resting_multipliers(alone)
+            for each in (*resting_multipliers(alone), floor_multipliers(self.program, self.pool.cuts, alone))
         ]
         self.certify_s += time.perf_counter() - began
         return max(proofs, key=lambda proof: proof.bound)

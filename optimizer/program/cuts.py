@@ -28,6 +28,8 @@ _SHARPNESS = (1e-2, 1e-4)
 _ENOUGH = 0.5
 #: share of what optima may differ by that is kept for the figures of the answer
 _RESERVE = 5e-3
+#: of a goal that is kept, what is left for the rounding of masses and angles and for the brackets by which it is judged
+_RESERVED = 1e-11
 #: of what the stage before has left open, what a later stage leaves unused so that its point is an optimum
 _TARGET_MARGIN = 0.2
 #: relative gap of the mass that ends the search, and that is good enough
@@ -65,6 +67,13 @@ class Found:
     def proof(self) -> Proof:
         """Of the objective."""
         return self.goals[-1].proof
+
+    @property
+    def mass_gap(self) -> float:
+        """Of the mass above its bound, relative to it; inf where nothing is proven."""
+        if self.mass_proof is None:
+            return np.inf
+        return (self.point.mass - self.mass_proof.bound) / self.point.mass if self.point.mass > 0 else 0.0
 
 
 @dataclass(frozen=True)
@@ -105,15 +114,18 @@ def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowanc
     # a little is kept for the rounding of masses and angles
     share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
     proof: Proof | None = None
+    tried: list[Found] = []
     for sharpness in _SHARPNESS:
         proof = course.smallest(last, sharpness * share, proof)
         course.keep(last, proof, share)
         target = course.goals[last].value + share
         mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
-        mass = course.inside.mass
-        if mass_proof is not None and mass - mass_proof.bound <= _LIGHT * mass:
+        tried.append(course.found(mass_proof, target))
+        if tried[-1].mass_gap <= _LIGHT:
             break
-    return course.found(mass_proof, target)
+    # what is sought more sharply may be found less so
+    best = min(tried, key=lambda found: found.mass_gap)
+    return replace(best, rounds=course.rounds, certify_s=course.certify_s)
 
 
 class _Course:
@@ -131,14 +143,17 @@ class _Course:
         self.inside, most = _again(so_far, self.inside), self._most(n)
         self.so_far = _bounded(so_far, self.inside, most)
         margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
-        found = self._run(Kept(margin, most, most), enough)
+        found = self._run(Kept(margin, most - _RESERVED * self.program.units[:n], most), enough)
         assert found is not None  # rest proves something of every objective
         return found if known is None or found.bound > known.bound else known
 
     def keep(self, n: int, proof: Proof, share: float) -> None:
         """What a goal may come to from now on: so much above its bound."""
         value = float(self.inside.values.goals[n])
-        self.goals[n:] = [Reached(self.program.goals[n].name, value, proof, max(value, proof.bound + share))]
+        most = max(value, proof.bound + share)
+        if n + 1 < len(self.program.goals):
+            most += _RESERVED * float(self.program.units[n])
+        self.goals[n:] = [Reached(self.program.goals[n].name, value, proof, most)]
 
     def lightest(self, target: float, margin: float) -> Proof | None:
         """The least mass under all goals.
@@ -151,7 +166,9 @@ class _Course:
         most = self._most(len(self.goals))
         margins = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units
         margins[-1] = margin
-        return self._run(Kept(margins, most, np.append(most[:-1], target)), _MASS_GAP)
+        reserved = _RESERVED * self.program.units
+        reserved[-1] = 0.0
+        return self._run(Kept(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
 
     def found(self, mass_proof: Proof | None, target: float) -> Found:
         return Found(

@@ -54,11 +54,10 @@ def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers)
         worth = -np.broadcast_to(more, u.shape)[interior] * towards
         stacked = stacked + (basis @ ((across[known] @ worth) / size[known])) / scale[:, 0]
     terms = usable.term.size
-    allowed = usable.row[statement.row]
-    over = float(np.max(np.abs(stacked[:terms]) / np.where(allowed > 0, allowed, np.inf), initial=1.0))
-    # one factor for all keeps the webs out; the rows keep their multipliers
-    stacked = stacked / over
-    yield replace(usable, term=stacked[:terms], ceiling=stacked[terms:])
+    # a row whose terms have grown grows with them: what is left of rows that hardly count is no reason to shrink all
+    row = usable.row.copy()
+    np.maximum.at(row, statement.row, np.abs(stacked[:terms]))
+    yield replace(usable, row=row, term=stacked[:terms], ceiling=stacked[terms:])
 
 
 def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:
