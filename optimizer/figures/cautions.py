@@ -264,6 +264,8 @@ def _fragile(told: Told) -> Iterator[Caution]:
     sensitivity: Sensitivity | None = told.proven.get("sensitivity")
     if certificate is None or sensitivity is None:
         return
+    request = told.scene.request
+    stated = isinstance(request, OptimizeRequest) and request.tolerances is not None
     gain = certificate.objective_without_counterweights - certificate.objective
     for what, rise in (
         ("One degree", sensitivity.objective_rise_per_deg),
@@ -273,9 +275,9 @@ def _fragile(told: Told) -> Iterator[Caution]:
             yield Caution(
                 code="fragile_optimum",
                 message=f"{what} on all counterweights together may cost {_plain(rise)} of the {_plain(gain)} that "
-                "they gain: large ones balance one another. State tolerances, and what is best in their worst case is "
-                "found.",
-                pointer="/tolerances",
+                "they gain: large ones balance one another."
+                + ("" if stated else " State tolerances, and what is best in their worst case is found."),
+                pointer="/tolerances" if stated else "/objective",
             )
             return
 

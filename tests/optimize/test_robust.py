@@ -14,9 +14,12 @@ from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from optimizer.robust import scatter_of
+from schemas.accuracy import AccuracyRequest
 from schemas.answers import OptimizeAnswer
+from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.scenarios import Tolerances
+from schemas.sweep import SweepRequest
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.optimize.whole_turn import ALONE, inline_six, one_throw
 
@@ -419,6 +422,17 @@ def test_scatter_of_masses_is_of_the_first_order() -> None:
     body = {"machine": one_throw(), "objective": {"bearing_weight": 1}}
     with pytest.raises(ValidationError, match=r"objective\.bearing_weight"):
         OptimizeRequest.model_validate({**body, "tolerances": {"reciprocating_mass_relative": 0.01}})
+
+
+@pytest.mark.parametrize("asked", [{"scenarios": [{"name": "a"}]}, {"tolerances": {}}])
+def test_sweeps_fronts_and_the_ladder_refuse_them_by_name(asked: dict[str, Any]) -> None:
+    body = {"machine": crank(), **asked}
+    axis = {"path": "/machine/speed_rpm", "values": [100.0]}
+    with pytest.raises(ValidationError, match="not a sweep"):
+        SweepRequest.model_validate({"base": body, "axes": [axis]})
+    for model in (ParetoRequest, AccuracyRequest):
+        with pytest.raises(ValidationError, match="machine as it is given"):
+            model.model_validate(body)
 
 
 def test_what_a_scenario_lacks_is_asked_for_in_its_name() -> None:
