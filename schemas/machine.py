@@ -11,7 +11,7 @@ from schemas.base import Model, NotEmpty
 from schemas.cylinder import Cylinder
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
-from schemas.quantities import Angle, Count, Fraction, Length, Mass, MaxMass, Name, Position, Speed
+from schemas.quantities import Angle, Count, Fraction, Length, Mass, MaxMass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled, larger
 from schemas.units import Unit, positive
 
@@ -20,6 +20,7 @@ MAX_ROWS = 60
 MAX_ROWS_TOGETHER = 500
 MAX_WEBS = 500
 MAX_BALANCE_SHAFTS = 20
+MAX_UNBALANCES = 500
 
 
 class ConnectingRod(Model):
@@ -113,6 +114,19 @@ class Web(Model):
     )
 
 
+class ShaftUnbalance(Model):
+    """An unbalance that the shaft has already: a flywheel with a pocket, a weight that stays where it is."""
+
+    name: Name = Field(description="name of the unbalance, unique in the machine", examples=["flywheel"])
+    position_m: Position = Field(description="plane of the unbalance along the shaft (z)", examples=[0.5])
+    x_kg_m: Unbalance = Field(
+        0.0, description="x component of mass times radius, as drawn at shaft angle 0", examples=[0.05]
+    )
+    y_kg_m: Unbalance = Field(
+        0.0, description="y component of mass times radius, as drawn at shaft angle 0", examples=[-0.02]
+    )
+
+
 class BalanceShaft(Model):
     """A shaft beside the crankshaft, geared to it, whose unbalance is chosen as well."""
 
@@ -155,9 +169,17 @@ class Rotor(Ruled):
     max_total_mass_kg: Annotated[Mass | None, Unit("kg")] = Field(
         None, description="largest total mass of all counterweights; null is no limit", examples=[None]
     )
+    unbalances: tuple[ShaftUnbalance, ...] = Field(
+        (),
+        max_length=MAX_UNBALANCES,
+        description="unbalances of the shaft itself; they move neither the default reference plane nor the default"
+        " weight of the moment",
+        examples=[[]],
+    )
 
     def rules(self) -> Iterator[Rule]:
         yield from _unique_names(("webs",), [web.name for web in self.webs])
+        yield from _unique_names(("unbalances",), [each.name for each in self.unbalances])
         if self.overspeed_rpm is not None:
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")

@@ -15,6 +15,7 @@ Mass = Annotated[float, non_negative(1e15), Unit("kg")]
 #: a limit that is never multiplied as it stands, so that any number is one
 MaxMass = Annotated[float, non_negative(1e300), Unit("kg")]
 Angle = Annotated[float, symmetric(1e6), Unit("deg")]
+Unbalance = Annotated[float, symmetric(1e15), Unit("kg m")]
 Speed = Annotated[float, between(1e-9, 1e9), Unit("rpm")]
 Pressure = Annotated[float, non_negative(1e12), Unit("Pa")]
 Force = Annotated[float, non_negative(1e30), Unit("N")]

@@ -74,6 +74,7 @@ class Machine:
         (place / "rotation").text("ccw", "cw", default="ccw")
         kind = (place / "kind").text("reciprocating", "scroll")
         masses, planes, ends = (_throws if kind == "reciprocating" else _scroll)(place)
+        masses += [each for own in place / "unbalances" for each in _unbalance(own)]
         self.wide, self.blur = (ONE, ZERO) if exact else (ABOUT_ONE, BLUR)
         omega = (place / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
         self.square, self.masses, self.webs = omega * omega, masses, [_web(web) for web in place / "webs"]
@@ -107,6 +108,15 @@ def _web(place: Place) -> Web:
     edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
     radius, limit = (place / "counterweight_radius_m").number(least=0), most.number(least=0) if most else None
     return Web((place / "name").text(), (place / "position_m").number(), radius, limit, edges)
+
+
+def _unbalance(place: Place) -> list[Mass]:
+    """Of the shaft itself, by its components: counted in the responses, not in the planes."""
+    where = (place / "position_m").number()
+    return [
+        Mass((place / name).number(0.0), direction(angle), ZERO, where)
+        for name, angle in (("x_kg_m", 0.0), ("y_kg_m", 90.0))
+    ]
 
 
 def _moving(product: Number, crank: Number, degrees: float, position: Number) -> Mass:

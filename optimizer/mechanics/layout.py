@@ -4,7 +4,7 @@ All arrays broadcast over leading axes, so that one machine and a million design
 the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -86,9 +86,9 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     Source: seed 001 l. 4 and 7 (share of the rod), seed 002 l. 735.
     """
     if isinstance(machine, ScrollMachine):
-        rotating, reciprocating, planes = _scroll(machine)
+        turning, reciprocating, planes = _scroll(machine)
     else:
-        rotating, reciprocating, planes = _reciprocating(machine)
+        turning, reciprocating, planes = _reciprocating(machine)
     places = stacked(planes)
     centre = 0.5 * (np.min(places, axis=-1) + np.max(places, axis=-1))
     return Layout(
@@ -98,7 +98,7 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
         reference_plane=np.asarray(
             centre if machine.reference_plane_m is None else machine.reference_plane_m, dtype=float
         ),
-        rotating=rotating,
+        rotating=_rotating_table([*turning, *_unbalances(machine)]),
         reciprocating=reciprocating,
         webs=_webs(machine),
         balance=_balance_webs(machine),
@@ -168,8 +168,15 @@ def _balance_webs(machine: Rotor) -> BalanceWebs | None:
     )
 
 
-def _reciprocating(machine: ReciprocatingMachine) -> tuple[Rotating, Reciprocating, list[float]]:
-    turning = []  # mass, radius, angle, position
+def _unbalances(machine: Rotor) -> Iterator[Any]:
+    """The shaft's own unbalances by their components, masses at a radius of 1 m: mass, radius, angle, position."""
+    for each in machine.unbalances:
+        for component, angle in ((each.x_kg_m, 0.0), (each.y_kg_m, 90.0)):
+            yield np.abs(component), 1.0, np.where(np.less(component, 0.0), angle + 180.0, angle), each.position_m
+
+
+def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], Reciprocating, list[float]]:
+    turning: list[Any] = []  # mass, radius, angle, position
     moving = []  # mass, radius, crank angle, axis, position, rod ratio and its rest
     for throw in machine.throws:
         radius, angle, plane = throw.crank_radius_m, throw.crank_angle_deg, throw.position_m
@@ -184,19 +191,19 @@ def _reciprocating(machine: ReciprocatingMachine) -> tuple[Rotating, Reciprocati
                 # the big end turns in the plane of its own row, not in that of the throw
                 turning.append(((1.0 - rod.reciprocating_share) * rod.mass_kg, radius, angle, plane + row.offset_m))
             moving.append((mass, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
-    return _rotating_table(turning), _reciprocating_table(moving), [throw.position_m for throw in machine.throws]
+    return turning, _reciprocating_table(moving), [throw.position_m for throw in machine.throws]
 
 
-def _scroll(machine: ScrollMachine) -> tuple[Rotating, Reciprocating, list[float]]:
+def _scroll(machine: ScrollMachine) -> tuple[list[Any], Reciprocating, list[float]]:
     orbit, guide = machine.orbit_radius_m, machine.anti_rotation
-    turning = [(machine.orbiting_mass_kg, orbit, 0.0, machine.orbiting_position_m)]
+    turning: list[Any] = [(machine.orbiting_mass_kg, orbit, 0.0, machine.orbiting_position_m)]
     moving = []
     if guide.type == "oldham":
         # the ring slides along one axis with the orbit's projection: a crank with an infinite rod
         moving.append((guide.mass_kg, orbit, 0.0, guide.axis_deg, guide.position_m, 0.0, 0.0))
     else:
         turning.append((guide.count * guide.eccentric_mass_kg, orbit, 0.0, guide.position_m))
-    return _rotating_table(turning), _reciprocating_table(moving), [machine.orbiting_position_m]
+    return turning, _reciprocating_table(moving), [machine.orbiting_position_m]
 
 
 def _rotating_table(rows: list[Any]) -> Rotating:

@@ -24,7 +24,7 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
         blocks += _reciprocating(machine)
     else:
         blocks.append(_scroll(machine))
-    blocks += [_webs(machine), *_balance_shafts(machine), _objective(request), *asked(request)]
+    blocks += [*_unbalances(machine), _webs(machine), *_balance_shafts(machine), _objective(request), *asked(request)]
     return Chapter("Inputs", tuple(blocks))
 
 
@@ -221,6 +221,15 @@ def _over_turn(value: float | TorqueTable | ForceTable) -> Cell | float:
         return value
     values = value.torque_Nm if isinstance(value, TorqueTable) else value.force_N
     return f"table of {len(values)} angles, {digits(min(values))} to {digits(max(values))}"
+
+
+def _unbalances(machine: Machine) -> Iterator[Block]:
+    if machine.unbalances:
+        yield table(
+            "Unbalances of the shaft itself",
+            ["unbalance", "#plane z, m", "#x, kg m", "#y, kg m"],
+            [(one.name, one.position_m, one.x_kg_m, one.y_kg_m) for one in machine.unbalances],
+        )
 
 
 def _webs(machine: Machine) -> Block:
