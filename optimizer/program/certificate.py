@@ -135,6 +135,21 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
     return np.maximum(minorant.constant - charge + least - rounding, 0.0)
 
 
+def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Real, Complex, Real]:
+    """An affine function that is nowhere above the objective of what counts as keeping the ceilings.
+
+    Returns
+    -------
+    constant (...) without its rounding, -inf where nothing is proven; slopes (..., K), Re(conj(slope_k) u_k) of the
+    unbalances; and what the slopes may be off by (..., K).
+    """
+    usable, known = normalised(statement, multipliers)
+    ceilings = statement.ceilings
+    minorant = _minorant(statement, usable, ceilings.cap + ceilings.tolerance * ceilings.size)
+    constant = minorant.constant - _rounding(statement, minorant.constant_size)
+    return np.where(known, constant, -np.inf), minorant.slope, minorant.slope_rounding
+
+
 def tolerance_allowance(statement: Statement, multipliers: Multipliers) -> Real:
     """What a bound on the mass gives up for all that counts as keeping the ceilings but exceeds them (...), kg."""
     ceilings = statement.ceilings

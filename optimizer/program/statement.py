@@ -127,7 +127,11 @@ class Statement:
 
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
-        rows = self.rows(self.norms.sizes(u))
+        return self.objective_of(self.norms.sizes(u))
+
+    def objective_of(self, sizes: Real) -> Real:
+        """P (...) for sizes of the terms (..., J)."""
+        rows = self.rows(sizes)
         # one group is what is asked most, and a point is evaluated twenty times for an answer
         return np.max(rows, axis=-1) if self.group[-1] == 0 else np.sum(self.largest(rows), axis=-1)
 

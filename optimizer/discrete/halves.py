@@ -1,0 +1,230 @@
+"""Exhaustion in halves: all sums of half the slots in a tree of points, searched near those of the other half.
+
+A sum of norms is no less than the Euclidean norm of all, so nothing outside a ball about what has to be cancelled is
+better than the best that is known, and every pair inside it is evaluated.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.discrete.options import EQUAL, Incumbent, Options
+from optimizer.program.statement import Statement
+
+#: sums nearer than this share of the largest are one
+_SAME = 1e-12
+#: by which balls are larger than what they have to hold
+_MARGIN = 1.0 + 1e-9
+#: of an objective that is evaluated from sums, in units of the sum of the magnitudes of what is summed
+_ROUNDING = 1e-14
+#: pairs that are evaluated at once
+_AT_ONCE = 200_000
+#: part numbers that fit into the bits of a whole number
+_BITS = 62
+
+
+class _Sums(NamedTuple):
+    """Sums of some slots, each once and the first of its kind in the order among equals."""
+
+    z: Complex  # (n, s) in coordinates of what all slots together can do
+    mass: Real  # (n,) kg
+    square: Real  # (n,) sum of |u|^2
+    fitted: np.ndarray  # (n,) counterweights, 0 where they are not limited
+    parts: np.ndarray  # (n,) bits of the part numbers, 0 where they are not limited
+    code: np.ndarray  # (n,) which options
+
+
+def exhaust(
+    options: Options,
+    which: Sequence[np.ndarray],
+    incumbent: Incumbent,
+    most_sums: int,
+    most_pairs: int,
+    spent: Callable[[], bool],
+) -> bool:
+    """Offer all that can be best; whether all were offered.
+
+    Parameters
+    ----------
+    which : (K) options of every slot that are to be tried, at least one each.
+    most_sums, most_pairs : sums of a half, and pairs of them, beyond which it is given up.
+    spent : whether the time is over.
+    """
+    statement = incumbent.statement
+    many = sorted((k for k, some in enumerate(which) if len(some) > 1), key=lambda k: -len(which[k]))
+    sides = many[::2], many[1::2]
+    if any(np.prod([float(len(which[k])) for k in side]) > 4.0 * most_sums for side in sides):
+        return False
+    if options.limits_parts and np.max(options.part) > _BITS:
+        return False
+    lever, basis = _lever(statement)
+    effect = options.unbalance[..., None] * basis.T[:, None, :]
+    fixed = np.array([some[0] for some in which])
+    single = np.ones(options.slots, bool)
+    single[many] = False
+    rest = np.sum(options.of(effect, fixed)[single], axis=0)
+    one, other = (_sums(options, effect, which, side) for side in sides)
+    if max(one.code.size, other.code.size) > most_sums:
+        return False
+
+    def offered(i: np.ndarray, j: np.ndarray) -> None:
+        sets = np.tile(fixed, (i.size, 1))
+        for side, sums, place in zip(sides, (one, other), (i, j), strict=True):
+            code = sums.code[place]
+            for k in reversed(side):
+                code, digit = np.divmod(code, len(which[k]))
+                sets[:, k] = which[k][digit]
+        incumbent.offer(sets)
+
+    norms = statement.norms
+    terms = norms.constant + lever[: norms.constant.size] @ rest
+    lever = lever[: norms.constant.size]
+    pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
+    if not np.isfinite(incumbent.level) or pairs.count <= _AT_ONCE:
+        return pairs.count <= most_pairs and pairs.all(spent)
+    pairs.nearest()
+    return pairs.near(most_pairs, spent)
+
+
+def _lever(statement: Statement) -> tuple[Real, Real]:
+    """Influences of terms and ceilings (J + I, K) as a product (J + I, s) of few columns and orthonormal rows."""
+    influence = np.concatenate([statement.norms.influence, statement.ceilings.norms.influence], axis=-2)
+    size = np.max(np.abs(influence), axis=-1, keepdims=True, initial=0.0)
+    scaled = influence / np.where(size > 0, size, 1.0)
+    _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
+    basis = basis[singular > 1e-14 * singular[0]] if singular.size else basis
+    return influence @ np.conj(basis.T), basis
+
+
+def _sums(options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int]) -> _Sums:
+    sums = _Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
+    for k in side:
+        some = which[k]
+        fitted = (some > 0).astype(np.int64) if options.limits_fitted else np.zeros(some.size, np.int64)
+        bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
+        bits = bits if options.limits_parts else np.zeros_like(bits)
+        sums = _Sums(
+            (sums.z[:, None] + effect[k, some]).reshape(-1, effect.shape[-1]),
+            (sums.mass[:, None] + options.mass[k, some]).ravel(),
+            (sums.square[:, None] + np.abs(options.unbalance[k, some]) ** 2).ravel(),
+            (sums.fitted[:, None] + fitted).ravel(),
+            (sums.parts[:, None] | bits).ravel(),
+            (sums.code[:, None] * some.size + np.arange(some.size)).ravel(),
+        )
+        sums = _merged(sums)
+    return sums
+
+
+def _merged(sums: _Sums) -> _Sums:
+    """Of sums that do the same with the same parts the first in the order among equals."""
+    size = float(np.max(np.abs(sums.z), initial=0.0)) or 1.0
+    parts = np.concatenate([sums.z.real, sums.z.imag], axis=-1) / (_SAME * size)
+    keys = np.column_stack([np.round(parts).astype(np.int64), sums.fitted, sums.parts])
+    mass = np.round(sums.mass / (EQUAL * (float(np.max(sums.mass)) or 1.0)))
+    order = np.lexsort((sums.square, mass, *keys.T))
+    keys = keys[order]
+    new = np.concatenate([[True], np.any(keys[1:] != keys[:-1], axis=-1)])
+    kept = np.sort(order[new])
+    return _Sums(*(each[kept] for each in sums))
+
+
+@dataclass(frozen=True)
+class _Pairs:
+    """Sums of one half beside those of the other."""
+
+    statement: Statement
+    one: Complex  # (n, s)
+    other: Complex  # (m, s)
+    lever: Real  # (J, s), what the coordinates do to the terms
+    terms: Complex  # (J,) of what is fixed
+    incumbent: Incumbent
+    offered: Callable[[np.ndarray, np.ndarray], None]  # takes places of both halves
+
+    @property
+    def count(self) -> int:
+        return self.one.shape[0] * self.other.shape[0]
+
+    @cached_property
+    def rounding(self) -> float:
+        """What objectives from sums may be off by."""
+        size = sum(np.max(np.abs(z), axis=0, initial=0.0) for z in (self.one, self.other))
+        each = np.sum(np.abs(self.lever) @ size) + np.sum(np.abs(self.terms)) + np.max(np.abs(self.statement.floor))
+        return _ROUNDING * float(each)
+
+    def evaluated(self, i: np.ndarray, j: np.ndarray) -> None:
+        """Offer those of some pairs that are no worse than the best."""
+        sums = self.terms + (self.one[i] + self.other[j]) @ self.lever.T
+        near = self.statement.objective_of(np.abs(sums)) <= self.incumbent.level + self.rounding
+        if np.any(near):
+            self.offered(i[near], j[near])
+
+    def all(self, spent: Callable[[], bool]) -> bool:
+        """Every pair; whether the time was enough."""
+        step = max(1, _AT_ONCE // self.one.shape[0])
+        for start in range(0, self.other.shape[0], step):
+            part = np.arange(start, min(start + step, self.other.shape[0]))
+            i, j = np.meshgrid(np.arange(self.one.shape[0]), part, indexing="ij")
+            self.evaluated(i.ravel(), j.ravel())
+            if spent():
+                return False
+        return True
+
+    def nearest(self) -> None:
+        """To every sum of one half the nearest of the other, which mostly makes the ball small."""
+        ball = self._ball()
+        if ball is None:
+            return
+        tree, points, radius = ball
+        off, place = tree.query(points, distance_upper_bound=radius)
+        found = np.flatnonzero(np.isfinite(off))
+        for part in np.array_split(found, 1 + found.size // _AT_ONCE):
+            self.evaluated(place[part], part)
+
+    def near(self, most: int, spent: Callable[[], bool]) -> bool:
+        """Every pair that can be no worse than the best; whether they were few enough for number and time."""
+        ball = self._ball()
+        if ball is None:
+            return True
+        tree, points, radius = ball
+        counts = np.concatenate(
+            [tree.query_ball_point(part, radius, return_length=True) for part in np.array_split(points, 8) if part.size]
+        )
+        if int(np.sum(counts)) > most:
+            return False
+        some = np.flatnonzero(counts)
+        for part in np.split(some, np.flatnonzero(np.diff(np.cumsum(counts[some]) // _AT_ONCE)) + 1):
+            if part.size:
+                pairs = cKDTree(points[part]).sparse_distance_matrix(tree, radius, output_type="ndarray")
+                self.evaluated(pairs["j"], part[pairs["i"]])
+            if spent():
+                return False
+        return True
+
+    def _ball(self) -> tuple[cKDTree, Real, float] | None:
+        """One half as a tree, centres from the other one, and a radius: no pair outside is as good as the best.
+
+        Rows of what is left of the level above their floor are 1; a row is no less than the Euclidean norm of its
+        terms. None: no pair at all is.
+        """
+        left = self.incumbent.level + self.rounding - self.statement.floor
+        if np.any(left < 0):
+            return None
+        each = np.maximum(left, SMALLEST)[self.statement.row]
+        turn, scale = np.linalg.qr(self.lever / each[:, None])
+        scaled = self.terms / each
+        centre = np.conj(turn.T) @ scaled
+        beside = np.sum(np.abs(scaled - turn @ centre) ** 2)
+        square = left.size * _MARGIN - beside / _MARGIN
+        if square < 0:
+            return None
+        radius = float(np.sqrt(square)) * _MARGIN
+        return cKDTree(_real(self.one @ scale.T)), -_real(centre + self.other @ scale.T), radius
+
+
+def _real(vectors: Complex) -> Real:
+    return np.concatenate([vectors.real, vectors.imag], axis=-1)

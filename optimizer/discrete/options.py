@@ -1,0 +1,105 @@
+"""Slots and their options, and the best set of them that was come upon."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.statement import Statement
+
+#: objectives nearer than this share of the yardstick are equal
+EQUAL = 1e-9
+#: of a sum of masses, relative
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Options:
+    """What each of K slots can take, O options at most; the first option of every slot is nothing."""
+
+    unbalance: Complex  # (K, O) kg m
+    mass: Real  # (K, O) kg
+    part: np.ndarray  # (K, O) int: the part number, -1 is no part
+    exists: np.ndarray  # (K, O) bool, False beyond the options of a slot
+    most_fitted: int | None = None  # slots that may take more than nothing
+    most_parts: int | None = None  # different part numbers that may be used
+
+    @property
+    def slots(self) -> int:
+        return self.mass.shape[0]
+
+    @property
+    def limits_fitted(self) -> bool:
+        """Whether the number of counterweights is limited to fewer than there are slots."""
+        return self.most_fitted is not None and self.most_fitted < self.slots
+
+    @property
+    def limits_parts(self) -> bool:
+        """Whether the number of part numbers is limited to fewer than there are."""
+        return self.most_parts is not None and self.most_parts < int(np.max(self.part, initial=-1)) + 1
+
+    def of(self, array: np.ndarray, chosen: np.ndarray) -> np.ndarray:
+        """What an array (K, O) holds for the options chosen (..., K)."""
+        found: np.ndarray = array[np.arange(self.slots), chosen]
+        return found
+
+    def counts(self, statement: Statement, chosen: np.ndarray) -> np.ndarray:
+        """Whether sets (..., K) keep budget and counts."""
+        mass = self.of(self.mass, chosen)
+        kept = np.sum(mass, axis=-1) <= statement.limits.max_total_mass * (1.0 + _ROUNDING)
+        if self.limits_fitted:
+            kept &= np.sum(chosen > 0, axis=-1) <= self.most_fitted
+        if self.limits_parts:
+            parts = np.sort(self.of(self.part, chosen), axis=-1)
+            new = np.concatenate([parts[..., :1] >= 0, (np.diff(parts, axis=-1) > 0)], axis=-1)
+            kept &= np.sum(new, axis=-1) <= self.most_parts
+        return kept
+
+    def nearest(self, u: Complex) -> np.ndarray:
+        """The option of every slot that is nearest to an unbalance (..., K)."""
+        off = np.where(self.exists, np.abs(self.unbalance - u[..., None]), np.inf)
+        return np.argmin(off, axis=-1)
+
+
+class Incumbent:
+    """The best set so far: of equal objectives the lightest, then the least sum of |u|^2, then the order of webs."""
+
+    def __init__(self, statement: Statement, options: Options, resolution: float) -> None:
+        """``resolution``: objectives that differ by no more are equal."""
+        self.statement, self.options, self.resolution = statement, options, resolution
+        self.least = np.inf  # smallest objective of a set within all limits
+        self.chosen: np.ndarray | None = None  # (K,)
+
+    @property
+    def level(self) -> float:
+        """What an objective may come to and still be the answer."""
+        return self.least + self.resolution
+
+    def offer(self, chosen: np.ndarray) -> None:
+        """Take the best of sets (M, K), or stay."""
+        statement, options = self.statement, self.options
+        chosen = chosen[options.counts(statement, chosen)]
+        if not chosen.size:
+            return
+        u = options.of(options.unbalance, chosen)
+        kept = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
+        value = np.where(kept, statement.objective(u), np.inf)
+        near = value <= min(float(np.min(value)), self.least) + self.resolution
+        if not np.any(near & np.isfinite(value)):
+            return
+        self.least = min(self.least, float(np.min(value)))
+        candidates = chosen[near]
+        if self.chosen is not None and self._value(self.chosen) <= self.level:
+            candidates = np.concatenate([self.chosen[None], candidates])
+        self.chosen = candidates[self._first(candidates)]
+
+    def _value(self, chosen: np.ndarray) -> float:
+        return float(self.statement.objective(self.options.of(self.options.unbalance, chosen)))
+
+    def _first(self, chosen: np.ndarray) -> int:
+        """Place of the first in the order among equals."""
+        mass = np.sum(self.options.of(self.options.mass, chosen), axis=-1)
+        square = np.sum(np.abs(self.options.of(self.options.unbalance, chosen)) ** 2, axis=-1)
+        # in steps, so that sums in another order do not differ
+        steps = [np.round(each / (1e-9 * (np.max(each) or 1.0))) for each in (mass, square)]
+        return int(np.lexsort((*chosen.T[::-1], steps[1], steps[0]))[0])
