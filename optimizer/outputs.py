@@ -12,6 +12,7 @@ from optimizer.figures.bearings import MAIN_BEARINGS
 from optimizer.figures.cautions import cautions
 from optimizer.figures.dynamics import OVER_THE_TURN
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
+from optimizer.figures.internal_moment import INTERNAL_MOMENT
 from optimizer.figures.orders import ORDERS
 from optimizer.figures.output import Output
 from optimizer.figures.pins import PIN_LOADS
@@ -31,6 +32,7 @@ OUTPUTS: dict[str, Output] = {
         HODOGRAPH,
         ORDERS,
         STAGES,
+        INTERNAL_MOMENT,
         *OVER_THE_TURN,
         MAIN_BEARINGS,
         PIN_LOADS,

@@ -140,12 +140,22 @@ class Stage(Model):
 Stages = tuple[Stage, ...]
 
 
+class InternalMoment(Model):
+    """Largest first-order moment inside the shaft: the couple of all forces on one side of a plane about it."""
+
+    before_Nm: NewtonMetres = Field(description="without counterweights, largest over shaft and turn", examples=[812.0])
+    after_Nm: NewtonMetres | None = Field(description="with counterweights; null if infeasible", examples=[203.0])
+
+
 class OutputFields(Model):
     """What a scene may ask for beyond the residual; null where it was not asked for."""
 
     hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
     orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
     stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
+    internal_moment: InternalMoment | None = Field(
+        None, description="moment inside the shaft, if asked for", examples=[None]
+    )
     kinematics: Kinematics | None = Field(None, description="motion of every row, if asked for", examples=[None])
     gas: Gas | None = Field(None, description="gas forces, if asked for", examples=[None])
     piston_force: PistonForce | None = Field(None, description="piston forces, if asked for", examples=[None])
@@ -204,6 +214,14 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
     "balance_rate": (),
     "orders": tuple(column for order in _ORDERS for column in _order_columns(order)),
     "stages": tuple(column for stage, unit in STAGE_UNITS.items() for column in _stage_columns(stage, unit)),
+    "internal_moment": (
+        Column(
+            "internal_moment_Nm",
+            "number",
+            "N m",
+            "largest first-order moment inside the shaft",
+        ),
+    ),
     "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
     "piston_force": (Column("peak_piston_force_N", "number", "N", "largest piston force over the turn, magnitude"),),
     "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),

@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.arrangements import arrangements
 from optimizer.arrays import Complex, Real
 from optimizer.matching.bound import Plane, plane
 from optimizer.matching.problem import Minorants, Places, Problem
@@ -36,24 +37,16 @@ class Half(NamedTuple):
         return {c: each[k] for c, each, k in zip(self.classes, self.masses, which, strict=True)}
 
 
-def arrangements(each: Places, most: int) -> Real | None:
-    """All different arrangements of a class (N, rows), masses row by row; None where there are more than ``most``."""
-    kinds, left = np.unique(each.mass, return_counts=True)
-    remaining, chosen = left[None, :], np.zeros((1, 0), int)
-    for _ in range(int(np.sum(each.row >= 0))):
-        before, kind = np.nonzero(remaining)
-        if before.size > most:
-            return None
-        remaining = remaining[before]
-        remaining[np.arange(before.size), kind] -= 1
-        chosen = np.concatenate([chosen[before], kind[:, None]], axis=1)
-    found: Real = kinds[chosen]
-    return found
+def _arranged(each: Places) -> Real | None:
+    """All different arrangements of a class (N, rows), masses row by row; None where there are too many."""
+    masses, times = np.unique(each.mass, return_counts=True)
+    found = arrangements(times, int(np.sum(each.row >= 0)), _SUMS)
+    return None if found is None else masses[found]
 
 
 def halves(problem: Problem) -> tuple[Half, Half] | None:
     """The classes in two halves of as equal size as can be; None where there are too many arrangements."""
-    found = [arrangements(each, _SUMS) for each in problem.classes]
+    found = [_arranged(each) for each in problem.classes]
     masses = [each for each in found if each is not None]
     if len(masses) < len(found):
         return None

@@ -33,9 +33,15 @@ def rotating(layout: Layout) -> Wrench:
 
     Source: seed 000 eqs (12)-(18); docs/mathematics.md section 2.
     """
+    forces = rotating_forces(layout)
+    return _wrench(layout, forces.co, forces.counter, layout.rotating.position)
+
+
+def rotating_forces(layout: Layout) -> Phasors:
+    """The same mass by mass (..., n)."""
     masses = layout.rotating
     co = masses.mass * masses.radius * masses.direction
-    return _wrench(layout, co, np.zeros_like(co), masses.position)
+    return Phasors(co, np.zeros_like(co))
 
 
 def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Real] = acceleration_harmonic) -> Wrench:
@@ -50,6 +56,14 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     order : k >= 1.
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
+    forces = reciprocating_forces(layout, order, harmonic)
+    return _wrench(layout, forces.co, forces.counter, layout.reciprocating.position)
+
+
+def reciprocating_forces(
+    layout: Layout, order: int, harmonic: Callable[[int, Real], Real] = acceleration_harmonic
+) -> Phasors:
+    """The same row by row (..., n)."""
     rows = layout.reciprocating
     # A_1 = 1 whatever the rod, so that the first order needs no rod
     size = 0.5 * rows.mass * rows.crank_radius
@@ -57,8 +71,7 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
         size = size * harmonic(order, rows.rod_ratio)
     crank, axis = rows.crank_direction**order, rows.axis
     co = size * crank * np.conj(axis) ** (order - 1)
-    counter = size * np.conj(crank) * axis ** (order + 1)
-    return _wrench(layout, co, counter, rows.position)
+    return Phasors(co, size * np.conj(crank) * axis ** (order + 1))
 
 
 def counterweights(layout: Layout, unbalance: Complex) -> Wrench:

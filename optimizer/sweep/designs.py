@@ -11,6 +11,7 @@ from numpy.random import Philox
 from numpy.typing import NDArray
 
 from optimizer.arrays import Real
+from optimizer.sweep.crank_orders import orders
 from schemas.sweep import Axis, SweepRequest, Target
 
 Indices = NDArray[np.int64]
@@ -23,6 +24,8 @@ _FEWEST_BITS = 6
 
 def axis_values(request: SweepRequest, start: int, stop: int) -> list[Real]:
     """Values of each axis for the designs start..stop-1, (stop - start,) in the unit of the field; nan is null."""
+    if request.crank_orders is not None:
+        return list(orders(request.crank_orders)[start:stop].T)
     index = np.arange(start, stop, dtype=np.int64)
     if request.design == "latin_hypercube":
         return [

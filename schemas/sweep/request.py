@@ -6,14 +6,15 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
-from schemas.base import FieldProblem, Model, NotEmpty
-from schemas.machine import no_balance_shafts
+from schemas.base import FieldProblem, Model
+from schemas.machine import MAX_THROWS, ReciprocatingMachine, no_balance_shafts
 from schemas.outputs import OUTPUT_COLUMNS, Column
-from schemas.quantities import Count, Flag
+from schemas.quantities import Angle, Count, Flag
 from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest, of_the_shaft
 from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
+from schemas.sweep.crank_orders import MAX_ORDERED, MAX_SEQUENCES, CrankOrders, crank_orders
 from schemas.target import BadPointer, Target, find_target
 
 MAX_AXES = 64
@@ -42,15 +43,23 @@ class SweepRequest(Ruled):
         "as the task says",
         examples=[{"machine": {"kind": "reciprocating"}}],
     )
-    axes: Annotated[tuple[Axis, ...], NotEmpty()] = Field(
+    axes: tuple[Axis, ...] = Field(
+        (),
         max_length=MAX_AXES,
-        description="the fields that vary",
+        description="the fields that vary, at least one but for crank_orders, which vary the crank angles",
         examples=[[{"path": "/machine/speed_rpm", "values": [400, 500]}]],
     )
-    design: Literal["grid", "paired", "latin_hypercube"] = Field(
+    design: Literal["grid", "paired", "latin_hypercube", "crank_orders"] = Field(
         "grid",
-        description="every combination (the last axis varies fastest), the axes side by side, or a Latin hypercube",
+        description="every combination (the last axis varies fastest), the axes side by side, a Latin hypercube, or "
+        "all orders of crank angles that are different machines",
         examples=["grid"],
+    )
+    angles_deg: tuple[Angle, ...] | None = Field(
+        None,
+        max_length=MAX_THROWS,
+        description="crank angles of crank_orders, one for each throw",
+        examples=[[0, 120, 240]],
     )
     samples: Count | None = Field(
         None, ge=1, le=MAX_DESIGNS, description="number of designs of a Latin hypercube", examples=[10_000]
@@ -87,6 +96,7 @@ class SweepRequest(Ruled):
     )
 
     _targets: tuple[Target, ...] = PrivateAttr(())
+    _crank_orders: CrankOrders | None = PrivateAttr(None)
 
     @field_validator("base", mode="wrap")
     @classmethod
@@ -98,7 +108,9 @@ class SweepRequest(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         # each looks at what the ones before have found right
-        for part in (self._output_problems, self._axis_problems, self._design_problems, self._column_problems):
+        ordered = self.design == "crank_orders"
+        varied = (self._order_problems,) if ordered else (self._axis_problems, self._design_problems)
+        for part in (self._output_problems, self._angle_problems, *varied, self._column_problems):
             found = list(part())
             yield from (Rule(True, path, message) for path, message in found)
             if found:
@@ -110,8 +122,15 @@ class SweepRequest(Ruled):
         return self._targets
 
     @property
+    def crank_orders(self) -> CrankOrders | None:
+        """What is put in order along the shaft, if that is the design."""
+        return self._crank_orders
+
+    @property
     def total(self) -> int:
         """Number of designs."""
+        if self.crank_orders is not None:
+            return self.crank_orders.count
         if self.design == "latin_hypercube":
             return self.samples or 0
         levels = [axis.levels or 0 for axis in self.axes]
@@ -166,6 +185,42 @@ class SweepRequest(Ruled):
         for j, output in enumerate(self.base.outputs):
             if output not in OUTPUT_COLUMNS:
                 yield FieldProblem(("base", "outputs", j), "a sweep has no columns for this output")
+
+    def _angle_problems(self) -> Iterator[FieldProblem]:
+        if self.design != "crank_orders" and self.angles_deg is not None:
+            yield FieldProblem(("angles_deg",), "serves only crank_orders")
+        if self.design != "crank_orders" and not self.axes:
+            yield FieldProblem(("axes",), "must hold at least one item")
+
+    def _order_problems(self) -> Iterator[FieldProblem]:
+        machine, angles = self.base.machine, self.angles_deg
+        if self.axes:
+            yield FieldProblem(("axes",), "crank_orders vary the crank angles alone")
+        if self.samples is not None:
+            yield FieldProblem(("samples",), "serves only a Latin hypercube")
+        if not isinstance(machine, ReciprocatingMachine):
+            yield FieldProblem(("base", "machine", "kind"), "crank_orders need a machine with throws")
+        elif angles is None or len(angles) != len(machine.throws):
+            yield FieldProblem(("angles_deg",), f"give one angle for each of the {len(machine.throws)} throws")
+        elif len(angles) > MAX_ORDERED:
+            yield FieldProblem(("angles_deg",), f"at most {MAX_ORDERED} throws are put in order")
+        else:
+            found = crank_orders(machine, angles, self._alike_across)
+            if found.looked_through > MAX_SEQUENCES:
+                message = f"at most {MAX_SEQUENCES} sequences are looked through; these angles make more"
+                yield FieldProblem(("angles_deg",), message)
+            self._crank_orders = found
+            paths = (f"/machine/throws/{t}/crank_angle_deg" for t in range(len(angles)))
+            self._targets = tuple(find_target(self.base, path) for path in paths)
+
+    @property
+    def _alike_across(self) -> bool:
+        """Whether the objective knows no direction across the shaft."""
+        if not isinstance(self.base, OptimizeRequest):
+            return True
+        goal = self.base.objective
+        along = (goal.force_ceiling_x_N, goal.force_ceiling_y_N, goal.moment_ceiling_x_Nm, goal.moment_ceiling_y_Nm)
+        return goal.direction_weights.x == goal.direction_weights.y and all(one is None for one in along)
 
     def _axis_problems(self) -> Iterator[FieldProblem]:
         targets: dict[int, Target] = {}

@@ -12,6 +12,9 @@ from schemas.sweep import SweepRequest
 from service.settings import Settings
 from service.validation import InvalidRequest
 
+#: what says how many designs there are, where it is not the axes
+_COUNTED = {"latin_hypercube": "samples", "crank_orders": "angles_deg"}
+
 
 @dataclass(frozen=True)
 class SizeLimits:
@@ -48,7 +51,7 @@ class SizeLimits:
     def _problems(self, asked: Model, at: Path) -> Iterator[FieldProblem]:
         if isinstance(asked, SweepRequest):
             if asked.total > self.designs:
-                field = ("samples",) if asked.design == "latin_hypercube" else ("axes",)
+                field = (_COUNTED.get(asked.design, "axes"),)
                 message = f"a sweep may hold at most {self.designs} designs here; these are {asked.total}"
                 yield FieldProblem(field, message)
             yield from self._problems(asked.base, ("base",))

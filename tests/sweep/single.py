@@ -196,6 +196,8 @@ def _balance_figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnsw
             # counterweights change the first order alone; without them there is nothing with them
             with_them = fitted.get(one.order, one if one.order > 1 else None)
             yield from _order_figures(one.order, with_them)
+    if answer.internal_moment is not None:
+        yield "internal_moment_Nm", answer.internal_moment.after_Nm
     for stage in answer.stages or ():
         yield f"stage_value.{stage.stage}", stage.value
         yield f"stage_remaining.{stage.stage}", stage.remaining if stage.stage not in ("V", "VI") else stage.value

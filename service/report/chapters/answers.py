@@ -18,6 +18,18 @@ from service.report.chapters.worth_knowing import worth_knowing
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
     "orders": lambda _machine, found: balance.orders(found),
     "hodograph": lambda _machine, found: balance.hodograph(found),
+    "internal_moment": lambda _machine, found: Chapter(
+        "Moment inside the shaft",
+        (
+            facts(
+                "",
+                [
+                    ("largest first-order moment without counterweights, N m", found.before_Nm),
+                    ("with counterweights, N m", found.after_Nm),
+                ],
+            ),
+        ),
+    ),
     **OVER_THE_TURN,
     "pin_loads": lambda _machine, found: pin_loads(found),
 }

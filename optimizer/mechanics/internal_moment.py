@@ -1,0 +1,52 @@
+"""The first-order moment inside a shaft: what a balanced layout still bends itself and its frame with."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.mechanics.inertia import reciprocating_forces, rotating_forces
+from optimizer.mechanics.layout import Layout
+from optimizer.response import Phasors
+
+
+def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
+    """Largest couple, about any plane, of the first-order forces on one side of it (...), kg m^2 (over omega^2).
+
+    Where force and moment are balanced it is the same from both sides; where they are not, the larger side counts.
+    The couple is linear between the planes of the masses, so it is largest in one of them.
+
+    Parameters
+    ----------
+    unbalance : (..., webs) mass-radius products of the counterweights, kg m; none without.
+    """
+    forces = [rotating_forces(layout), reciprocating_forces(layout, 1)]
+    places = [layout.rotating.position, layout.reciprocating.position]
+    if unbalance is not None:
+        forces.append(Phasors(unbalance, np.zeros_like(unbalance)))
+        places.append(layout.webs.position)
+    leading = np.broadcast_shapes(*(part.co.shape[:-1] for part in forces), *(part.shape[:-1] for part in places))
+    place: Real = _joined(places, leading) - np.asarray(layout.centre_plane)[..., None]
+    order = np.argsort(place, axis=-1)
+    arm = np.take_along_axis(place, order, axis=-1)
+    peaks = []
+    for side in (1, -1):
+        found = np.zeros(arm.shape)
+        for part in ("co", "counter"):
+            force = np.take_along_axis(_joined([getattr(one, part) for one in forces], leading), order, axis=-1)
+            couple = _one_sided(arm[..., ::side], force[..., ::side])
+            found = found + np.abs(couple)
+        peaks.append(np.max(found, axis=-1, initial=0.0))
+    return np.maximum(*peaks)
+
+
+def _one_sided(arm: Real, force: Complex) -> Complex:
+    """Couple of all forces (..., n) up to each, about the place of it."""
+    couple = arm * np.cumsum(force, axis=-1) - np.cumsum(arm * force, axis=-1)
+    return np.asarray(couple, dtype=complex)
+
+
+def _joined(parts: Sequence[Any], leading: tuple[int, ...]) -> Any:
+    """Side by side on the last axis."""
+    return np.concatenate([np.broadcast_to(part, (*leading, part.shape[-1])) for part in parts], axis=-1)

@@ -1,0 +1,198 @@
+"""Orders of given crank angles along a shaft, and which of them are the same machine.
+
+A machine is the same when all cranks are turned alike (only the moment changes at which it is looked at), seen in a
+mirror along the shaft (its rows are those of the image, and it turns the other way), and seen from its other end.
+"""
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import factorial, prod
+from typing import Any, NamedTuple
+
+from schemas.machine import Machine, ReciprocatingMachine, Row, Throw
+
+#: angles and planes so near are one
+_NEAR = 1e-9
+#: different sequences of angles that are looked through
+MAX_SEQUENCES = 4_000_000
+MAX_ORDERED = 16
+
+
+class Symmetry(NamedTuple):
+    """What leaves a machine the same."""
+
+    image: tuple[int, ...]  # of every different angle, by its number
+    reversed: bool  # whether the throws change ends
+
+
+@dataclass(frozen=True)
+class CrankOrders:
+    """Different angles, how often each is there, and what leaves a machine the same."""
+
+    angles_deg: tuple[float, ...]
+    times: tuple[int, ...]
+    symmetries: tuple[Symmetry, ...]
+
+    @property
+    def sequences(self) -> int:
+        """Number of different sequences."""
+        return factorial(sum(self.times)) // prod(map(factorial, self.times))
+
+    @property
+    def looked_through(self) -> int:
+        """Number of sequences among which there is one of each order: the first angle may be fixed if all are alike."""
+        return self.sequences * self.times[0] // sum(self.times) if self.alike else self.sequences
+
+    @property
+    def alike(self) -> bool:
+        """Whether every angle can take the place of every other."""
+        return len({one.image[0] for one in self.symmetries if not one.reversed}) == len(self.times)
+
+    @property
+    def count(self) -> int:
+        """Number of orders that are different machines (Burnside's lemma)."""
+        return sum(self._unmoved(one) for one in self.symmetries) // len(self.symmetries)
+
+    def _unmoved(self, symmetry: Symmetry) -> int:
+        """Sequences that a symmetry leaves as they are."""
+        image, times = symmetry.image, self.times
+        if not symmetry.reversed:
+            return self.sequences if all(image[a] == a for a in range(len(times))) else 0
+        if any(image[image[a]] != a for a in range(len(times))):
+            return 0
+        # the throws in pairs from the ends inwards: an angle with its image, so one that is its own image twice
+        own = [count for a, count in enumerate(times) if image[a] == a]
+        swapped = [count for a, count in enumerate(times) if image[a] > a]
+        if sum(count % 2 for count in own) != sum(times) % 2:
+            return 0
+        pairs = factorial(sum(times) // 2)
+        alike = prod(factorial(count // 2) for count in own) * prod(map(factorial, swapped))
+        return pairs // alike * 2 ** sum(swapped)
+
+
+def crank_orders(machine: Machine, angles_deg: Sequence[float], alike_across: bool = True) -> CrankOrders:
+    """The orders of angles on the throws of a machine.
+
+    Parameters
+    ----------
+    alike_across : whether all directions across the shaft count alike.
+    """
+    reduced = [angle % 360.0 for angle in angles_deg]
+    different: list[float] = []
+    for angle in reduced:
+        if _number(different, angle) is None:
+            different.append(angle)
+    different.sort()
+    counts = Counter(_number(different, angle) for angle in reduced)
+    times = tuple(counts[k] for k in range(len(different)))
+    found = {
+        Symmetry(image, ends): None
+        for image in _images(machine, different, times, alike_across)
+        for ends in ((False, True) if _same_from_both_ends(machine) else (False,))
+    }
+    return CrankOrders(tuple(different), times, tuple(found))
+
+
+def _images(
+    machine: Machine, angles: Sequence[float], times: Sequence[int], alike_across: bool
+) -> Iterator[tuple[int, ...]]:
+    """Images of the angles that the machine allows and that leave every angle as often as it was."""
+    yield tuple(range(len(angles)))
+    if not _turns_freely(machine):
+        return
+    for sign in (1.0, -1.0) if _same_in_a_mirror(machine, alike_across) else (1.0,):
+        for angle in angles:
+            found = [_number(angles, (sign * (one - angles[0]) + angle) % 360.0) for one in angles]
+            image = tuple(k for k in found if k is not None)
+            if len(image) == len(angles) and all(times[k] == times[a] for a, k in enumerate(image)):
+                yield image
+
+
+def _number(angles: Sequence[float], angle: float) -> int | None:
+    return next((k for k, one in enumerate(angles) if _off(one - angle, 360.0) <= _NEAR * 360.0), None)
+
+
+def _off(difference: float, period: float) -> float:
+    return abs((difference + period / 2) % period - period / 2)
+
+
+def _turns_freely(machine: Machine) -> bool:
+    """Whether nothing on the machine stands at an angle of its own."""
+    rows = [row for throw in _throws(machine) for row in throw.rows]
+    tabled = any(getattr(row.cylinder, "pressure", None) is not None for row in rows)
+    return not tabled and all(web.sector is None for web in machine.webs)
+
+
+def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
+    """Whether there is a line along which every throw's rows are their own mirror image; gas knows its direction."""
+    throws = _throws(machine)
+    if any(row.cylinder is not None for throw in throws for row in throw.rows):
+        return False
+    axes = [row.axis_deg for throw in throws[:1] for row in throw.rows] or [0.0]
+    lines = {(one + other) / 2 for one in axes for other in axes}
+    if not alike_across:
+        lines = {line for line in lines if _off(line, 90.0) <= _NEAR}
+    return any(all(_mirrored(throw.rows, line) for throw in throws) for line in lines)
+
+
+def _mirrored(rows: Sequence[Row], line_deg: float) -> bool:
+    left = list(rows)
+    for row in rows:
+        axis = 2 * line_deg - row.axis_deg
+        twin = next((one for one in left if _off(one.axis_deg - axis, 360.0) <= _NEAR and _alike(one, row)), None)
+        if twin is None:
+            return False
+        left.remove(twin)
+    return True
+
+
+def _alike(one: Row, other: Row) -> bool:
+    plain = {"name": None, "axis_deg": 0.0}
+    return one.model_copy(update=plain) == other.model_copy(update=plain)
+
+
+def _same_from_both_ends(machine: Machine) -> bool:
+    """Whether throws, webs and bearings are the same from both ends, about the plane of moments if one is given."""
+    throws = _throws(machine)
+    ends = throws[0].position_m + throws[-1].position_m
+    size = max(abs(throw.position_m) for throw in throws)
+    given = machine.reference_plane_m
+    if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
+        return False
+    sides = [[_from_an_end(one, ends, turned) for one in throws] for turned in (False, True)]
+    bearings = machine.bearings if isinstance(machine, ReciprocatingMachine) else ()
+    places = [*machine.webs, *bearings]
+    turned = [_from_an_end(one, ends, True) for one in places]
+    there = [_from_an_end(one, ends, False) for one in places]
+    return _equal(sides[0], sides[1][::-1], size) and _equal(there, turned, size, anywhere=True)
+
+
+def _from_an_end(part: Any, ends: float, turned: bool) -> dict[str, Any]:
+    """What a throw, a web or a bearing is, without its name and crank angle, with its distance from an end."""
+    found: dict[str, Any] = part.model_dump(exclude={"name", "crank_angle_deg", "throw"})
+    found["position_m"] = ends - part.position_m if turned else part.position_m
+    for row in found.get("rows", ()):
+        row["name"] = None
+        row["offset_m"] = -row["offset_m"] if turned else row["offset_m"]
+    return found
+
+
+def _equal(one: Sequence[dict[str, Any]], other: Sequence[dict[str, Any]], size: float, anywhere: bool = False) -> bool:
+    left = list(other)
+    for part in one:
+        twins = left if anywhere else left[:1]
+        twin = next((each for each in twins if _same(part, each, size)), None)
+        if twin is None:
+            return False
+        left.remove(twin)
+    return True
+
+
+def _same(one: dict[str, Any], other: dict[str, Any], size: float) -> bool:
+    near = abs(one["position_m"] - other["position_m"]) <= _NEAR * size
+    return near and all(one[key] == other[key] for key in one if key != "position_m")
+
+
+def _throws(machine: Machine) -> tuple[Throw, ...]:
+    return machine.throws if isinstance(machine, ReciprocatingMachine) else ()
