@@ -106,6 +106,33 @@ class EffectRow(Model):
     runs: int = Field(description="timed runs behind the median", examples=[5])
 
 
+class PeakRow(Model):
+    """One peak over the turn by one way, without counterweights."""
+
+    quantity: Literal["peak_bearing_load", "peak_bending_moment", "peak_torque"] = Field(
+        description="largest load of all main bearings, largest bending moment along the shaft, largest torque",
+        examples=["peak_bearing_load"],
+    )
+    method: Literal["bracket", "pieces", "samples"] = Field(
+        description="bracket: proven on both sides, as the service answers; pieces: an uneven grid, samples in every "
+        "piece between valves, dead centres and entries of tables, both sides of a jump among them; samples: equal "
+        "steps",
+        examples=["bracket"],
+    )
+    setting: str = Field(description="tolerance, samples in a piece, or step", examples=["1e-09"])
+    angles: int | None = Field(description="angles that are looked at; null of a bracket", examples=[360])
+    time_ms: Milliseconds = Field(description="median over the rounds", examples=[3.1])
+    first_ms: Milliseconds = Field(description="time of the very first run", examples=[3.9])
+    relative_error: float = Field(
+        description="by how much the peak that was found is below the sharpest bracket's, over that", examples=[1e-4]
+    )
+    certified_gap: float | None = Field(
+        description="upper end of the bracket less its lower one, over that; null where nothing is proven",
+        examples=[1e-9],
+    )
+    runs: int = Field(description="timed runs behind the median", examples=[5])
+
+
 class Reference(Model):
     """What errors are measured from."""
 
@@ -161,6 +188,11 @@ class AccuracyAnswer(Answer):
     effects_ladder: tuple[EffectRow, ...] = Field(
         description="simulated effects: cut-off kinematics against exact, samples against panels; empty where the "
         "machine gives no rods. With cylinders the torque of gas, inertia and friction, otherwise of inertia",
+        examples=[[]],
+    )
+    peaks_ladder: tuple[PeakRow, ...] = Field(
+        description="peaks over the turn, brute force on even and uneven grids against the bracket; empty where the "
+        "machine gives no rods, and of bearings and bending only where it has bearings",
         examples=[[]],
     )
     environment: Environment = Field(description="what the times were measured with", examples=[{"cpus": 2}])

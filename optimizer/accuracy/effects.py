@@ -5,7 +5,6 @@ rows reverse. Beside it stands what a spreadsheet does: values at equal steps, t
 (which the trapezoidal rule is over a whole turn), the running trapezoidal sum for the energy.
 """
 
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
@@ -14,11 +13,12 @@ from typing import Literal
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from optimizer.accuracy.ladder import median_ms
+from optimizer.accuracy.ladder import median_ms, timed
 from optimizer.arrays import Real
 from optimizer.effects.inertia import rod_problems
 from optimizer.effects.registry import run
-from optimizer.mechanics.cylinders import delivery_rules, gas_problems, without_gas
+from optimizer.mechanics.cylinders import cycle_turns, delivery_rules, gas_problems, trace_rules, without_gas
+from optimizer.mechanics.indicated import TURN, turns_of
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.rod import rod_forces
@@ -32,7 +32,6 @@ STEPS_DEG = (30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1)
 #: rows of a machine up to which the ladder is made
 MAX_ROWS = 100
 _WIDEST_PANEL = np.deg2rad(10.0)
-_TURN = 2.0 * np.pi
 #: distance from a jump at which its sides are looked at, rad
 _BESIDE = 1e-9
 #: panels whose nodes come this near to the largest may hold the peak; and samples within them
@@ -70,20 +69,22 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
     if not 0 < layout.reciprocating.mass.size <= MAX_ROWS:
         return ()
     complete = not without_gas(machine) and not any(gas_problems(machine))
-    has_gas = complete and not any(rule.broken for rule in delivery_rules(machine, layout))
+    rules = [*delivery_rules(machine, layout), *trace_rules(machine, layout)] if complete else []
+    has_gas = complete and not any(rule.broken for rule in rules)
+    turns = cycle_turns(machine) if has_gas else 1
     torque = _torque if has_gas else _inertia_torque
     exact, cut_off = (partial(torque, machine, layout, each) for each in (Fidelity(), Fidelity(kinematics="order_2")))
     breaks = _breaks(machine, layout, has_gas)
     ways = [
-        Way("panels", "exact kinematics", lambda: _by_panels(exact, breaks)),
-        Way("panels", "kinematics of order 2", lambda: _by_panels(cut_off, breaks)),
-        Way("search", "exact kinematics", lambda: _by_search(exact, breaks)),
-        Way("search", "kinematics of order 2", lambda: _by_search(cut_off, breaks)),
-        *(Way("samples", f"{step:g} deg", partial(_by_samples, exact, step)) for step in STEPS_DEG),
+        Way("panels", "exact kinematics", lambda: _by_panels(exact, breaks, turns)),
+        Way("panels", "kinematics of order 2", lambda: _by_panels(cut_off, breaks, turns)),
+        Way("search", "exact kinematics", lambda: _by_search(exact, breaks, turns)),
+        Way("search", "kinematics of order 2", lambda: _by_search(cut_off, breaks, turns)),
+        *(Way("samples", f"{step:g} deg", partial(_by_samples, exact, step, turns)) for step in STEPS_DEG),
     ]
-    reference = {**_by_panels(exact, breaks), **_by_search(exact, breaks)}
-    estimate = _own_estimate(exact, breaks)
-    found, first, times = _timed(ways, repeats)
+    reference = {**_by_panels(exact, breaks, turns), **_by_search(exact, breaks, turns)}
+    estimate = _own_estimate(exact, breaks, turns)
+    found, first, times = timed([way.figures for way in ways], repeats)
     return tuple(
         EffectRow(
             quantity=name,
@@ -102,23 +103,6 @@ def effects_ladder(machine: Machine, layout: Layout, repeats: int) -> tuple[Effe
     )
 
 
-def _timed(ways: list[Way], repeats: int) -> tuple[list[Figures], list[float], list[list[float]]]:
-    """Figures, time of the first run and of every later one; the ways take turns."""
-    found: list[Figures] = []
-    first: list[float] = []
-    times: list[list[float]] = [[] for _ in ways]
-    for way in ways:
-        start = time.perf_counter()
-        found.append(way.figures())
-        first.append(time.perf_counter() - start)
-    for _ in range(repeats):
-        for taken, way in zip(times, ways, strict=True):
-            start = time.perf_counter()
-            way.figures()
-            taken.append(time.perf_counter() - start)
-    return found, first, times
-
-
 def _torque(machine: Machine, layout: Layout, fidelity: Fidelity, angle: Real) -> Real:
     """Torque of gas, inertia and friction."""
     total: Real = run(machine, layout, ("torque",), fidelity, angle)["torque"].total
@@ -134,22 +118,25 @@ def _inertia_torque(_machine: Machine, layout: Layout, fidelity: Fidelity, angle
 
 def _breaks(machine: Machine, layout: Layout, has_gas: bool) -> Real:
     """Shaft angles at which the torque jumps, has a kink or is steep, rad."""
-    opens = run(machine, layout, ("gas",), Fidelity(), np.zeros(1))["gas"].opens if has_gas else ()
-    found = break_angles(layout, opens)
-    return np.unique(np.mod(found[~np.isnan(found)], _TURN))
+    if not has_gas:
+        found, turns = break_angles(layout), 1
+    else:
+        gas = run(machine, layout, ("gas",), Fidelity(), np.zeros(1))["gas"]
+        found, turns = break_angles(layout, gas.opens, gas.traces), turns_of(gas.traces)
+    return np.unique(np.mod(found[~np.isnan(found)], TURN * turns))
 
 
-def _by_panels(torque: Torque, breaks: Real) -> Figures:
+def _by_panels(torque: Torque, breaks: Real, turns: int = 1) -> Figures:
     """As the service integrates: its halved panels."""
-    turn = panels(breaks, _WIDEST_PANEL, halved=True)
+    turn = panels(breaks, _WIDEST_PANEL, halved=True, turns=turns)
     values = torque(turn.angle)
     return {"mean": float(mean(turn, values)), "energy": float(fluctuation(turn, values))}
 
 
-def _own_estimate(torque: Torque, breaks: Real) -> Figures:
+def _own_estimate(torque: Torque, breaks: Real, turns: int) -> Figures:
     """Difference from panels twice as wide, which the service reports as its error; the peak has none."""
-    coarse = panels(breaks, _WIDEST_PANEL)
-    values, fine = torque(coarse.angle), _by_panels(torque, breaks)
+    coarse = panels(breaks, _WIDEST_PANEL, turns=turns)
+    values, fine = torque(coarse.angle), _by_panels(torque, breaks, turns)
     found: dict[Figure, float | None] = {
         "mean": _relative(float(mean(coarse, values)), fine["mean"]),
         "energy": _relative(float(fluctuation(coarse, values)), fine["energy"]),
@@ -157,10 +144,10 @@ def _own_estimate(torque: Torque, breaks: Real) -> Figures:
     return {figure: error for figure, error in found.items() if error is not None}
 
 
-def _by_search(torque: Torque, breaks: Real) -> Figures:
+def _by_search(torque: Torque, breaks: Real, turns: int = 1) -> Figures:
     """Largest magnitude of the torque: on both sides of every break, and within the panels that may hold it."""
     beside = np.max(np.abs(torque(np.concatenate([breaks - _BESIDE, breaks + _BESIDE]))))
-    turn = panels(breaks, _WIDEST_PANEL, halved=True)
+    turn = panels(breaks, _WIDEST_PANEL, halved=True, turns=turns)
     highest = np.max(np.abs(torque(turn.angle)).reshape(turn.start.size, -1), axis=-1)
     held = (highest > _NEARLY * np.max(highest)) & (turn.width > 0)
     within = np.linspace(0.0, 1.0, _WITHIN)
@@ -177,12 +164,12 @@ def _by_search(torque: Torque, breaks: Real) -> Figures:
     return {"peak": max(float(beside), float(-inside.fun), float(np.max(highest)))}
 
 
-def _by_samples(torque: Torque, step_deg: float) -> Figures:
-    count = round(360.0 / step_deg)
-    values = torque(np.linspace(0.0, _TURN, count, endpoint=False))
+def _by_samples(torque: Torque, step_deg: float, turns: int = 1) -> Figures:
+    count = turns * round(360.0 / step_deg)
+    values = torque(np.linspace(0.0, TURN * turns, count, endpoint=False))
     middle = float(np.mean(values))
     rest = np.append(values, values[0]) - middle
-    running = np.concatenate([[0.0], np.cumsum(0.5 * (rest[:-1] + rest[1:]))]) * (_TURN / count)
+    running = np.concatenate([[0.0], np.cumsum(0.5 * (rest[:-1] + rest[1:]))]) * (TURN * turns / count)
     return {"mean": middle, "peak": float(np.max(np.abs(values))), "energy": float(np.ptp(running))}
 
 

@@ -7,13 +7,16 @@ meets them all.
 
 import statistics
 import time
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import TypeVar
 
 import numpy as np
 
 from optimizer.accuracy.methods import Found, Method, Run, Task
 from optimizer.program.statement import CEILING_TOLERANCE
+
+Answer = TypeVar("Answer")
 
 #: what one method may hand to its solver; beyond it a single solve takes many seconds
 MAX_ENTRIES = 600_000
@@ -117,6 +120,29 @@ def _judge(task: Task, position: float, found: Found) -> Judged:
         claimed=found.claimed,
         bound=found.prove(),
     )
+
+
+def timed(ways: Sequence[Callable[[], Answer]], repeats: int) -> tuple[list[Answer], list[float], list[list[float]]]:
+    """What each way comes to, time of its first run and of every later one [s]; the ways take turns.
+
+    After the first round there are only as many as the time of one method allows.
+    """
+    found: list[Answer] = []
+    first: list[float] = []
+    times: list[list[float]] = [[] for _ in ways]
+    for way in ways:
+        start = time.perf_counter()
+        found.append(way())
+        first.append(time.perf_counter() - start)
+    clock = Clock.of(ROUNDS_S)
+    for rounds in range(repeats):
+        if rounds and clock.left_s <= 0:
+            break
+        for taken, way in zip(times, ways, strict=True):
+            start = time.perf_counter()
+            way()
+            taken.append(time.perf_counter() - start)
+    return found, first, times
 
 
 def median_ms(times_s: Sequence[float], programs: int = 1) -> float | None:

@@ -11,6 +11,7 @@ import numpy as np
 from optimizer.accuracy.effects import effects_ladder
 from optimizer.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
 from optimizer.accuracy.methods import POSITIONS, Task, methods
+from optimizer.accuracy.peaks import peaks_ladder
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import formulate, limited, weights
 from optimizer.outputs import prepare
@@ -60,6 +61,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
         positions=len(POSITIONS),
         ladder=rows,
         effects_ladder=effects_ladder(request.machine, scene.layout, request.repeats),
+        peaks_ladder=peaks_ladder(request.machine, scene.layout, request.repeats),
         environment=_environment(),
         total_ms=(time.perf_counter() - start) * 1e3,
     )

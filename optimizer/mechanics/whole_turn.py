@@ -199,6 +199,14 @@ class TurnCurves:
         series = getattr(RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0), self.reading)
         return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]
 
+    def in_pieces(self, places: Real) -> Complex:
+        """The curves (N C, P n) at places (n,) from -1 to 1 of every piece, at its ends the one-sided limits."""
+        whole, count = self.whole, len(places)
+        angle = whole.centre[..., None] + whole.half[..., None] * places
+        within = np.repeat(whole.centre, count, axis=-1)
+        series = getattr(RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0), self.reading)
+        return _sums(series, self.weights, self.constant)[..., 0].reshape(-1, within.shape[-1])
+
     def at(self, angle: Real) -> Complex:
         """The curves (N C, n) at shaft angles (n,) rad; at a jump one of its limits or their middle."""
         places = np.broadcast_to(angle, (len(self.weights), len(angle)))

@@ -1,8 +1,8 @@
-"""What accuracy costs in time: the ladder of methods, the ladder of effects, and what they were measured with."""
+"""What accuracy costs in time: the ladders of methods, of effects and of peaks, and what they were measured with."""
 
 from collections.abc import Iterator
 
-from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow
+from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow, PeakRow
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, number, table
 
 _METHODS = {
@@ -17,6 +17,8 @@ _METHODS = {
     "panels": "panels between kinks",
     "search": "search between kinks",
     "samples": "equal steps",
+    "bracket": "bracket, proven",
+    "pieces": "samples between kinks",
 }
 _EMPTY = {
     "nothing_to_choose": "No web can carry a counterweight, or the objective is 0 without any: nothing to measure.",
@@ -25,10 +27,12 @@ _EMPTY = {
 
 
 def measured(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
-    """Both ladders, and what stands behind the figures."""
+    """The ladders, and what stands behind the figures."""
     yield Chapter("What the smallest objective costs (least mass is off)", tuple(_ladder(answer)))
     if answer.effects_ladder:
         yield Chapter("What the figures of the turn cost", (_effects(answer.effects_ladder),))
+    if answer.peaks_ladder:
+        yield Chapter("What the peaks of the turn cost", (_peaks(answer.peaks_ladder),))
     yield Chapter("Measured with", (Paragraph(_measured_with(answer)),))
 
 
@@ -78,6 +82,25 @@ def _effects(rows: tuple[EffectRow, ...]) -> Table:
                 row.setting,
                 _time(row.time_ms),
                 _error(row.relative_error),
+            )
+            for row in rows
+        ],
+    )
+
+
+def _peaks(rows: tuple[PeakRow, ...]) -> Table:
+    return table(
+        "",
+        ["peak", "method", "setting", "#angles", "#time, ms", "#missed", "#certified gap"],
+        [
+            (
+                row.quantity.removeprefix("peak_").replace("_", " "),
+                method_name(row.method),
+                row.setting,
+                row.angles,
+                _time(row.time_ms),
+                _error(row.relative_error),
+                _error(row.certified_gap),
             )
             for row in rows
         ],
