@@ -4,9 +4,11 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-from accuracy_conclusions import on_effects, on_ladders
+from accuracy_conclusions import on_effects, on_ladders, on_peaks
 
 from optimizer.accuracy.measure import accuracy
+from optimizer.accuracy.peaks import peaks_ladder
+from optimizer.mechanics.layout import layout
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
 from service.accuracy_picture import draw
 from service.documents.examples import load
@@ -18,6 +20,8 @@ EXAMPLES = ("single-horizontal", "2d12", "v8-cross-plane", "m-type-four")
 REPEATS = 20
 #: what the effects are shown for: with gas, and with inertia alone
 EFFECTS = ("2d12", "v8-cross-plane")
+#: and the peaks: with valves and friction that jump, and over two turns
+PEAKS = ("2d12", "inline-four-engine")
 
 
 def _scientific(value: float | None) -> str:
@@ -44,9 +48,28 @@ def tables(name: str, answer: AccuracyAnswer) -> Iterator[tuple[str, str]]:
         yield f"effects {name}", "\n".join(lines)
 
 
+def peaks(name: str) -> tuple[str, str]:
+    """The table of the peaks of an example."""
+    machine = AccuracyRequest.model_validate_json(load(name)).machine
+    lines = [
+        "| peak | method | setting | angles | time, ms | missed | certified gap |",
+        "|---|---|---|--:|--:|--:|--:|",
+    ]
+    for row in peaks_ladder(machine, layout(machine), REPEATS):
+        cells = (row.quantity.removeprefix("peak_").replace("_", " "), method_name(row.method), row.setting)
+        figures = ("-" if row.angles is None else str(row.angles), f"{row.time_ms:.2f}", _missed(row.relative_error))
+        lines.append(f"| {' | '.join((*cells, *figures))} | {_scientific(row.certified_gap)} |")
+    return f"peaks {name}", "\n".join(lines)
+
+
+def _missed(error: float) -> str:
+    """A share of a peak; below its rounding nothing."""
+    return "0" if error < 1e-12 else _scientific(error)
+
+
 def write() -> None:
     """Measure, draw, and put the tables between their marks."""
-    text = DOCUMENT.read_text()
+    text = with_peaks(DOCUMENT.read_text())
     for name in EXAMPLES:
         request = AccuracyRequest.model_validate_json(load(name)).model_copy(update={"repeats": REPEATS})
         answer = accuracy(request)
@@ -56,9 +79,19 @@ def write() -> None:
     DOCUMENT.write_text(conclude(text))
 
 
+def with_peaks(text: str) -> str:
+    """The document with the tables of the peaks measured anew."""
+    for name in PEAKS:
+        text = put(text, *peaks(name))
+    return text
+
+
 def conclude(text: str) -> str:
     """The document with the conclusions that its tables allow."""
-    return put(put(text, "conclusions ladder", on_ladders(text)), "conclusions effects", on_effects(text))
+    found = {"ladder": on_ladders, "effects": on_effects, "peaks": on_peaks}
+    for mark, conclusions in found.items():
+        text = put(text, f"conclusions {mark}", conclusions(text))
+    return text
 
 
 def put(text: str, mark: str, block: str) -> str:

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from optimizer.accuracy.measure import accuracy
+from optimizer.accuracy.peaks import peaks_ladder
+from optimizer.mechanics.layout import layout
 from schemas.accuracy import AccuracyAnswer
 from service.report.chapters.accuracy import method_name
 from tests.accuracy.problems import request
@@ -62,6 +64,19 @@ def test_effects_are_reproduced(answers: dict[str, AccuracyAnswer], name: str) -
     ]
     for cells, row in zip(shown, found, strict=True):
         assert agrees(cells[4], row.relative_error), (cells, row.relative_error)
+
+
+@pytest.mark.parametrize("name", names("peaks"))
+def test_peaks_are_reproduced(name: str) -> None:
+    machine = request(name).machine
+    found, shown = peaks_ladder(machine, layout(machine), 1), rows(f"peaks {name}")
+    assert [[*cells[:2], cells[2]] for cells in shown] == [
+        [row.quantity.removeprefix("peak_").replace("_", " "), method_name(row.method), row.setting] for row in found
+    ]
+    for cells, row in zip(shown, found, strict=True):
+        assert cells[3] == ("-" if row.angles is None else str(row.angles))
+        assert agrees(cells[5], row.relative_error), (cells, row.relative_error)
+        assert agrees(cells[6], row.certified_gap), (cells, row.certified_gap)
 
 
 def test_a_wrong_figure_would_be_found() -> None:

@@ -21,6 +21,7 @@ from schemas.accuracy import EffectRow
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, Fidelity
 from tests.accuracy.problems import body
+from tests.analyze.engines import engine
 from tests.builders import RADIUS, machine, row, throw
 
 
@@ -70,6 +71,17 @@ def test_samples_converge_to_the_panels() -> None:
         assert far[-1] < 1e-3 * far[0]
     assert errors(found, "peak_torque")[-1] < 1e-3
     assert errors(found, "peak_torque")[0] > 0.05
+
+
+def test_an_engine_is_looked_at_over_both_turns() -> None:
+    """Independent: two methods of integration meet over the 720 degrees in which a cylinder fires once."""
+    made = ReciprocatingMachine.model_validate(engine([0.0]))
+    found = ladder(made)
+    for quantity in ("mean_torque", "fluctuation_energy"):
+        assert errors(found, quantity)[-1] < 1e-4
+        own = found[quantity, "panels", "exact kinematics"].relative_error
+        assert own is not None
+        assert own < 1e-9
 
 
 def test_the_peak_is_above_every_sample_and_no_higher_than_the_densest() -> None:
