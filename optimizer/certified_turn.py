@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.balance_shafts import chosen, posed
 from optimizer.effects.registry import run
 from optimizer.figures import sensitivity
-from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import touched_by_mass
 from optimizer.figures.proof import implied_max_mass, named, named_excess, physical
@@ -54,6 +55,7 @@ class CertifiedTurn:
     status: str
     reason: str
     unbalance: Complex | None  # (K,) kg m; None where the ceilings are out of reach
+    shafts: Complex | None  # (S,) kg m, of the balance shafts; None where there are none to show
     certify_s: float  # time spent on bounds
     fields: dict[str, object]
 
@@ -66,8 +68,11 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
     MissingInput
         if bearings lack the sizes that specific loads need.
     """
-    case = Case(request, scene.layout, (scene.responses,), whole_turn_of(scene))
-    asked = goals(request, [case], scene.omega_squared)
+    together, responses = posed(request), scene.responses
+    if request.objective.orders == "all":
+        responses = tuple(each.unmirrored() for each in responses)
+    case = Case(together, scene.layout, (responses,), whole_turn_of(scene))
+    asked = goals(together, [case], scene.omega_squared)
     found = over_turn(asked.program, request.accuracy.relative_gap, request.objective.least_mass, asked.allowances)
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
@@ -81,22 +86,25 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     ----------
     asked : what the counterweights are judged by: the program that was solved, or one with more variants.
     """
-    machine, square = request.machine, scene.omega_squared
+    machine, square = posed(request).machine, scene.omega_squared
     mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
     u = unbalance(mass, angle, found.limits.radius)
+    shown = chosen(request, mass, angle, u)
     values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
     judged = _judged(request, asked.program, found, u, values, mass)
     return CertifiedTurn(
         str(judged.status),
         str(judged.reason),
-        u,
+        shown.on_crank,
+        shown.on_shafts,
         found.certify_s,
         {
-            "counterweights": counterweights(machine, mass, angle),
-            "total_mass_kg": float(np.sum(mass)),
+            **shown.fields,
             "active_limits": tuple(dict.fromkeys((*touched_by_mass(machine, mass), *_touched(request, asked, values)))),
             "shadow_prices": (),
-            "sensitivity": sensitivity.over_turn(asked.program, u, values, square),
+            "sensitivity": None
+            if any(each.response.turning is not None for each in asked.program.quantities)
+            else sensitivity.over_turn(asked.program, u, values, square),
             "certificate": _certificate(request, asked, found, judged, values, square),
         },
     )
@@ -168,7 +176,7 @@ def _certificate(
         mass_relative_gap=_or_null(judged.mass_gap) if least else None,
         mass_yardstick_kg=_or_null(judged.mass_yardstick) if least else None,
         mass_objective_limit=_or_null(found.mass_target * square) if least else None,
-        implied_max_mass_kg=implied_max_mass(request.machine, found.limits.max_mass[None])[0],
+        implied_max_mass_kg=implied_max_mass(posed(request).machine, found.limits.max_mass[None])[0],
         method=METHOD,
         cuts=found.cuts,
         rounds=found.rounds,
@@ -202,7 +210,7 @@ def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator
 
 def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
-    machine, square = request.machine, scene.omega_squared
+    machine, square = posed(request).machine, scene.omega_squared
     alone = replace(asked.program, ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
     components = [name for name in groups if name not in RESPONSES]
@@ -248,7 +256,8 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
     impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
     together = [field for name, field in exact.items() if name in at_fault] + [field for _, field, _ in both]
     mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)
-    closest = first_order(scene.first_order(unbalance(mass, angle, found.limits.radius)))
+    shown = chosen(request, mass, angle, unbalance(mass, angle, found.limits.radius))
+    closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
     proof = found.proof
     fields: dict[str, object] = {
         "counterweights": (),
@@ -260,7 +269,9 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
             smallest=peaks,
             implied_max_mass_kg=implied_max_mass(machine, most[None])[0],
             scenarios=_scenarios(asked.program, found),
-            closest=Closest(counterweights=counterweights(machine, mass, angle), first_order=closest),
+            closest=Closest(
+                counterweights=shown.counterweights, balance_shafts=shown.balance_shafts, first_order=closest
+            ),
             multipliers=InfeasibilityMultipliers(
                 conflict=named_excess(proof.statement, proof.multipliers, scales, square),
                 **smallest_proofs({name: _proof(least[name], square) for name in RESPONSES}),
@@ -268,7 +279,7 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
         ),
     }
     spent = found.certify_s + sum(each.certify_s for each in least.values())
-    return CertifiedTurn("infeasible", INFEASIBLE, None, spent, fields)
+    return CertifiedTurn("infeasible", INFEASIBLE, None, None, spent, fields)
 
 
 def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

@@ -17,6 +17,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real, Reals
 from optimizer.circle import Circle, smallest_circle
+from optimizer.moved import Harmonics, moved
 from optimizer.pieces import Bracket, Index, Pieces
 
 #: points added to those of the pieces for the smallest circle around a curve, at most
@@ -61,6 +62,8 @@ class TurnResponse:
     influence : (K,) change of the curve for one kg m on each web; real, or complex where a counterweight answers out
         of line with itself. Constant over the turn.
     curves, number : the curve without counterweights, over omega^2: one of several that are evaluated together.
+    turning : (K,) how often what each web adds turns, as the shaft sees it, while the shaft turns once: the influence
+        is then H_k e^{j n_k theta}. None where all of it stands still.
     """
 
     name: str
@@ -68,6 +71,7 @@ class TurnResponse:
     influence: Real | Complex
     curves: Curves
     number: int
+    turning: Real | None = None
 
     @property
     def period_deg(self) -> float:
@@ -76,6 +80,19 @@ class TurnResponse:
     def offset(self, unbalance: Complex) -> complex:
         """What counterweights (K,) kg m add to the curve."""
         return complex(np.sum(self.influence * unbalance))
+
+    def influence_at(self, angle: float) -> Real | Complex:
+        """Influence (K,) at a shaft angle [rad]."""
+        return self.influence if self.turning is None else self.influence * np.exp(1j * self.turning * angle)
+
+    def added(self, unbalance: Complex, angle: Real) -> Complex | complex:
+        """What counterweights (K,) kg m add to the curve at angles (n,) rad; one for all where it stands still."""
+        moving = self.harmonics(unbalance)
+        return self.offset(unbalance) if moving is None else moving.at(angle)
+
+    def harmonics(self, unbalance: Complex) -> Harmonics | None:
+        """What counterweights (K,) kg m add to the curve, where some of it turns; None where it stands still."""
+        return None if self.turning is None else Harmonics(self.turning, self.influence * unbalance)
 
     def at(self, angle: Real) -> Complex:
         """The curve without counterweights at angles (n,) rad."""
@@ -115,7 +132,17 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
     tolerance : (responses,) or one for all, of upper - lower, relative to lower.
     """
     offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
-    return peaks_about(responses, offset, tolerance)
+    if all(response.turning is None for response in responses):
+        return peaks_about(responses, offset, tolerance)
+    # what turns makes another curve of each
+    asked = np.broadcast_to(tolerance, len(responses))
+    each = [
+        peaks_about([response], offset[k : k + 1], asked[k])
+        if response.turning is None
+        else _moving(response, unbalance, asked[k])
+        for k, response in enumerate(responses)
+    ]
+    return Bracket(*(np.concatenate(part) for part in zip(*each, strict=True)))
 
 
 def peaks_about(responses: Sequence[TurnResponse], offset: Complex, tolerance: Reals) -> Bracket:
@@ -129,6 +156,14 @@ def peaks_about(responses: Sequence[TurnResponse], offset: Complex, tolerance: R
     found = [responses[group[0]].curves.pieces.peaks(offset[group], asked[group], number[group]) for group in groups]
     order = np.argsort(np.concatenate([np.array(group, dtype=np.intp) for group in groups]))
     return Bracket(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
+
+
+def _moving(response: TurnResponse, unbalance: Complex, tolerance: Reals) -> Bracket:
+    """Peak (1,) of a curve to which counterweights add what turns; its value is that without them all the same."""
+    by = response.harmonics(unbalance)
+    assert by is not None  # that is what turns
+    found = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
+    return found._replace(value=found.value - by.at(found.angle))
 
 
 class Floor(NamedTuple):

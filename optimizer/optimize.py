@@ -106,7 +106,7 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
     solving = time.perf_counter()
     best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
     reporting = time.perf_counter()
-    figures = answered(scene, best.unbalance, always, best.fields)
+    figures = answered(replace(scene, shafts=best.shafts), best.unbalance, always, best.fields)
     worst = _nothing_off(request, scene, best.unbalance, best.fields)
     end = time.perf_counter()
     return OptimizeAnswer(

@@ -136,6 +136,12 @@ class Response:
             return alone
         return replace(alone, influence=self.influence + (1.0 if axis == "x" else -1.0) * self.counter_influence)
 
+    def unmirrored(self) -> "Response":
+        """The same where webs of shafts that turn backwards stand for themselves: no vector may hold both phasors."""
+        if self.counter_influence is None:
+            return self
+        return replace(self, baseline=Phasors(self.baseline.co, np.conj(self.baseline.counter)))
+
     def over_turn(self, unbalance: Complex, turned_rad: Real) -> Complex:
         """Response with counterweights while the shaft turns (..., n).
 

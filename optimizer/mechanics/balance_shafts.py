@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real, total
+from optimizer.curve import TurnResponse
 from optimizer.mechanics import inertia
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import BalanceWebs, Layout
@@ -62,3 +63,32 @@ def _widened(response: Response, shafts: BalanceWebs, arm: Real) -> Response:
         influence=np.concatenate([response.influence, co], axis=-1),
         counter_influence=np.concatenate([own, counter], axis=-1) if np.any(shafts.ratio == -1.0) else None,
     )
+
+
+def with_balance_shafts(layout: Layout, response: TurnResponse, plane: Real | None) -> TurnResponse:
+    """Force or, about a plane, moment of all orders on the frame, with the webs of balance shafts behind the others.
+
+    What a shaft adds turns, as the crankshaft sees it, s (rho - 1) times while that turns once.
+
+    Parameters
+    ----------
+    plane : () m, of the moment; None of the force.
+    """
+    shafts = layout.balance
+    if shafts is None:
+        return response
+    arm = np.ones_like(shafts.position) if plane is None else shafts.position - plane
+    turning = layout.sense * (shafts.ratio - 1.0)
+    return replace(
+        response,
+        influence=np.concatenate([response.influence, arm * shafts.ratio**2]),
+        turning=np.concatenate([np.zeros(response.influence.shape), turning]),
+    )
+
+
+def beside(layout: Layout, responses: tuple[TurnResponse, ...]) -> tuple[TurnResponse, ...]:
+    """Responses of the crankshaft itself, which balance shafts do not load: their webs behind the others do nothing."""
+    if layout.balance is None:
+        return responses
+    none = np.zeros(layout.balance.position.shape)
+    return tuple(replace(each, influence=np.concatenate([each.influence, none])) for each in responses)

@@ -15,6 +15,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.curve import TurnResponse
+from optimizer.mechanics.balance_shafts import beside, with_balance_shafts
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
@@ -54,7 +55,7 @@ def bearing_loads(
     places : (B,) m.
     influence : of the shaft, :func:`bearings.simple_spans_influence` or :func:`bearings.continuous_beam_influence`.
     """
-    return shaft_curves(turn, layout, influence(places, planes(layout))).responses(names, "N")
+    return beside(layout, shaft_curves(turn, layout, influence(places, planes(layout))).responses(names, "N"))
 
 
 def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: Influence) -> tuple[TurnResponse, ...]:
@@ -67,7 +68,7 @@ def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: In
     moment = bending_influence(layout, places, influence, corners)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
     names = [f"bending:{station!r}" for station in corners[some].tolist()]
-    return shaft_curves(turn, layout, moment[some]).responses(names, "N m")
+    return beside(layout, shaft_curves(turn, layout, moment[some]).responses(names, "N m"))
 
 
 def shaking(turn: WholeTurn, layout: Layout) -> tuple[TurnResponse, TurnResponse]:
@@ -82,7 +83,7 @@ def shaking(turn: WholeTurn, layout: Layout) -> tuple[TurnResponse, TurnResponse
     arms = planes(layout) - layout.reference_plane
     (force,) = shaft_curves(turn, layout, np.ones((1, arms.size)), "on_frame").responses(["force"], "N")
     (moment,) = shaft_curves(turn, layout, arms[None], "on_frame").responses(["moment"], "N m")
-    return force, moment
+    return with_balance_shafts(layout, force, None), with_balance_shafts(layout, moment, layout.reference_plane)
 
 
 def stations(layout: Layout, places: Real) -> Real:

@@ -77,7 +77,7 @@ class Quantity:
 
     def cut(self, angle: float, value: complex) -> Cut:
         """The cut of the peak at an angle [rad], where the curve has a value."""
-        return Cut(value, self.response.influence, angle_deg=float(np.rad2deg(angle)))
+        return Cut(value, self.response.influence_at(angle), angle_deg=float(np.rad2deg(angle)))
 
     def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Reached:
         """The peak where counterweights scatter, from what it is where they do not."""
@@ -116,7 +116,10 @@ class Samples:
             angle, values = together[id(curves)]
             self._places.append((angle, _cleared(quantity, values[number])))
         #: quantities whose curves cancel to their rounding error everywhere
-        self.cancelled = [not np.any(values) for _, values in self._places]
+        self.cancelled = [
+            not np.any(values) and quantity.response.turning is None
+            for quantity, (_, values) in zip(quantities, self._places, strict=True)
+        ]
 
     def first(self) -> tuple[tuple[Cut, ...], ...]:
         """Cuts to begin with: what holds the smallest circle, or the still and the moving part by themselves."""
@@ -138,7 +141,7 @@ class Samples:
             if quantity.measure == "rms":
                 found.append(quantity.rms(u, scatter))
                 continue
-            size = np.abs(value + quantity.response.offset(u))
+            size = np.abs(value + quantity.response.added(u, angle))
             k = int(np.argmax(size))
             cut = quantity.cut(float(angle[k]), complex(value[k]))
             found.append(quantity.peak(u, scatter, float(size[k]), float(size[k]), cut))

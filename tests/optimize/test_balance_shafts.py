@@ -152,3 +152,119 @@ def test_what_is_not_done_with_balance_shafts_is_refused_by_name() -> None:
     assert _refused(OptimizeRequest, {**body, "scenarios": [{"name": "as it is"}]}) == ("scenarios",)
     forward = {"machine": single([shaft("one", 1)]), "objective": {"force_ceiling_N": 0.7 * WHOLE}}
     assert optimized(forward).status == "optimal"
+
+
+# ---- all orders, by cuts whose influence turns
+
+
+def turned(body: dict[str, Any], found: OptimizeAnswer, step: float = 0.25) -> np.ndarray:
+    """Independent: force and couple over the turn, of masses times accelerations (n, 2)."""
+    answered = found.model_dump()
+    return np.array([at(body, answered, theta) for theta in np.arange(0.0, 360.0, step)])
+
+
+@pytest.mark.parametrize(
+    ("shafts", "webs", "expected"),
+    [
+        # analytic: 1 + lambda; the least that a web can, at 0.603531; lambda / sqrt(1 - lambda^2)
+        ((), 0, 1.3),
+        ((), 1, 0.6964692),
+        ((-1,), 1, 0.3 / np.sqrt(1.0 - 0.09)),
+        # independent: brute force
+        ((2,), 1, 0.6112893),
+    ],
+)
+def test_a_single_cylinder_over_all_orders(shafts: tuple[int, ...], webs: int, expected: float) -> None:
+    body = single([shaft(f"at {ratio}", ratio) for ratio in shafts], webs)
+    found = answer(body, orders="all")
+    assert found.status == "optimal"
+    # an optimum may be above it by a millionth of 1.3
+    assert found.certificate.objective / WHOLE == pytest.approx(expected, abs=1.5e-6)
+    assert found.certificate.objective - found.certificate.lower_bound <= 1e-6 * 1.3 * WHOLE
+    assert np.max(np.abs(turned(body, found)[:, 0])) == pytest.approx(found.certificate.objective, rel=1e-5)
+    if webs and not shafts:
+        assert found.counterweights[0].mass_radius_kg_m == pytest.approx(0.603531, abs=1e-5)
+
+
+def _lanchester(**objective: Any) -> tuple[dict[str, Any], OptimizeAnswer]:
+    body = in_line_four([shaft("with", 2, 0.18), shaft("against", -2, 0.18)])
+    return body, answer(body, orders="all", moment_weight=0, **objective)
+
+
+def test_lanchesters_pair_takes_the_second_order_of_an_in_line_four() -> None:
+    body, found = _lanchester()
+    sizes = [one.mass_radius_kg_m for each in found.balance_shafts for one in each.counterweights]
+    # analytic: m r A_2 / 2 on each, opposite the outer cranks, a hair more where the fourth order counts too
+    assert sizes == pytest.approx([0.1535253] * 2, rel=1e-3)
+    assert [each.counterweights[0].angle_deg for each in found.balance_shafts] == pytest.approx([270.0] * 2, abs=0.01)
+    assert np.max(np.abs(turned(body, found)[:, 0])) == pytest.approx(found.certificate.objective, rel=1e-5)
+    # what the second order was, and that all is told as it is
+    assert found.residual.orders.before[1].force.peak_N == pytest.approx(8.0 * 0.1535253 * WHOLE, rel=1e-6)
+    assert found.residual.orders.after[1].force.peak_N <= 2e-3 * WHOLE
+    assert [one.code for one in found.warnings if one.code == "second_order_remains"] == []
+    given = [{"web": f"{name} web", "mass_kg": 1.5352532, "angle_deg": 270.0} for name in ("with", "against")]
+    asked = {"machine": body, "counterweights": given, "outputs": ["residual"]}
+    exact = analyze(AnalyzeRequest.model_validate(asked)).residual.orders.after[1]
+    assert exact.force.peak_N <= 1e-6 * WHOLE
+
+
+def test_what_shafts_at_twice_the_speed_could_do_is_said() -> None:
+    body, _ = _lanchester()
+    (told,) = [one for one in answer(body).warnings if one.code == "second_order_remains"]
+    assert "ask for all orders" in told.message
+    body["balance_shafts"][1]["webs"][0]["max_mass_kg"] = 0.5
+    (told,) = [one for one in answer(body, orders="all").warnings if one.code == "second_order_remains"]
+    assert "balance shafts at twice the speed leave" in told.message
+
+
+def test_ceilings_over_all_orders_count_the_shafts() -> None:
+    body, free = _lanchester()
+    whole = free.certificate.objective_without_counterweights
+    # out of the middle, so that what takes the force makes a moment
+    beside = in_line_four([shaft("with", 2, 0.1), shaft("against", -2, 0.1)])
+    found = answer(beside, orders="all", moment_weight=1, force_weight=0.01, force_ceiling_N=0.3 * whole)
+    assert (found.status, found.active_limits) == ("optimal", ("force_ceiling",))
+    assert np.max(np.abs(turned(beside, found)[:, 0])) == pytest.approx(0.3 * whole, rel=1e-5)
+    refused = answer(body, orders="all", force_ceiling_N=0.5 * free.certificate.objective)
+    assert refused.status == "infeasible"
+    assert refused.infeasibility.conflict == ("force_ceiling_N",)
+    (reached,) = refused.infeasibility.smallest
+    assert reached.smallest == pytest.approx(free.certificate.objective, rel=1e-4)
+    assert len(refused.infeasibility.closest.balance_shafts) == 2
+
+
+def test_bearings_are_not_loaded_by_balance_shafts() -> None:
+    body = single([shaft("back", -1)], bearings=[{"name": "A", "position_m": -0.2}, {"name": "B", "position_m": 0.2}])
+    with_them = answer(body, bearing_weight=1, force_weight=0, moment_weight=0)
+    without = answer({**body, "balance_shafts": []}, bearing_weight=1, force_weight=0, moment_weight=0)
+    assert with_them.certificate.objective == pytest.approx(without.certificate.objective, rel=2e-6)
+    assert with_them.balance_shafts_mass_kg == pytest.approx(0.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("rotation", ["ccw", "cw"])
+def test_nobody_near_is_better_over_all_orders(rotation: str) -> None:
+    body = _inclined(rotation)
+    body["balance_shafts"] += [shaft("t", 2, 0.3, 0.4), shaft("u", -2, 0.1, 0.5)]
+    found = answer(body, orders="all", combine="max")
+    assert found.status == "optimal"
+    # independent: sampled, and unbalances moved at random
+    weight = 1.0 / 0.7
+
+    def sampled(answered: dict[str, Any]) -> float:
+        turn = np.array([at(body, answered, theta) for theta in np.arange(0.0, 360.0, 2.0)])
+        return max(float(np.max(np.abs(turn[:, 0]))), weight * float(np.max(np.abs(turn[:, 1]))))
+
+    best = found.model_dump()
+    assert sampled(best) == pytest.approx(found.certificate.objective, rel=2e-3)
+    rng = np.random.default_rng(7)
+    places = [*body["webs"], *(place for each in body["balance_shafts"] for place in each["webs"])]
+    for scale in (1e-3, 1e-2, 0.1):
+        other = found.model_dump()
+        fitted = [
+            *other["counterweights"],
+            *(one for each in other["balance_shafts"] for one in each["counterweights"]),
+        ]
+        for place, one in zip(places, fitted, strict=True):
+            one["mass_kg"] = min(place["max_mass_kg"], one["mass_kg"] * (1.0 + scale * rng.normal()))
+            one["angle_deg"] += 90.0 * scale * rng.normal()
+        assert sampled(other) >= found.certificate.lower_bound * (1.0 - 2e-3)
