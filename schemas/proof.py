@@ -15,7 +15,7 @@ ResponseName = Annotated[
     ),
 ]
 #: a row of the objective: of a cut the response and the angle
-RowName = Annotated[str, StringConstraints(min_length=1, max_length=128)]
+RowName = Annotated[str, StringConstraints(min_length=1, max_length=192)]
 Part = Literal["co", "counter"]
 
 _PART = (

@@ -320,6 +320,15 @@ def test_bearings_in_the_worst_of_several_speeds_with_tolerances() -> None:
     assert {each.scenario for each in answer.certificate.multipliers.objective.terms} == {"as it is", "slow"}
 
 
+def test_the_longest_names_have_room_in_the_proof() -> None:
+    made, name = one_throw(), "n" * 64
+    for n, bearing in enumerate(made["bearings"]):
+        bearing["name"] = f"{n}{name[1:]}"
+    answer = answered(made, objective={"bearing_weight": 1}, scenarios=[scenario(name), scenario("b", speed_rpm=8.7)])
+    assert answer.certificate is not None
+    assert max(len(each.name) for each in answer.certificate.multipliers.objective.rows) > 128
+
+
 def test_force_and_bearings_of_the_worst_scenario_are_summed_there() -> None:
     """Analytic: one throw of m r = 1 and an infinite rod, at 1 and at 2 rad/s: four times the optimum at 1 rad/s."""
     made, goal = one_throw(), {"moment_weight": 0, "bearing_weight": 1, "least_mass": False}
