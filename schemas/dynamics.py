@@ -242,6 +242,11 @@ class BearingLoad(Model):
         "smallest circle around the load as the shaft sees it",
         examples=[38000.0],
     )
+    circle_x_N: Newtons = Field(
+        description="x of the centre of that circle, as drawn at shaft angle 0; counterweights move nothing else",
+        examples=[52000.0],
+    )
+    circle_y_N: Newtons = Field(description="y of its centre", examples=[0.0])
 
 
 class MainBearing(Model):

@@ -1,8 +1,11 @@
 """Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.circle import Circle
 from optimizer.curve import floors
 from optimizer.figures.output import Columns, Output
 from optimizer.figures.peaks import (
@@ -29,11 +32,12 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     planes = stations(scene.layout, bearing_places(machine))
     found = bearing_and_bending_curves(scene, planes)
-    floor = np.array([each.circle.radius for each in floors(found.curves, FLOOR_TOLERANCE)]) * scene.omega_squared
+    circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE)]
+    floor = np.array([circle.radius for circle in circles]) * scene.omega_squared
     before = of_shaft(scene, found, None)
     after = None if unbalance is None else of_shaft(scene, found, unbalance)
-    loads = _loads(scene, found, before, floor, None)
-    fitted = None if after is None else _loads(scene, found, after, floor, unbalance)
+    loads = _loads(scene, found, before, circles, None)
+    fitted = None if after is None else _loads(scene, found, after, circles, unbalance)
     count = len(machine.bearings)
     shown = before if after is None else after
     worst = int(np.argmax(shown.lower[count:]))
@@ -62,18 +66,19 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
 
 
 def _loads(
-    scene: Prepared, found: ShaftCurves, peak: Bracket, floor: Real, unbalance: Complex | None
+    scene: Prepared, found: ShaftCurves, peak: Bracket, circles: Sequence[Circle], unbalance: Complex | None
 ) -> tuple[BearingLoad, ...]:
     """Loads of the bearings of one machine without or with counterweights (webs,) kg m."""
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     bearings = machine.bearings
     square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
-    offset = np.zeros(len(floor), dtype=complex) if unbalance is None else found.offsets(unbalance)
+    offset = np.zeros(len(circles), dtype=complex) if unbalance is None else found.offsets(unbalance)
     _, loads = scene.results["shaft_loads"]
     # the webs come last
     samples = bearing_influence(scene)[:, : len(loads)] @ loads
     samples = samples + offset[: len(samples), None] * turned(scene.layout.sense, turn) * square
+    centre = (np.array([circle.centre for circle in circles]) + offset) * square
     rms = np.sqrt(found.curves.variance + np.abs(found.curves.mean + offset) ** 2) * square
     return tuple(
         BearingLoad(
@@ -84,7 +89,9 @@ def _loads(
             peak_angle_deg=float(np.rad2deg(peak.angle[k])),
             specific_load_Pa=_over_area(float(peak.lower[k]), bearings[k]),
             rms_N=float(rms[k]),
-            floor_N=float(floor[k]),
+            floor_N=float(circles[k].radius * square),
+            circle_x_N=float(centre[k].real),
+            circle_y_N=float(centre[k].imag),
         )
         for k, one in enumerate(samples)
     )

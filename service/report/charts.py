@@ -88,20 +88,20 @@ def chart(
     top, left = 24.0 + 16.0 * rows, 66.0
     drawing = Drawing(PAGE_WIDTH, top + 190.0, f"{title}: {', '.join(line.name for line in lines)}")
     found = [value for line in lines for value in line.values if value is not None]
-    factor, prefix = _prefix(max(map(abs, found), default=0.0))
-    low, high, steps = _axis(min(found, default=0.0) / factor, max(found, default=0.0) / factor)
+    factor, large = prefix(max(map(abs, found), default=0.0))
+    low, high, steps = axis(min(found, default=0.0) / factor, max(found, default=0.0) / factor)
     bottom = top + 150.0
     x = _Scale(*_ends(places, ticks), left, PAGE_WIDTH - 14.0)
     y = _Scale(low, high, bottom, top)
     for value in steps:
         drawing.line([(left, y(value)), (x.end, y(value))], INK if value == 0 else FAINT, 0.8)
-        drawing.text((left - 6, y(value) + 3.5), _tick(value), "end", 10)
-    for value in ticks or _axis(x.low, x.high)[2]:
+        drawing.text((left - 6, y(value) + 3.5), tick(value), "end", 10)
+    for value in ticks or axis(x.low, x.high)[2]:
         if x.low <= value <= x.high:
             drawing.line([(x(value), top), (x(value), bottom + 4)], FAINT, 0.8)
-            drawing.text((x(value), bottom + 16), _tick(value), "middle", 10)
+            drawing.text((x(value), bottom + 16), tick(value), "middle", 10)
     drawing.line([(left, top), (left, bottom), (x.end, bottom)], MUTED, 0.8)
-    drawing.text((left, 12), f"{title}, {prefix}{unit}", size=11)
+    drawing.text((left, 12), f"{title}, {large}{unit}", size=11)
     drawing.text((x.end, bottom + 32), across, "end", 10, MUTED)
     for index, line in enumerate(lines):
         stroke, dash = SERIES[index % MAX_LINES], DASHES[index % MAX_LINES]
@@ -124,17 +124,17 @@ def hodograph(title: str, unit: str, ellipses: Sequence[Ellipse], least: float =
     width = PAGE_WIDTH / 2 - 6
     drawing = Drawing(width, width + 46, f"hodograph of {title}: {', '.join(one.name for one in ellipses)}")
     largest = max([one.major for one in ellipses] + [least])
-    factor, prefix = _prefix(largest)
-    low, high, steps = _axis(-largest / factor, largest / factor, 8)
+    factor, large = prefix(largest)
+    low, high, steps = axis(-largest / factor, largest / factor, 8)
     x, y = _Scale(low, high, 42, width - 8), _Scale(low, high, width - 38, 12)
     for value in steps:
         stroke = MUTED if value == 0 else FAINT
         drawing.line([(x(low), y(value)), (x(high), y(value))], stroke, 0.8)
         drawing.line([(x(value), y(low)), (x(value), y(high))], stroke, 0.8)
-        drawing.text((x(low) - 4, y(value) + 3.5), _tick(value), "end", 9)
-        drawing.text((x(value), y(low) + 12), _tick(value), "middle", 9)
-    drawing.text((x(high), y(low) + 24), f"{title} x, {prefix}{unit}", "end", 9, MUTED)
-    drawing.text((9, y(high)), f"{title} y, {prefix}{unit}", "end", 9, MUTED, turned=True)
+        drawing.text((x(low) - 4, y(value) + 3.5), tick(value), "end", 9)
+        drawing.text((x(value), y(low) + 12), tick(value), "middle", 9)
+    drawing.text((x(high), y(low) + 24), f"{title} x, {large}{unit}", "end", 9, MUTED)
+    drawing.text((9, y(high)), f"{title} y, {large}{unit}", "end", 9, MUTED, turned=True)
     for index, one in enumerate(ellipses):
         points = [(x(a / factor), y(b / factor)) for a, b in _ellipse(one)]
         if one.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT:
@@ -168,11 +168,11 @@ def _ellipse(one: Ellipse) -> list[Point]:
     return found
 
 
-def _prefix(largest: float) -> tuple[float, str]:
+def prefix(largest: float) -> tuple[float, str]:
     return next(((factor, prefix) for least, factor, prefix in _PREFIXES if largest >= least), (1.0, ""))
 
 
-def _axis(low: float, high: float, parts: int = 5) -> tuple[float, float, list[float]]:
+def axis(low: float, high: float, parts: int = 5) -> tuple[float, float, list[float]]:
     """Ends and marks of an axis: round numbers around the values, 0 among them."""
     low, high = min(low, 0.0), max(high, 0.0)
     if high - low < 1e-200:
@@ -216,5 +216,5 @@ def _thinned(points: list[Point]) -> list[Point]:
     return [points[0], *kept, points[-1]]
 
 
-def _tick(value: float) -> str:
+def tick(value: float) -> str:
     return f"{value + 0.0:.6g}".replace("-", "−") if abs(value) > 1e-300 else "0"

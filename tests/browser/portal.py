@@ -12,6 +12,7 @@ from playwright.sync_api import ConsoleMessage, Locator, Page, Request
 ARTEFACTS = Path(__file__).parents[2] / "artefacts" / "portal"
 ALL_PANELS = (
     "counterweights",
+    "cranks",
     "hodographs",
     "over-angle",
     "orders",

@@ -9,15 +9,15 @@ from tests.browser.portal import ALL_PANELS, Portal, ask, cells
 ALWAYS = ("counterweights", "hodographs", "over-angle", "orders", "pareto", "accuracy", "sweep")
 DRIVEN = ("torque", "rod-loads", "flywheel", "main-bearings")
 MACHINES = {
-    "2d12": (*ALWAYS, *DRIVEN),
+    "2d12": (*ALWAYS, "cranks", *DRIVEN),
     # by inertia alone
-    "v8-cross-plane": (*ALWAYS, "torque", "rod-loads"),
+    "v8-cross-plane": (*ALWAYS, "cranks", "torque", "rod-loads"),
     "scroll-three-pins": (*ALWAYS, "pin-loads"),
 }
 #: plots of each panel; the others hold tables and forms
 PLOTS = {"hodographs": 2, "over-angle": 2, "orders": 2, "pareto": 1, "accuracy": 1, "torque": 1, "rod-loads": 2} | {
     "flywheel": 1,
-    "main-bearings": 3,
+    "main-bearings": 4,
     "pin-loads": 1,
 }
 
@@ -105,6 +105,21 @@ def test_bearing_loads_that_are_weighed_are_told(portal: Portal, url: str) -> No
     assert [float(text.replace(",", "")) for text in row[1:3]] == pytest.approx(largest, rel=1e-4)
     assert "sum of peak force, peak moment and the largest bearing load" in portal.page.locator(".proof").inner_text()
     assert "bearing load +" in portal.page.locator("#answer h2").inner_text()
+
+
+def test_what_stands_beside_the_answer(portal: Portal, url: str) -> None:
+    """Orders 1 and 2, balance rates, goals in their order, and what errors cost: the figures of the API."""
+    portal.open("2d12", ("cranks", "orders"))
+    answer = ask(url, "/v1/optimize", ask(url, "/v1/examples/2d12"))
+    rows = cells(portal.panel("orders").locator("table"))
+    assert [row[0] for row in rows] == ["1, once a turn", "2, twice a turn"]
+    second = answer["residual"]["orders"]["after"][1]
+    assert float(rows[1][2].replace(",", "")) == pytest.approx(second["force"]["peak_N"], rel=1e-4)
+    rates = cells(portal.panel("cranks").locator("table"))
+    assert [float(row[1]) for row in rates] == pytest.approx([one["rate"] for one in answer["balance_rate"]], rel=5e-3)
+    words = portal.page.locator("#answer").inner_text()
+    assert "one per cent of their mass" in words
+    assert "Goals in their order" not in words
 
 
 def test_a_ceiling_of_bearings_is_explained(portal: Portal) -> None:

@@ -27,6 +27,14 @@ def test_the_report_names_goals_and_ceilings(objective: dict[str, Any], words: s
     assert words in html(report(request)).decode()
 
 
+def test_what_goals_came_to_and_their_allowance_stand_in_the_report() -> None:
+    goals = [{"goal": "external", "allowance": 0.01}, {"goal": "bearings"}]
+    request = asked(inline_six(), bearing_weight=1, priorities=goals)
+    document = html(report(request)).decode()
+    assert "Goals before the last, in their order" in document
+    assert "as the shaft sees them" in document
+
+
 def test_every_limit_has_words() -> None:
     named = [*get_args(WebLimit), *get_args(MachineLimit)]
     assert len({limits([name]) for name in named}) == len(named)

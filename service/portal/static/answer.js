@@ -1,5 +1,6 @@
 // The answer in one view: what was reached, the proof in plain words, the drawing.
 
+import { beside as tables } from "./beside.js";
 import { h, table } from "./dom.js";
 import { front } from "./drawing/front.js";
 import { side } from "./drawing/side.js";
@@ -15,6 +16,7 @@ export function showAnswer(place, request, answer, outputs) {
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
     ...comparison(request, answer),
+    ...tables(answer),
     h("div", { class: "drawings" },
       h("figure", {}, front(request.machine, fitted), h("figcaption", {}, "From the front, shaft angle 0")),
       h("figure", {}, side(request.machine, fitted, answer.reference_plane_m),

@@ -6,6 +6,7 @@ import { byId, h } from "./dom.js";
 import { Form } from "./form.js";
 import { accuracy } from "./panels/accuracy.js";
 import { counterweights } from "./panels/counterweights.js";
+import { cranks } from "./panels/cranks.js";
 import { flywheel, mainBearings, rodLoads, torque } from "./panels/dynamics.js";
 import { hodographs, orders, overAngle } from "./panels/first_order.js";
 import { missing, offered, Panels } from "./panels/panels.js";
@@ -20,7 +21,7 @@ import { theme } from "./theme.js";
 const MODEL = "OptimizeRequest";
 const FIRST = "2d12";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
-const PANELS = [counterweights, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
+const PANELS = [counterweights, cranks, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
 const STEP = { step_deg: 2 };
 
 const schema = get("openapi.json").then((document) => new Schema(document));

@@ -10,13 +10,14 @@ from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
 from service.report.chapters.dynamics import OVER_THE_TURN
+from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
-    "orders": lambda _machine, found: balance.orders(found),
+    "orders": lambda _machine, found: orders(found),
     "hodograph": lambda _machine, found: balance.hodograph(found),
     "internal_moment": lambda _machine, found: Chapter(
         "Moment inside the shaft",
@@ -56,7 +57,8 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     yield from worth_knowing(answer)
     if answer.residual is not None and answer.floor is not None:
         before, after = answer.residual.before, answer.residual.after
-        yield balance.first_order(request.machine, before, after, answer.floor, "with counterweights")
+        beside = two_orders(answer.residual.orders)
+        yield balance.first_order(request.machine, before, after, answer.floor, "with counterweights", beside)
     if answer.stages is not None:
         yield balance.stages(answer.stages, ())
     yield from outputs(request.machine, answer)

@@ -7,7 +7,7 @@ from optimizer.formulate import span
 from schemas.answers import Counterweight, FirstOrder, Floor, OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.machine import Machine
-from schemas.outputs import Hodographs, OrdersComparison, Stage
+from schemas.outputs import Hodographs, Stage
 from schemas.requests import OptimizeRequest
 from service.report import charts
 from service.report.blocks import (
@@ -21,6 +21,7 @@ from service.report.blocks import (
     number,
     table,
 )
+from service.report.chapters.orders import two_orders
 from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
@@ -219,16 +220,20 @@ def limits(names: Sequence[str]) -> str:
 def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     """First-order force and moment, and what the counterweights leave."""
     _, left = shown(answer)
-    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer))
+    shown_orders = two_orders(answer.residual.orders)
+    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders)
 
 
-def first_order(machine: Machine, was: FirstOrder, left: FirstOrder | None, floor: Floor, label: str) -> Chapter:
+def first_order(
+    machine: Machine, was: FirstOrder, left: FirstOrder | None, floor: Floor, label: str, beside: Table
+) -> Chapter:
     """First-order force and moment: ellipses as figures and as hodographs.
 
     Parameters
     ----------
     left : with counterweights, if there are any.
     label : what these are.
+    beside : the second order.
     """
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
     rows = [
@@ -257,6 +262,7 @@ def first_order(machine: Machine, was: FirstOrder, left: FirstOrder | None, floo
         (
             Equation(formula("F(theta) = f e^{j s theta} + b e^{-j s theta},   peak |f| + |b|,   floor |b|")),
             table("", ["quantity", "#without counterweights", f"#{label}", "#floor"], rows),
+            beside,
             Figure(
                 (
                     charts.hodograph("force", "N", forces, reach),
@@ -268,24 +274,6 @@ def first_order(machine: Machine, was: FirstOrder, left: FirstOrder | None, floo
             ),
         ),
     )
-
-
-def orders(found: OrdersComparison) -> Chapter:
-    """Forces and moments by multiples of the shaft speed."""
-    left = {one.order: one for one in found.after or ()}
-    rows = [
-        (
-            str(one.order),
-            one.force.peak_N,
-            left[one.order].force.peak_N if left else None,
-            one.moment.peak_Nm,
-            left[one.order].moment.peak_Nm if left else None,
-        )
-        for one in found.before
-    ]
-    heads = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
-    words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
-    return Chapter("Orders", (Paragraph(words), table("", heads, rows)))
 
 
 def hodograph(found: Hodographs) -> Chapter:

@@ -21,6 +21,7 @@ from schemas.dynamics import (
 )
 from schemas.machine import Machine
 from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Samples, extremes, facts, table
+from service.report.chapters.bearing_loci import bearing_loci
 from service.report.chapters.inputs import row_name
 from service.report.charts import MAX_LINES, Line, chart, over_turn
 from service.report.formula import formula
@@ -230,7 +231,7 @@ def _overturning(machine: Machine, found: Overturning) -> Chapter:
     )
 
 
-def _main_bearings(_machine: Machine, found: MainBearings) -> Chapter:
+def _main_bearings(machine: Machine, found: MainBearings) -> Chapter:
     rows = [
         (
             one.name,
@@ -268,6 +269,7 @@ def _main_bearings(_machine: Machine, found: MainBearings) -> Chapter:
         figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
         Figure((drawn,), "Largest bending moment inside the shaft over the turn, plane by plane."),
     ]
+    blocks += bearing_loci(machine, found)
     return Chapter("Main bearings", tuple(blocks))
 
 

@@ -156,7 +156,14 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
             ("relative to, kg", proof.mass_yardstick_kg),
         ]
     rows.append(("found by", proof.method))
-    return Chapter(title, (*blocks, facts("", rows)))
+    if proof.cuts is not None:
+        rows += [("cuts", proof.cuts), ("programs solved", proof.rounds)]
+    blocks.append(facts("", rows))
+    if proof.goals:
+        met = [(goal.goal, goal.value, goal.lower_bound, goal.limit, goal.limit - goal.value) for goal in proof.goals]
+        heads = ["goal", "#came to", "#proven at least", "#the later goals keep it below", "#so may use of it"]
+        blocks.append(table("Goals before the last, in their order", heads, met))
+    return Chapter(title, tuple(blocks))
 
 
 def _bound() -> Equation:

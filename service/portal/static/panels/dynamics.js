@@ -80,30 +80,62 @@ export const mainBearings = {
   ...DRIVEN, id: "main-bearings", output: "main_bearings", title: "Main bearings", needs: ["rods", "bearings"],
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["main_bearings"]))).main_bearings;
-    const [locus, size, bending] = [h("div"), h("div"), h("div")];
+    const [seen, locus, size, bending] = [h("div"), h("div"), h("div"), h("div")];
     const pick = h("select", { id: "bearing", change: () => draw(Number(pick.value)) },
       found.bearings.map((one, index) => h("option", { value: index }, one.name)));
     body.replaceChildren(h("div", { class: "choose" }, h("label", { for: "bearing" }, "Bearing"), pick),
-      h("div", { class: "pair" }, locus, size), bending,
+      h("div", { class: "pair" }, seen, locus),
+      h("p", { class: "about" }, "As the shaft sees it, counterweights move the load and the smallest circle around it together: "
+        + "no peak, the distance of the farthest point from the middle of the shaft, is below the radius."),
+      h("div", { class: "pair" }, size, bending),
       table("Peak loads, N", ["bearing", "plane, m", "before", "at, °", "after", "at, °"], found.bearings.map((one) => [one.name, number(one.position_m),
         number(one.before.peak_N), number(one.before.peak_angle_deg), number(one.after?.peak_N), number(one.after?.peak_angle_deg)])));
     const draw = async (index) => {
+      await plot(seen, () => seenFromTheShaft(found, found.bearings[index], context.request.machine));
       await plot(locus, () => polarPlot(found.bearings[index]));
       await plot(size, () => overTurnPlot(found, found.bearings[index]));
     };
     await draw(0);
     await plot(bending, () => {
-      const { before, after } = colours();
+      const { before, after, floor } = colours();
       const curve = (values, name, style) => ({ x: found.bending.position_m, y: values, name, mode: "lines+markers", line: style });
       const traces = [curve(found.bending.before_Nm, "before", { color: before, dash: "dash" })];
       if (found.bending.after_Nm) traces.push(curve(found.bending.after_Nm, "after", { color: after }));
+      traces.push({ ...curve(found.bending.position_m.map(() => found.bending.floor_Nm), "floor of the largest", { color: floor, dash: "dot", width: 1.5 }), mode: "lines" });
       return { traces, layout: { xaxis: { title: "plane along the shaft, m" }, yaxis: { title: "largest bending moment, N m", rangemode: "tozero" } },
-        label: "Largest bending moment inside the shaft over the turn, along the shaft." };
+        label: `Largest bending moment inside the shaft over the turn, along the shaft: ${figure(found.bending.peak_Nm)} N m at ${figure(found.bending.peak_position_m)} m, `
+          + `never below ${figure(found.bending.floor_Nm)} N m.` };
     });
   },
 };
 
 const loads = (one) => [["before", one.before, "dash"], ["after", one.after, "solid"]].filter(([, load]) => load);
+
+// the load in a frame that turns with the shaft, and the smallest circle around it
+function seenFromTheShaft(found, one, machine) {
+  const sense = machine.rotation === "cw" ? -1 : 1;
+  const turned = (load, part) => load.force_x_N.map((x, step) => {
+    const angle = (-sense * found.angle_deg[step] * Math.PI) / 180;
+    const [cos, sin, y] = [Math.cos(angle), Math.sin(angle), load.force_y_N[step]];
+    return part === "x" ? x * cos - y * sin : x * sin + y * cos;
+  });
+  const round = Array.from({ length: 91 }, (_, step) => (step * Math.PI) / 45);
+  const traces = loads(one).flatMap(([name, load, dash]) => {
+    const color = colours()[name];
+    return [
+      { x: closed(turned(load, "x")), y: closed(turned(load, "y")), name, mode: "lines", line: { color, dash, width: 2 },
+        hovertemplate: "%{x:.5~s}, %{y:.5~s}<extra></extra>" },
+      { x: round.map((angle) => load.circle_x_N + load.floor_N * Math.cos(angle)), y: round.map((angle) => load.circle_y_N + load.floor_N * Math.sin(angle)),
+        name: `circle ${name}`, mode: "lines", line: { color, dash: "dot", width: 1.2 }, hoverinfo: "name", showlegend: false },
+    ];
+  });
+  const far = loads(one).map(([name, load]) => `${name} ${figure(Math.hypot(load.circle_x_N, load.circle_y_N))} N from the middle, peak ${figure(load.peak_N)} N`);
+  return {
+    traces: [...traces, { x: [0], y: [0], mode: "markers", name: "middle of the shaft", marker: { color: colours().floor, size: 8, symbol: "cross" }, hoverinfo: "name" }],
+    layout: { height: 340, xaxis: { title: "as the shaft sees it: x, N" }, yaxis: { title: "y, N", scaleanchor: "x" } },
+    label: `Load of bearing ${one.name} as the shaft sees it. Smallest circle of radius ${figure(one.before.floor_N)} N, its centre ${far.join("; ")}.`,
+  };
+}
 
 function polarPlot(one) {
   return {

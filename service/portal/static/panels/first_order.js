@@ -1,7 +1,7 @@
 // First order: hodographs with the floor, force and moment over the turn, orders.
 
-import { h } from "../dom.js";
-import { figure } from "../format.js";
+import { h, table } from "../dom.js";
+import { figure, number } from "../format.js";
 import { closed, colours, line, overTurn, plot } from "../plots.js";
 import { calm, scales } from "../scales.js";
 
@@ -78,11 +78,20 @@ export const overAngle = {
   },
 };
 
+// what shakes once and what shakes twice a turn
+function firstAndSecond({ before, after }) {
+  const [was, left] = [before, after ?? [null, null]];
+  return table("Orders 1 and 2", ["order", "force before, N", "after, N", "moment before, N m", "after, N m"],
+    ["1, once a turn", "2, twice a turn"].map((name, place) => [name, ...PARTS.flatMap((part) =>
+      [was[place], left[place]].map((one) => number(one?.[part.name][part.peak])))]));
+}
+
 export const orders = {
   id: "orders", output: "orders", title: "Orders", open: true, needs: ["rods"],
   async draw(body, { answer }) {
     const nodes = pair(body);
     const found = answer.orders;
+    body.prepend(firstAndSecond(answer.residual.orders));
     for (const [index, part] of PARTS.entries()) {
       await plot(nodes[index], () => {
         const { before, after } = colours();

@@ -1,0 +1,63 @@
+"""Loci: curves and circles across the shaft, on equal scales and wherever they are."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+from service.report.blocks import digits
+from service.report.charts import axis, prefix, tick
+from service.report.drawing import FAINT, INK, MUTED, PAGE_WIDTH, Drawing
+
+
+class Curve(NamedTuple):
+    """A closed curve, and the smallest circle around it."""
+
+    name: str
+    points: Sequence[complex]
+    centre: complex
+    radius: float
+    stroke: str
+    dash: str | None = None
+
+
+def locus(title: str, unit: str, curves: Sequence[Curve]) -> Drawing:
+    """Curves that the tip of a vector runs along, each with its circle; the origin is in the picture."""
+    side = PAGE_WIDTH / 2 - 6
+    drawing = Drawing(side, side + 46, f"{title}: {', '.join(one.name for one in curves)}")
+    corners = [0j] + [one.centre + one.radius * way for one in curves for way in (-1 - 1j, 1 + 1j)]
+    factor, large = prefix(max(max(abs(each.real), abs(each.imag)) for each in corners))
+    low_x, high_x = min(each.real for each in corners), max(each.real for each in corners)
+    low_y, high_y = min(each.imag for each in corners), max(each.imag for each in corners)
+    half = 0.54 * max(high_x - low_x, high_y - low_y) / factor or 1.0
+    middle = complex(low_x + high_x, low_y + high_y) / (2.0 * factor)
+    per_unit = (side - 50) / (2.0 * half)
+
+    def place(value: complex) -> tuple[float, float]:
+        away = value / factor - middle
+        return 42 + (side - 50) / 2 + per_unit * away.real, 12 + (side - 50) / 2 - per_unit * away.imag
+
+    left, bottom = 42.0, 12.0 + side - 50
+    for value in _within(middle.real - half, middle.real + half):
+        x, _ = place(complex(value * factor, 0.0))
+        drawing.line([(x, 12), (x, bottom)], MUTED if value == 0 else FAINT, 0.8)
+        drawing.text((x, bottom + 12), tick(value), "middle", 9)
+    for value in _within(middle.imag - half, middle.imag + half):
+        _, y = place(complex(0.0, value * factor))
+        drawing.line([(left, y), (side - 8, y)], MUTED if value == 0 else FAINT, 0.8)
+        drawing.text((left - 4, y + 3.5), tick(value), "end", 9)
+    drawing.text((side - 8, bottom + 24), f"{title} x, {large}{unit}", "end", 9, MUTED)
+    drawing.text((9, 12), f"{title} y, {large}{unit}", "end", 9, MUTED, turned=True)
+    for index, one in enumerate(curves):
+        closed = [*one.points, *one.points[:1]]
+        drawing.line([place(point) for point in closed], one.stroke, 1.6, one.dash)
+        drawing.circle(place(one.centre), per_unit * one.radius / factor, one.stroke, width=0.8, dash="2 2")
+        drawing.circle(place(one.centre), 1.5, one.stroke, one.stroke)
+        key = 42.0, side + 2 + 16 * index
+        drawing.line([key, (key[0] + 22, key[1])], one.stroke, 1.6, one.dash)
+        drawing.text((key[0] + 27, key[1] + 3.5), f"{one.name}: circle {digits(one.radius)} {unit}", size=10)
+    drawing.circle(place(0j), 2.0, INK, INK)
+    return drawing
+
+
+def _within(low: float, high: float) -> list[float]:
+    """Round values between two ends."""
+    return [value for value in axis(low, high, 6)[2] if low <= value <= high]
