@@ -7,6 +7,7 @@ from typing import Any
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
 from optimizer.errors import MissingInput
+from optimizer.figures.balance_quality import balance_quality
 from optimizer.figures.balance_rate import BALANCE_RATE, balance_rate
 from optimizer.figures.bearings import MAIN_BEARINGS
 from optimizer.figures.cautions import cautions
@@ -77,6 +78,7 @@ def fields(
     outputs = dict.fromkeys((*always, *scene.request.outputs))
     found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
     if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
+        found["balance_quality"] = balance_quality(scene, unbalance)
         found["floor"] = floor(scene.layout, scene.first_order())
     found["balance_rate"] = balance_rate(scene.machine, unbalance)
     found["warnings"] = cautions(scene, unbalance, found, proven)

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from schemas.balance_quality import GradeReached
 from schemas.base import Answer, Model
 from schemas.caution import Caution
 from schemas.outputs import Order, OutputFields
@@ -389,6 +390,12 @@ class OptimizeAnswer(OutputFields, Answer):
     balance_rate: tuple[BalanceRate, ...] = Field(
         (), description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]
     )
+    balance_quality: GradeReached | None = Field(
+        None,
+        description="balance quality of the shaft (ISO 21940-11); null where the machine asks for none, or no output"
+        " for the first order",
+        examples=[None],
+    )
     warnings: tuple[Caution, ...] = Field(
         (),
         description="what one should know about an answer that is right as it stands",
@@ -422,6 +429,12 @@ class AnalyzeAnswer(OutputFields, Answer):
     )
     balance_rate: tuple[BalanceRate, ...] = Field(
         (), description="balance rate of every throw; empty if infeasible, and of a scroll", examples=[[{"rate": 0.82}]]
+    )
+    balance_quality: GradeReached | None = Field(
+        None,
+        description="balance quality of the shaft (ISO 21940-11); null where the machine asks for none, or no output"
+        " for the first order",
+        examples=[None],
     )
     warnings: tuple[Caution, ...] = Field(
         (),

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from schemas.balance_quality import BalanceQuality
 from schemas.base import Model, NotEmpty
 from schemas.cylinder import Cylinder
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
@@ -175,6 +176,12 @@ class Rotor(Ruled):
         description="unbalances of the shaft itself; they move neither the default reference plane nor the default"
         " weight of the moment",
         examples=[[]],
+    )
+
+    balance_quality: BalanceQuality | None = Field(
+        None,
+        description="balance quality that is asked of the shaft; null asks for none",
+        examples=[{"grade_mm_s": 6.3, "mass_kg": 420, "centre_of_mass_m": 0.0, "plane_a_m": -0.4, "plane_b_m": 0.4}],
     )
 
     def rules(self) -> Iterator[Rule]:

@@ -121,7 +121,7 @@ def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
     rows = [row for throw in _throws(machine) for row in throw.rows]
     tabled = any(getattr(row.cylinder, "pressure", None) is not None for row in rows)
-    return not tabled and all(web.sector is None for web in machine.webs)
+    return not tabled and not machine.unbalances and all(web.sector is None for web in machine.webs)
 
 
 def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
@@ -158,6 +158,8 @@ def _same_from_both_ends(machine: Machine) -> bool:
     ends = throws[0].position_m + throws[-1].position_m
     size = max(abs(throw.position_m) for throw in throws)
     given = machine.reference_plane_m
+    if machine.unbalances:
+        return False
     if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
         return False
     sides = [[_from_an_end(one, ends, turned) for one in throws] for turned in (False, True)]

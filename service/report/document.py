@@ -12,6 +12,7 @@ from schemas.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts
 from service.report.chapters import balance, inputs, reproduction, verdict
 from service.report.chapters.answers import outputs
+from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 
@@ -90,6 +91,7 @@ def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[F
     yield balance.counterweights(request, answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)
+    yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from outputs(request.machine, answer)

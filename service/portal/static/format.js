@@ -1,6 +1,6 @@
 // Numbers and names as people read them.
 
-const SUFFIX = /_(m|kg|deg|rpm|N|Nm|Pa|kg_m2|kg_m|m2|W|J|N_per_m|ms|s)$/;
+const SUFFIX = /_(m|kg|deg|rpm|N|Nm|Pa|kg_m2|kg_m|m2|W|J|N_per_m|mm_s|ms|s)$/;
 
 export function figure(value, digits = 5) {
   if (value === null || value === undefined) return "–";

@@ -9,6 +9,7 @@ from schemas.outputs import OutputFields
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
+from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
@@ -42,6 +43,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield balance.counterweights(request, answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)
+    yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     if answer.stages is not None:
@@ -55,6 +57,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
         yield Chapter("Counterweights", (balance.places(answer.counterweights), total))
     yield from worth_knowing(answer)
+    yield from balance_quality(request.machine, answer)
     if answer.residual is not None and answer.floor is not None:
         before, after = answer.residual.before, answer.residual.after
         beside = two_orders(answer.residual.orders)

@@ -1,0 +1,31 @@
+"""Balance quality of the shaft after ISO 21940-11."""
+
+from collections.abc import Iterator
+
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.machine import Machine
+from service.report.blocks import Chapter, Paragraph, table
+
+
+def balance_quality(machine: Machine, answer: OptimizeAnswer | AnalyzeAnswer) -> Iterator[Chapter]:
+    """Nothing where none is asked for."""
+    found, asked = answer.balance_quality, machine.balance_quality
+    if found is None or asked is None:
+        return
+    gradings = [("without counterweights", found.before)]
+    if found.after is not None:
+        gradings.append(("with counterweights", found.after))
+    rows = [
+        (what, name, plane.position_m, plane.permissible_kg_m, plane.unbalance_kg_m, plane.angle_deg)
+        for what, grading in gradings
+        for name, plane in (("A", grading.plane_a), ("B", grading.plane_b))
+    ]
+    reached = "; ".join(f"{what} G {grading.grade_mm_s:.6g} mm/s" for what, grading in gradings)
+    heads = ["", "plane", "#z, m", "#permissible, kg m", "#deviation, kg m", "#at, deg"]
+    yield Chapter(
+        "Balance quality",
+        (
+            Paragraph(f"Asked for: G {asked.grade_mm_s:.6g} mm/s. Reached: {reached}."),
+            table("Deviation from the design unbalance, in which half of every reciprocating mass turns", heads, rows),
+        ),
+    )
