@@ -180,3 +180,10 @@ def test_bearings_are_chosen_by_name(portal: Portal) -> None:
     panel = portal.panel("main-bearings")
     panel.locator("select").select_option(label="B")
     panel.locator("[role=img][aria-label*='bearing B']").first.wait_for()
+
+
+def test_an_engine_is_drawn_over_both_turns(portal: Portal) -> None:
+    portal.open("inline-four-engine", ("torque",))
+    marks = portal.panel("torque").locator(".xtick text").all_text_contents()
+    # analytic: six equal parts of two turns
+    assert [mark.strip() for mark in marks] == ["0", "120", "240", "360", "480", "600", "720"]
