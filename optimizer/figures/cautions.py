@@ -90,6 +90,8 @@ def _second_order(told: Told) -> Iterator[Caution]:
     """What counterweights on the shaft cannot change, where it is more than what they leave."""
     shafts = told.scene.layout.balance
     remedy = "no counterweight on the crank changes it."
+    if shafts is not None:
+        remedy = "balance shafts at twice the speed could change it."
     if shafts is not None and np.any(np.abs(shafts.ratio) == 2.0):
         remedy = "ask for all orders, so that the balance shafts at twice the speed count."
         request = told.scene.request

@@ -10,6 +10,8 @@ from jsonschema import Draft202012Validator
 
 from optimizer.mechanics.inertia import Wrench, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout
+from optimizer.mechanics.slider_crank import acceleration_harmonic
+from optimizer.optimize import optimize
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 
@@ -171,3 +173,18 @@ def test_the_2d12_has_the_masses_of_its_source_published() -> None:
     np.testing.assert_allclose(arrays.reciprocating.mass, [303.60, 277.53], atol=0.006)
     assert reciprocating(arrays, 1).force.peak == pytest.approx(26.07 * 0.14)
     np.testing.assert_allclose(arrays.reciprocating.rod_ratio, 0.2)
+
+
+def test_balance_shafts_take_what_counterweights_leave() -> None:
+    single = optimize(request_of("single-balance-shaft"))
+    # analytic: of reciprocating masses counterweights alone leave half; 0.9 kg and a third of the rod at 45 mm
+    half = 0.5 * 1.2 * 0.045 * (1500.0 * np.pi / 30.0) ** 2
+    assert single.residual.after is not None
+    assert single.residual.after.force.peak_N <= 1e-5 * half
+    assert single.balance_shafts_mass_kg == pytest.approx(0.5 * 1.2 * 0.045 / 0.03, rel=1e-5)
+    four = optimize(request_of("lanchester-four"))
+    assert four.certificate is not None
+    # analytic: m r A_2 / 2 on each shaft of 20 mm, up to what the fourth order asks for besides
+    second = acceleration_harmonic(2, np.asarray(0.3))
+    assert four.balance_shafts_mass_kg == pytest.approx(2 * 0.5 * 0.7 * 0.045 * second / 0.02, rel=2e-3)
+    assert four.certificate.objective < 0.03 * four.certificate.objective_without_counterweights

@@ -12,7 +12,12 @@ from tests.optimize import by_hand
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
 
-EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.json"))
+#: by hand the proofs are those of the crankshaft alone
+EXAMPLES = sorted(
+    path
+    for path in (Path(__file__).parents[2] / "examples").glob("*.json")
+    if "balance_shafts" not in json.loads(path.read_text())["machine"]
+)
 #: how far the printed bound may lie below the exact one, relative
 CLOSE = 1e-9
 #: of a machine that balances itself: what the bound is in newtons where the sums of the service are exactly 0
