@@ -1,13 +1,22 @@
 """The machine as it stands, or with given counterweights."""
 
 import time
+from collections.abc import Iterator
 from dataclasses import replace
 
+import numpy as np
+
 from optimizer.balance_shafts import fitted
+from optimizer.errors import refuse
 from optimizer.figures.counterweights import as_given
 from optimizer.outputs import fields, prepare
+from optimizer.shapes import envelopes, fitted_masses
 from schemas.answers import AnalyzeAnswer, Timing
+from schemas.base import FieldProblem
 from schemas.requests import AnalyzeRequest
+
+#: by which a mass that was answered may be above what its envelope holds
+_ROUNDING = 1e-12
 
 
 def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
@@ -17,11 +26,17 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     ------
     MissingInput
         if the machine lacks what a requested output needs.
+    OutOfRange
+        if a counterweight is more than its envelope holds.
     """
     start = time.perf_counter()
+    mass, angle = as_given(request)
+    refuse(_too_heavy(request))
+    # what is cut from a plate has the radius that its mass gives it
+    request = request.model_copy(update={"machine": fitted_masses(request.machine, mass)})
     scene = prepare(request)
     reporting = time.perf_counter()
-    given = fitted(request.machine, *as_given(request))
+    given = fitted(request.machine, mass, angle)
     found = fields(replace(scene, shafts=given.on_shafts), given.on_crank)
     end = time.perf_counter()
     return AnalyzeAnswer(
@@ -37,3 +52,13 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
             report_ms=(end - reporting) * 1e3,
         ),
     )
+
+
+def _too_heavy(request: AnalyzeRequest) -> Iterator[FieldProblem]:
+    """Counterweights that are more than the envelope of their web holds."""
+    names = [web.name for web in request.machine.webs]
+    most = {names[k]: float(plate.mass(plate.most)) for k, plate in envelopes(request.machine).items()}
+    for index, one in enumerate(request.counterweights):
+        if one.mass_kg > most.get(one.web, np.inf) * (1.0 + _ROUNDING):
+            message = f"the envelope of this web holds {most[one.web]:.6g} kg at most"
+            yield FieldProblem(("counterweights", index, "mass_kg"), message)

@@ -43,9 +43,20 @@ def certified(
     request : of columns (N,) or of numbers; its designs have one shape of program.
     omega_squared : (N,) rad^2/s^2.
     """
-    machine, goal, square = request.machine, request.objective, omega_squared
-    program = within_reach(formulate(machine, goal, responses, square), solver)
+    machine, goal = request.machine, request.objective
+    program = within_reach(formulate(machine, goal, responses, omega_squared), solver)
     found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
+    return judged(request, program, found, omega_squared)
+
+
+def judged(request: OptimizeRequest, program: Statement, found: Optima, omega_squared: Real) -> Certified:
+    """Counterweights as they are fitted, and what may be claimed of them.
+
+    Parameters
+    ----------
+    program : (N,), over omega^2, of the machine of the request.
+    """
+    machine, goal, square = request.machine, request.objective, omega_squared
     mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
     u = unbalance(mass, angle, program.limits.radius)
     mass_bound = found.mass_lower_bound if goal.least_mass else None

@@ -16,6 +16,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
+from optimizer.shapes import envelopes
 from schemas.answers import MachineLimit, WebLimit
 from schemas.machine import Machine
 
@@ -100,6 +101,14 @@ class _Budget:
         return prices.max_total_mass
 
 
+def _largest_unbalances(machine: Machine) -> Real:
+    """What the envelopes of the webs hold (K,), kg m; inf where there is none."""
+    plates = envelopes(machine)
+    return np.array(
+        [plates[k].unbalance(plates[k].most) if k in plates else np.inf for k in range(len(machine.webs))], dtype=float
+    )
+
+
 #: of every web, as the answer calls them and in its order; one more is one more entry
 WEB_LIMITS: dict[WebLimit, Limit] = {
     "max_mass": MassLimit(
@@ -108,6 +117,11 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
             [np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs]
         ),
         of_one_kg=lambda machine: 1.0,
+    ),
+    "envelope": MassLimit(
+        "(kg m)",
+        largest=_largest_unbalances,
+        of_one_kg=lambda machine: stacked([web.counterweight_radius_m for web in machine.webs]),
     ),
     "sector": _Sector(),
 }

@@ -9,8 +9,9 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
-from optimizer.certified import Certified, certified
+from optimizer.certified import Certified
 from optimizer.certified_robust import certified_robust, nothing_off
+from optimizer.certified_shapes import certified_shapes
 from optimizer.certified_turn import certified_turn
 from optimizer.errors import MissingInput
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
@@ -31,6 +32,7 @@ from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.required import missing
 from optimizer.scene import Prepared
+from optimizer.shapes import envelopes
 from schemas.answers import (
     Certificate,
     Closest,
@@ -68,8 +70,10 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         return _over_the_turn(request, start)
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
-    asked = posed(request)
-    best = certified(asked, scene.responses, np.array([scene.omega_squared]), solver)
+    asked, best = certified_shapes(posed(request), scene.responses, np.array([scene.omega_squared]), solver)
+    if envelopes(request.machine):
+        # of what is cut from a plate the radius follows; no balance shafts stand beside plates
+        request, scene = asked, replace(scene, request=asked)
 
     reporting = time.perf_counter()
     unreachable = bool(best.found.unreachable[0])

@@ -22,6 +22,7 @@ class AccuracyRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.worst_case_rules("the ladder is of one machine as it is given")
+        yield from self.envelope_rules("the ladder is of counterweights of a known radius")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of the whole turn")
         yield from no_balance_shafts(self.machine, ("machine",), "the ladder")

@@ -13,6 +13,7 @@ from schemas.quantities import (
     Degrees,
     KilogramMetres,
     Kilograms,
+    KilogramSquareMetres,
     Metres,
     Milliseconds,
     Name,
@@ -23,6 +24,7 @@ from schemas.robust import PriceOfRobustness, Sensitivity, WorstCase
 
 WebLimit = Literal[
     "max_mass",
+    "envelope",
     "sector",
 ]
 CeilingField = Literal[
@@ -36,8 +38,19 @@ MachineLimit = Literal[
     "bearing_ceiling", "specific_load_ceiling", "bending_ceiling",
 ]  # fmt: skip
 PriceUnit = Literal[
-    "N/kg", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/deg", "N m/N", "N m/(N m)"
+    "N/kg", "N/(kg m)", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/(kg m)", "N m/deg", "N m/N", "N m/(N m)"
 ]  # fmt: skip
+
+
+class Shape(Model):
+    """What is cut from the plate of a web, symmetric about the direction of its unbalance."""
+
+    half_angle_deg: Degrees = Field(description="half the opening, as seen from the shaft", examples=[52.3])
+    chord_height_m: Metres | None = Field(
+        description="distance of the chord from the shaft; null for a sector", examples=[0.153]
+    )
+    outer_radius_m: Metres = Field(description="radius that it reaches: its clearance circle", examples=[0.25])
+    inertia_kg_m2: KilogramSquareMetres = Field(description="moment of inertia about the shaft", examples=[0.61])
 
 
 class Counterweight(Model):
@@ -67,6 +80,7 @@ class Counterweight(Model):
     active_limits: tuple[WebLimit, ...] = Field(
         description="limits of this web that the counterweight touches", examples=[["max_mass"]]
     )
+    shape: Shape | None = Field(None, description="its outline; null where the web has no envelope", examples=[None])
 
 
 class ShaftUnbalance(Model):

@@ -5,7 +5,7 @@ from functools import reduce
 from operator import or_
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from schemas.balance_quality import BalanceQuality
 from schemas.base import Model, NotEmpty
@@ -14,7 +14,7 @@ from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Fraction, Length, Mass, MaxMass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled, larger
-from schemas.units import Unit, positive
+from schemas.units import Unit, between, positive
 
 MAX_THROWS = 500
 MAX_ROWS = 60
@@ -93,14 +93,56 @@ class Sector(Model):
     )
 
 
-class Web(Model):
+class Envelope(Ruled):
+    """The plate from which a counterweight is cut: between two radii, about the direction of its unbalance."""
+
+    shape: Literal["sector", "segment"] = Field(
+        description="sector: bounded by both radii and two edges through the shaft; segment: by a chord and the outer"
+        " radius, the lightest outline that there is",
+        examples=["segment"],
+    )
+    inner_radius_m: Annotated[float, between(0.0, 1e9), Unit("m")] = Field(
+        0.0, description="radius of what is in the way, as the hub; 0 where nothing is", examples=[0.06]
+    )
+    outer_radius_m: Length = Field(description="radius that the counterweight may reach", examples=[0.25])
+    thickness_m: Length = Field(description="thickness along the shaft", examples=[0.04])
+    density_kg_m3: Annotated[float, positive(1e6), Unit("kg/m3")] = Field(
+        7850.0, description="density; steel if not said", examples=[7850]
+    )
+    max_half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
+        90.0, description="half of the largest opening, as seen from the shaft at the outer radius", examples=[75.0]
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield Rule(
+            self.inner_radius_m >= self.outer_radius_m, ("inner_radius_m",), "must be smaller than the outer radius"
+        )
+
+
+class Web(Ruled):
     """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "anyOf": [{"required": ["counterweight_radius_m", "max_mass_kg"]}, {"required": ["envelope"]}]
+        }
+    )
 
     name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
     position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])
-    counterweight_radius_m: Length = Field(description="radius of the counterweight's centre of mass", examples=[0.25])
+    counterweight_radius_m: Annotated[Length | None, Unit("m")] = Field(
+        None, description="radius of the counterweight's centre of mass; not with an envelope", examples=[0.25]
+    )
     max_mass_kg: Annotated[MaxMass | None, Unit("kg")] = Field(
-        description="largest counterweight that fits; 0 allows none, null is no limit", examples=[60.0]
+        None,
+        description="largest counterweight that fits; 0 allows none, null is no limit; must be said but for an"
+        " envelope",
+        examples=[60.0],
+    )
+    envelope: Envelope | None = Field(
+        None,
+        description="the plate from which the counterweight is cut, in place of its radius and its largest mass",
+        examples=[None],
     )
     sector: Sector | None = Field(
         None,
@@ -113,6 +155,21 @@ class Web(Model):
         " two are equally near",
         examples=[0],
     )
+
+    @property
+    def reach_m(self) -> float:
+        """Radius to which a counterweight reaches at most: that of its centre of mass, where no more is known."""
+        return self.envelope.outer_radius_m if self.envelope else self.counterweight_radius_m or 0.0
+
+    def rules(self) -> Iterator[Rule]:
+        if self.envelope is None:
+            # left out, and not null: no limit has to be meant
+            yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), "Field required")
+            yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), "Field required")
+        else:
+            message = "follows from the envelope: leave it out"
+            yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)
+            yield Rule(self.max_mass_kg is not None, ("max_mass_kg",), message)
 
 
 class ShaftUnbalance(Model):
@@ -184,6 +241,11 @@ class Rotor(Ruled):
         examples=[{"grade_mm_s": 6.3, "mass_kg": 420, "centre_of_mass_m": 0.0, "plane_a_m": -0.4, "plane_b_m": 0.4}],
     )
 
+    def no_envelopes(self, message: str) -> Iterator[Rule]:
+        """Rules that no web has an envelope, with paths from the machine."""
+        for k, web in enumerate(self.webs):
+            yield Rule(web.envelope is not None, ("webs", k, "envelope"), message)
+
     def rules(self) -> Iterator[Rule]:
         yield from _unique_names(("webs",), [web.name for web in self.webs])
         yield from _unique_names(("unbalances",), [each.name for each in self.unbalances])
@@ -236,6 +298,12 @@ class ReciprocatingMachine(Rotor):
                 yield Rule(beyond, ("webs", k, "throw"), f"the machine has {len(self.throws)} throw(s), counted from 0")
         if self.friction is not None:
             yield from self.friction.row_rules(rows)
+        if self.balance_shafts:
+            yield from self.no_envelopes("not beside balance shafts")
+        for n, shaft in enumerate(self.balance_shafts):
+            for k, web in enumerate(shaft.webs):
+                path = ("balance_shafts", n, "webs", k, "envelope")
+                yield Rule(web.envelope is not None, path, "a balance shaft's weights have a known radius")
         yield from _bearing_rules(self.bearings)
         if self.balance_shafts:
             yield from self._shaft_rules()

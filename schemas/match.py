@@ -120,6 +120,10 @@ class MatchRequest(Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from no_balance_shafts(self.machine, ("machine",), "a match")
+        for broken, path, message in self.machine.no_envelopes(
+            "parts are matched with counterweights of a known radius"
+        ):
+            yield Rule(broken, ("machine", *path), message)
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need rows to go on")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")

@@ -66,6 +66,7 @@ class ParetoRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.worst_case_rules("a front is of one machine as it is given")
+        yield from self.envelope_rules("a front is of counterweights of a known radius")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
         budgets = self.total_mass_budgets_kg or ()

@@ -256,6 +256,21 @@ class OptimizeRequest(Scene, Ruled):
             scatters = self.tolerances.reciprocating_mass_relative > 0
             message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
             yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
+        if self.objective.over_the_turn or self.robust:
+            also = "scenarios and tolerances" if self.robust else f"objective.{self.objective.over_the_turn[0]}"
+            yield from self.envelope_rules(f"of the first order and of one machine only: not with {also}")
+        limits = self.machine.max_total_mass_kg is not None and any(
+            getattr(self.objective, name) is not None
+            for name in type(self.objective).model_fields
+            if "_ceiling_" in name
+        )
+        if limits:
+            yield from self.envelope_rules("not with a budget and ceilings together")
+
+    def envelope_rules(self, message: str) -> Iterator[Rule]:
+        """Envelopes that are given where only a counterweight of a known radius can be asked for."""
+        for broken, path, said in self.machine.no_envelopes(message):
+            yield Rule(broken, ("machine", *path), said)
 
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
         """Scenarios and tolerances that are given where only the machine as it is can be asked for."""

@@ -8,9 +8,11 @@ from optimizer.arrays import Complex, Real
 from optimizer.figures.balance_rate import own_throws
 from optimizer.limits import WEB_LIMITS, sectors
 from optimizer.mechanics.angles import angle_deg, direction
+from optimizer.mechanics.envelope import Envelope
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
-from schemas.answers import Counterweight
+from optimizer.shapes import envelopes
+from schemas.answers import Counterweight, Shape
 from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine, Web
 from schemas.requests import AnalyzeRequest
 
@@ -92,6 +94,7 @@ def _placed(
     touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
     vectors = unbalance(mass_kg, angles_deg, stacked([web.counterweight_radius_m for web in machine.webs])).tolist()
     throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
+    plates = envelopes(machine)
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(
         Counterweight(
@@ -110,8 +113,20 @@ def _placed(
             y_kg_m=vector.imag,
             centrifugal_force_N=mass * web.counterweight_radius_m * fastest**2,
             active_limits=tuple(name for name, webs in touched.items() if webs[k]),
+            shape=_shape(plates[k], mass * web.counterweight_radius_m) if k in plates and mass > 0.0 else None,
         )
         for k, (web, mass, angle, vector, throw) in enumerate(
             zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, own, strict=True)
         )
+    )
+
+
+def _shape(plate: Envelope, unbalance: float) -> Shape:
+    half_angle = plate.opened(unbalance)
+    chord = plate.chord(half_angle)
+    return Shape(
+        half_angle_deg=float(np.rad2deg(half_angle)),
+        chord_height_m=None if chord is None else float(chord),
+        outer_radius_m=float(plate.outer),
+        inertia_kg_m2=float(plate.inertia(half_angle)),
     )

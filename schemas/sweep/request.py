@@ -175,6 +175,9 @@ class SweepRequest(Ruled):
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
+        for broken, path, message in self.base.machine.no_envelopes("a sweep is of counterweights of a known radius"):
+            if broken:
+                yield FieldProblem(("base", "machine", *path), message)
         if isinstance(self.base, OptimizeRequest):
             for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
                 if broken:

@@ -46,7 +46,7 @@ def front(machine: Machine, fitted: Sequence[Counterweight]) -> Drawing:
     if isinstance(machine, ReciprocatingMachine):
         _rows(drawing, view, machine, reach)
     _sectors(drawing, view, machine.webs)
-    _counterweights(drawing, view, machine, fitted)
+    _counterweights(drawing, view, fitted)
     if isinstance(machine, ReciprocatingMachine):
         _cranks(drawing, view, machine)
     else:
@@ -58,7 +58,7 @@ def front(machine: Machine, fitted: Sequence[Counterweight]) -> Drawing:
 
 def _reach(machine: Machine) -> float:
     """Radius of what is drawn to scale, m; the row axes go on to it."""
-    radii = [web.counterweight_radius_m * (1 + _THICKNESS / 2) for web in machine.webs]
+    radii = [web.reach_m * (1 + _THICKNESS / 2) for web in machine.webs]
     if isinstance(machine, ReciprocatingMachine):
         return 1.25 * max([*radii, *(1.35 * throw.crank_radius_m for throw in machine.throws)])
     guide = machine.anti_rotation
@@ -113,28 +113,27 @@ def _sectors(drawing: Drawing, view: _View, webs: Sequence[Web]) -> None:
     for index, web in enumerate(web for web in webs if web.sector is not None and web.max_mass_kg != 0):
         if web.sector is None or index >= _MAX_LABELS:
             break
-        radius = web.counterweight_radius_m * (1 + _THICKNESS / 2) + (4 + 3 * (index % 4)) / view.scale
+        radius = web.reach_m * (1 + _THICKNESS / 2) + (4 + 3 * (index % 4)) / view.scale
         low, high = (web.sector.centre_deg + side * web.sector.half_angle_deg for side in (-1, 1))
         drawing.line(view.arc(radius, low, high), _ALLOWED, 1.4)
         for edge in (low, high):
             drawing.line([view(radius - 4 / view.scale, edge), view(radius + 4 / view.scale, edge)], _ALLOWED, 1.4)
 
 
-def _counterweights(drawing: Drawing, view: _View, machine: Machine, fitted: Sequence[Counterweight]) -> None:
-    webs = {web.name: web for web in machine.webs}
+def _counterweights(drawing: Drawing, view: _View, fitted: Sequence[Counterweight]) -> None:
     # area = half angle x thickness x radius^2 in proportion to the mass, the thickness in proportion to the radius
-    unit = max((one.mass_kg / webs[one.web].counterweight_radius_m ** 2 for one in fitted), default=0.0)
+    unit = max((one.mass_kg / one.radius_m**2 for one in fitted), default=0.0)
     shown = [one for one in fitted if one.mass_kg > 0]
     for one in shown:
-        radius = webs[one.web].counterweight_radius_m
+        radius = one.radius_m
         half = _WIDEST_DEG * one.mass_kg / (unit * radius**2)
         outer, inner = radius * (1 + _THICKNESS / 2), radius * (1 - _THICKNESS / 2)
         low, high = one.angle_deg - half, one.angle_deg + half
         ring = [*view.arc(outer, low, high), *view.arc(inner, high, low)]
         drawing.area(ring, AFTER, 0.16, AFTER, 1.2)
     for one in shown[:_MAX_LABELS]:
-        drawing.circle(view(webs[one.web].counterweight_radius_m, one.angle_deg), 2.2, AFTER, AFTER)
-    places = [(round(one.angle_deg, 0) % 360.0, one.web, webs[one.web].counterweight_radius_m) for one in shown]
+        drawing.circle(view(one.radius_m, one.angle_deg), 2.2, AFTER, AFTER)
+    places = [(round(one.angle_deg, 0) % 360.0, one.web, one.radius_m) for one in shown]
     for _, group in _grouped(places):
         angle, radius = group[0][0], max(each[2] for each in group)
         text = _joined(name for _, name, _ in group)

@@ -49,7 +49,7 @@ def side(machine: Machine, fitted: Sequence[Counterweight], reference_plane_m: f
     low, high = min(planes), max(planes)
     room = 0.07 * (high - low) or 1.0
     per_m = (_RIGHT - _LEFT) / (high - low + 2 * room)
-    radii = [web.counterweight_radius_m for web in machine.webs] + _radii(machine)
+    radii = [web.reach_m for web in machine.webs] + _radii(machine)
     view = _View(low - room, per_m, _ROOM / max(radii), facing_deg(machine))
     drawing.line([(_LEFT - 14, _MIDDLE), (_RIGHT + 14, _MIDDLE)], INK, 5.0)
     _reference(drawing, view, reference_plane_m)
@@ -121,7 +121,7 @@ def _counterweights(drawing: Drawing, view: _View, machine: Machine, fitted: Seq
             continue
         web = webs[one.web]
         place, half = view.z(web.position_m), 2.0 + 7.0 * one.mass_kg / heaviest
-        end = view.y(view.height(web.counterweight_radius_m, one.angle_deg))
+        end = view.y(view.height(one.radius_m, one.angle_deg))
         drawing.area(
             [(place - half, _MIDDLE), (place + half, _MIDDLE), (place + half, end), (place - half, end)],
             AFTER, 0.16, AFTER, 1.2,

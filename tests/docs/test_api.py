@@ -86,6 +86,11 @@ def test_scenarios_and_tolerances() -> None:
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
+def test_what_is_cut_from_a_plate() -> None:
+    request, shown = blocks(section(API, "Cut from a plate"))
+    agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
+
+
 def test_what_a_shadow_price_promises() -> None:
     """Analytic: below the optimum mass every kilogram takes R omega^2 = 877.3 N off the peak."""
     request, *_ = blocks(section(API, "POST /v1/optimize"))

@@ -15,6 +15,7 @@ from schemas.requests import AnalyzeRequest, OptimizeRequest
 #: suffix of a field's name -> unit; the longest suffix that fits counts
 SUFFIXES = {
     "_kg_m2": "kg m2",
+    "_kg_m3": "kg/m3",
     "_kg_m": "kg m",
     "_m2": "m2",
     "_m": "m",

@@ -55,7 +55,8 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     """What the machine does without and with the counterweights that it was given."""
     if answer.total_mass_kg > 0:
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
-        yield Chapter("Counterweights", (balance.places(answer.counterweights), total))
+        fitted = answer.counterweights
+        yield Chapter("Counterweights", (balance.places(fitted), *balance.outlines(fitted), total))
     yield from worth_knowing(answer)
     yield from balance_quality(request.machine, answer)
     if answer.residual is not None and answer.floor is not None:

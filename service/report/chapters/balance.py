@@ -45,6 +45,7 @@ _FIRST_ORDER = (
 )
 _LIMITS = {
     "max_mass": "largest mass",
+    "envelope": "envelope",
     "sector": "sector",
     "max_total_mass": "largest total mass",
     "force_ceiling": "ceiling of the force",
@@ -153,6 +154,7 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         )
     if fitted:
         blocks.append(places(fitted))
+        blocks += outlines(fitted)
     return Chapter("Counterweights", (*blocks, *shafts, *(_prices(request, answer) if fitted or shafts else ())))
 
 
@@ -190,6 +192,24 @@ def places(fitted: Sequence[Counterweight]) -> Table:
                 for one in fitted
             ],
     )  # fmt: skip
+
+
+def outlines(fitted: Sequence[Counterweight]) -> Iterator[Block]:
+    """What is cut from plates, one row for each web that has one."""
+    rows = [
+        (
+            one.web, one.shape.half_angle_deg, one.shape.chord_height_m, one.radius_m, one.shape.outer_radius_m,
+            one.shape.inertia_kg_m2, one.centrifugal_force_N,
+        )
+        for one in fitted
+        if one.shape is not None
+    ]  # fmt: skip
+    if rows:
+        heads = [
+            "web", "#half opening, deg", "#chord from the shaft, m", "#centre of mass, m", "#clearance radius, m",
+            "#inertia, kg m²", "#bolts hold, N",
+        ]  # fmt: skip
+        yield table("Cut from their plates", heads, rows)
 
 
 def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:

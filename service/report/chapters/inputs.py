@@ -254,13 +254,21 @@ def _places(title: str, webs: Sequence[Web]) -> Table:
         ],
         [
             (
-                web.name, web.position_m, web.counterweight_radius_m,
-                "no limit" if web.max_mass_kg is None else web.max_mass_kg,
+                web.name, web.position_m, *_place(web),
                 *(("any angle", "") if web.sector is None else (web.sector.centre_deg, web.sector.half_angle_deg)),
             )
             for web in webs
         ],
     )  # fmt: skip
+
+
+def _place(web: Web) -> tuple[Cell | float, Cell | float]:
+    """Radius and largest mass, or the plate that both follow from."""
+    plate = web.envelope
+    if plate is None:
+        return web.counterweight_radius_m or 0.0, "no limit" if web.max_mass_kg is None else web.max_mass_kg
+    cut = f"{plate.shape}, radii {digits(plate.inner_radius_m)} to {digits(plate.outer_radius_m)} m"
+    return cut, f"{digits(plate.thickness_m)} m thick, half angle to {digits(plate.max_half_angle_deg)}°"
 
 
 #: fields of the objective that look at the whole turn, in words

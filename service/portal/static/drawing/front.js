@@ -2,7 +2,7 @@
 
 import { s } from "../dom.js";
 import { figure, nameOf } from "../format.js";
-import { arc, circle, degrees, line, metres, points, polar, radiiOf, sense, text, WIDTH } from "./view.js";
+import { arc, circle, degrees, line, metres, points, polar, radiiOf, reachOf, sense, text, WIDTH } from "./view.js";
 
 const MIDDLE = [WIDTH / 2, WIDTH / 2];
 const WIDEST = 55;
@@ -44,7 +44,7 @@ function rows(each) {
 // where a counterweight may sit, if not anywhere
 function allowed(web, scale) {
   if (!web.sector) return null;
-  const radius = scale * metres(web.counterweight_radius_m);
+  const radius = scale * reachOf(web);
   const half = degrees(web.sector.half_angle_deg);
   const centre = degrees(web.sector.centre_deg);
   return s("polygon", { class: "sector", points: points([MIDDLE, ...arc(MIDDLE, 1.2 * radius, centre - half, centre + half)]) },
@@ -53,11 +53,12 @@ function allowed(web, scale) {
 
 // those that hide each other are drawn as one with all names
 function grouped(machine, fitted) {
-  const radius = new Map((machine.webs ?? []).map((web) => [web.name, metres(web.counterweight_radius_m)]));
+  const reach = new Map((machine.webs ?? []).map((web) => [web.name, reachOf(web)]));
   const groups = new Map();
   for (const one of fitted) {
-    const place = `${Math.round(one.angle_deg)} ${radius.get(one.web)}`;
-    groups.set(place, [...(groups.get(place) ?? []), { ...one, radius: radius.get(one.web) }]);
+    const radius = one.radius_m ?? reach.get(one.web);
+    const place = `${Math.round(one.angle_deg)} ${radius}`;
+    groups.set(place, [...(groups.get(place) ?? []), { ...one, radius }]);
   }
   return [...groups.values()];
 }

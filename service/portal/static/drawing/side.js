@@ -2,7 +2,7 @@
 
 import { s } from "../dom.js";
 import { figure, nameOf } from "../format.js";
-import { circle, line, metres, points, radians, radiiOf, text } from "./view.js";
+import { circle, line, metres, points, radians, radiiOf, reachOf, text } from "./view.js";
 
 const WIDTH = 560;
 const HEIGHT = 322;
@@ -70,7 +70,7 @@ function weights(machine, counterweights, at, z) {
       return s("g", { class: "free" }, line([z(place), MIDDLE - 7], [z(place), MIDDLE + 7]), s("title", {}, `${web.name}: nothing`));
     }
     const angle = radians(fitted.angle_deg);
-    const radius = metres(web.counterweight_radius_m);
+    const radius = fitted.radius_m ?? reachOf(web);
     const half = 3 + 9 * (fitted.mass_kg / heaviest);
     const [inner, outer] = [at(place, 0.82 * radius, angle), at(place, 1.18 * radius, angle)];
     const plate = [[inner[0] - half, inner[1]], [inner[0] + half, inner[1]], [outer[0] + half, outer[1]], [outer[0] - half, outer[1]]];

@@ -46,9 +46,12 @@ export function sense(centre, radius, rotation) {
     s("title", {}, `turns ${rotation === "cw" ? "clockwise" : "counter-clockwise"}`));
 }
 
+// the radius to which a counterweight reaches, that of its centre of mass where no more is known
+export const reachOf = (web) => metres(web.envelope ? web.envelope.outer_radius_m : web.counterweight_radius_m);
+
 export const radiiOf = (machine) => [
   ...(machine.throws ?? []).map((each) => 1.25 * metres(each.crank_radius_m)),
-  ...(machine.webs ?? []).map((web) => 1.22 * metres(web.counterweight_radius_m)),
+  ...(machine.webs ?? []).map((web) => 1.22 * reachOf(web)),
   ...(machine.kind === "scroll" ? [1.5 * metres(machine.orbit_radius_m)] : []),
   ...(machine.anti_rotation?.type === "crank_pins" ? [1.1 * metres(machine.anti_rotation.pin_circle_radius_m)] : []),
 ].filter(Number.isFinite);

@@ -1,0 +1,164 @@
+"""Certified counterweights that are cut from plates, whose mass is no multiple of their unbalance.
+
+The mass m(U) of a plate is convex. Chords of it are webs in one plane, each with a radius and a largest mass of its
+own: what they carry together is feasible and no lighter than what is cut. Tangents are such webs too, and no heavier:
+what is proven of them is proven of the plate. Both are laid closer about what the tangents call for, until the gap is
+as asked.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.certified import Certified, certified, judged
+from optimizer.formulate import formulate
+from optimizer.mechanics.envelope import Envelope
+from optimizer.program.limits import Limits
+from optimizer.program.optima import Optima, optima
+from optimizer.program.reach import within_reach
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+from optimizer.response import Response
+from optimizer.shapes import envelopes, fitted
+from schemas.requests import OptimizeRequest
+
+#: half-angles at first, by their tangents: closer both where a plate is all but closed and where it is all but full
+_FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 9)))
+#: how many nodes are kept beside the ends, and how often others are laid
+_KEPT, _ROUNDS = 9, 12
+#: nodes that are nearer than this share of the largest half-angle are one
+_SAME = 1e-9
+
+#: half-angles of every plate, from 0 to the largest, rad
+_Nodes = Mapping[int, Real]
+
+
+def certified_shapes(
+    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+) -> tuple[OptimizeRequest, Certified]:
+    """Certified counterweights of one request, and the request with the radii that they come to.
+
+    Parameters
+    ----------
+    omega_squared : (1,) rad^2/s^2.
+    """
+    plates = envelopes(request.machine)
+    if not plates:
+        return request, certified(request, responses, omega_squared, solver)
+    nodes: _Nodes = {k: _nodes(_FIRST, float(plate.most)) for k, plate in plates.items()}
+    best: tuple[OptimizeRequest, Certified] | None = None
+    for _ in range(_ROUNDS):
+        asked, found, called_for = _round(request, plates, nodes, responses, omega_squared, solver)
+        if best is None or _gap(found) <= _gap(best[1]):
+            best = asked, found
+        if found.status[0] != "inaccurate":
+            return asked, found
+        nodes = {k: _closer(nodes[k], called_for[k]) for k in plates}
+    assert best is not None
+    return best
+
+
+def _gap(found: Certified) -> float:
+    """What is left open of mass and objective, for rounds to be compared; inf where nothing is proven."""
+    return float(np.nan_to_num(found.verdict.relative_gap[0] + found.verdict.mass_gap[0], nan=np.inf))
+
+
+def _round(
+    request: OptimizeRequest,
+    plates: Mapping[int, Envelope],
+    nodes: _Nodes,
+    responses: Sequence[Response],
+    omega_squared: Real,
+    solver: Solver,
+) -> tuple[OptimizeRequest, Certified, Mapping[int, float]]:
+    """What chords find and tangents prove, and the half-angles that the tangents call for."""
+    goal, square = request.objective, omega_squared
+    closed = request.model_copy(update={"machine": fitted(request.machine, dict.fromkeys(plates, 0.0))})
+    webs = range(len(closed.machine.webs))
+    whole = within_reach(formulate(closed.machine, goal, responses, square), solver)
+    owner = np.repeat(np.array(webs), [nodes[k].size - 1 if k in plates else 1 for k in webs])
+
+    def optimum(laid: Callable[[Envelope, Real], _Webs]) -> tuple[Optima, Complex]:
+        program = _pieces(whole, owner, {k: laid(plate, nodes[k]) for k, plate in plates.items()})
+        found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
+        carried = np.zeros(len(webs), complex)
+        np.add.at(carried, owner, found.unbalance[0])
+        return found, carried
+
+    (feasible, u), (proven, called_for) = optimum(_chords), optimum(_tangents)
+    if proven.unreachable[0]:
+        u = called_for
+    asked = request.model_copy(update={"machine": fitted(request.machine, _opened(plates, u))})
+    program = formulate(asked.machine, goal, responses, square)
+    program = replace(program, limits=_limits(program.limits, whole.limits, plates))
+    spent = feasible.certify_s + proven.certify_s
+    found = judged(asked, program, replace(proven, unbalance=u[None], certify_s=spent), square)
+    return asked, found, _opened(plates, called_for)
+
+
+def _opened(plates: Mapping[int, Envelope], u: Complex) -> dict[int, float]:
+    return {k: float(plate.opened(np.abs(u[k]))) for k, plate in plates.items()}
+
+
+def _limits(stated: Limits, reached: Limits, plates: Mapping[int, Envelope]) -> Limits:
+    """Limits of webs with the radii that were found; what the others may reach at most is as it was proven."""
+    most = stated.max_mass.copy()
+    plain = [k for k in range(most.shape[-1]) if k not in plates]
+    most[..., plain] = reached.max_mass[..., plain]
+    return replace(stated, max_mass=most)
+
+
+#: radii and largest masses of webs, m and kg
+_Webs = tuple[Real, Real]
+
+
+def _chords(plate: Envelope, nodes: Real) -> _Webs:
+    mass = np.diff(plate.mass(nodes))
+    return np.diff(plate.unbalance(nodes)) / mass, mass
+
+
+def _tangents(plate: Envelope, nodes: Real) -> _Webs:
+    """Webs no heavier than the plate: its tangents at all nodes but the last, as far as each is the highest."""
+    unbalance, slope = plate.unbalance(nodes), 1.0 / plate.lever(nodes[:-1])
+    at = unbalance[:-1]
+    height = plate.mass(nodes[:-1]) - slope * at
+    rise = np.diff(slope)
+    crossing = np.where(rise > 0, -np.diff(height) / np.where(rise > 0, rise, 1.0), at[1:])
+    ends = np.concatenate([[0.0], np.clip(crossing, at[:-1], at[1:]), unbalance[-1:]])
+    return 1.0 / slope, np.diff(ends) * slope
+
+
+def _pieces(whole: Statement, owner: np.ndarray, webs: Mapping[int, _Webs]) -> Statement:
+    """The program with some webs in place of each plate."""
+    limits = whole.limits
+    parts = {
+        name: getattr(limits, name)[..., owner].copy()
+        for name in ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
+    }
+    for k, (radius, mass) in webs.items():
+        parts["radius"][..., owner == k], parts["max_mass"][..., owner == k] = radius, mass
+    return replace(
+        whole,
+        norms=whole.norms.only(owner),
+        ceilings=whole.ceilings.only(owner),
+        limits=Limits(**parts, max_total_mass=limits.max_total_mass),
+    )
+
+
+def _nodes(inner: Real, most: float) -> Real:
+    """Nodes from 0 to the largest half-angle, none next to another."""
+    every = np.unique(np.concatenate([[0.0], inner[inner < most], [most]]))
+    apart = np.diff(every) > _SAME * most
+    return np.concatenate([every[:-1][apart], [most]])
+
+
+def _closer(nodes: Real, angle: float) -> Real:
+    """Nodes at a half-angle and halfway to those beside it; of the others the nearest."""
+    most = float(nodes[-1])
+    after = int(np.clip(np.searchsorted(nodes, angle), 1, nodes.size - 1))
+    beside = nodes[[after - 1, after]]
+    every = np.concatenate([nodes[1:-1], [angle], 0.5 * (angle + beside)])
+    nearest = every[np.argsort(np.abs(every - angle), kind="stable")][:_KEPT]
+    return _nodes(nearest[nearest > 0], most)

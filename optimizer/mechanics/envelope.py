@@ -1,0 +1,170 @@
+"""Counterweights that are cut from a plate, by half of their opening: unbalance, mass, inertia.
+
+A plate has a thickness t and a density rho, and lies between an inner and an outer radius R1, R2. Of all its parts the
+outermost along the direction of the unbalance have the longest lever, so the lightest counterweight is what lies beyond
+a chord; one that is bounded by two edges through the shaft is an annular sector. Of both the mass is a convex function
+of the unbalance: one more kilogram metre needs dm/dU, the reciprocal of the lever of what is added.
+
+The half-angle a [rad] is that at the outer radius, as seen from the shaft, from 0 to at most a right angle. All
+functions broadcast.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+
+from optimizer.arrays import Real, Reals
+
+#: halvings of an interval: to the last bit
+_HALVINGS = 60
+#: below it x - sin x is summed as a series
+_SMALL = 0.05
+
+
+@dataclass(frozen=True)
+class Plate:
+    """Where a counterweight may be.
+
+    inner, outer : radii, m.
+    areal : thickness times density, kg/m^2.
+    most : largest half-angle, rad.
+    """
+
+    inner: Reals
+    outer: Reals
+    areal: Reals
+    most: Reals
+
+
+class Envelope(Protocol):
+    """A plate and what is cut from it."""
+
+    @property
+    def outer(self) -> Reals: ...
+
+    @property
+    def most(self) -> Reals: ...
+
+    def unbalance(self, half_angle: Reals) -> Real:
+        """Mass times radius, kg m."""
+        ...
+
+    def mass(self, half_angle: Reals) -> Real:
+        """kg."""
+        ...
+
+    def lever(self, half_angle: Reals) -> Real:
+        """dU/dm of what is added at this opening, m; 0 where edges stand at a right angle."""
+        ...
+
+    def inertia(self, half_angle: Reals) -> Real:
+        """Moment of inertia about the shaft, kg m^2."""
+        ...
+
+    def opened(self, unbalance: Reals) -> Real:
+        """Half-angle of the counterweight of an unbalance, rad; the largest for more than the plate holds."""
+        ...
+
+    def chord(self, half_angle: Reals) -> Real | None:
+        """Distance of the chord from the shaft, m; None where there is none."""
+        ...
+
+
+@dataclass(frozen=True)
+class AnnularSector(Plate):
+    """m = rho t a (R2^2 - R1^2), U = 2/3 rho t (R2^3 - R1^3) sin a, J = rho t a (R2^4 - R1^4) / 2."""
+
+    def unbalance(self, half_angle: Reals) -> Real:
+        return self._whole * np.sin(half_angle)
+
+    def mass(self, half_angle: Reals) -> Real:
+        return np.asarray(self._of_angle * half_angle)
+
+    def lever(self, half_angle: Reals) -> Real:
+        return self._whole / self._of_angle * np.cos(half_angle)
+
+    def inertia(self, half_angle: Reals) -> Real:
+        return np.asarray(0.5 * self.areal * (self.outer**4 - self.inner**4) * half_angle)
+
+    def opened(self, unbalance: Reals) -> Real:
+        half_angle: Real = np.minimum(np.arcsin(np.minimum(unbalance / self._whole, 1.0)), self.most)
+        return half_angle
+
+    def chord(self, half_angle: Reals) -> None:
+        return None
+
+    @property
+    def _of_angle(self) -> Reals:
+        return self.areal * (self.outer**2 - self.inner**2)
+
+    @property
+    def _whole(self) -> Reals:
+        return 2.0 / 3.0 * self.areal * (self.outer**3 - self.inner**3)
+
+
+@dataclass(frozen=True)
+class Segment(Plate):
+    """What lies beyond a chord at h = R2 cos a, of the disc of the outer radius without that of the inner one.
+
+    Of a disc with h = R cos b, m = rho t R^2 (b - sin b cos b), U = 2/3 rho t R^3 sin^3 b and
+    J = rho t R^4 (b/2 - sin b cos^3 b / 2 - sin^3 b cos b / 6).
+    """
+
+    def unbalance(self, half_angle: Reals) -> Real:
+        return 2.0 / 3.0 * self.areal * self._of_both(half_angle, 3, lambda b: np.sin(b) ** 3)
+
+    def mass(self, half_angle: Reals) -> Real:
+        return self.areal * self._of_both(half_angle, 2, lambda b: 0.5 * _excess(2.0 * b))
+
+    def lever(self, half_angle: Reals) -> Real:
+        return self.outer * np.cos(half_angle)
+
+    def inertia(self, half_angle: Reals) -> Real:
+        # b/2 - s c^3 / 2 - s^3 c / 6 = (b - s c) / 2 + s^3 c / 3
+        return self.areal * self._of_both(
+            half_angle, 4, lambda b: 0.25 * _excess(2.0 * b) + np.sin(b) ** 3 * np.cos(b) / 3.0
+        )
+
+    def opened(self, unbalance: Reals) -> Real:
+        # as long as the chord misses the hub it is known; else it is between that and the largest
+        beyond = np.arcsin(np.minimum(np.cbrt(unbalance / (2.0 / 3.0 * self.areal * self.outer**3)), 1.0))
+        touching = np.minimum(np.arccos(self.inner / self.outer), self.most)
+        if np.all((beyond <= touching) | (touching >= self.most)):
+            return np.minimum(beyond, self.most)
+        low, high = (np.broadcast_to(each, np.shape(beyond + touching)) for each in (touching, self.most))
+        for _ in range(_HALVINGS):
+            middle = 0.5 * (low + high)
+            more = self.unbalance(middle) > unbalance
+            low, high = np.where(more, low, middle), np.where(more, middle, high)
+        return np.where(beyond <= touching, beyond, np.where(unbalance >= self.unbalance(self.most), self.most, low))
+
+    def chord(self, half_angle: Reals) -> Real:
+        return self.lever(half_angle)
+
+    def _of_both(self, half_angle: Reals, power: int, of_disc: "_OfAngle") -> Real:
+        """R2^n f(a) - R1^n f(b), b the half-angle at the inner radius."""
+        hub = np.where(np.asarray(self.inner) > 0, self.inner, 1.0)
+        inside = np.arccos(np.minimum(self.outer / hub * np.cos(half_angle), 1.0))
+        return self.outer**power * of_disc(np.asarray(half_angle)) - self.inner**power * of_disc(inside)
+
+
+class _OfAngle(Protocol):
+    def __call__(self, half_angle: Real, /) -> Real: ...
+
+
+def opened_for(plate: Envelope, mass: Reals) -> Real:
+    """Half-angle of the counterweight of a mass, rad; the largest for more than the plate holds."""
+    low, high = np.broadcast_arrays(0.0, plate.most, mass)[:2]
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        more = plate.mass(middle) > mass
+        low, high = np.where(more, low, middle), np.where(more, middle, high)
+    return np.where(mass >= plate.mass(plate.most), plate.most, low)
+
+
+def _excess(angle: Real) -> Real:
+    """x - sin x, from 0 to pi."""
+    square = angle**2
+    series = angle * square / 6.0 * (1.0 - square / 20.0 * (1.0 - square / 42.0 * (1.0 - square / 72.0)))
+    return np.where(angle < _SMALL, series, angle - np.sin(angle))

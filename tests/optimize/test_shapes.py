@@ -1,0 +1,247 @@
+"""Counterweights that are cut from a plate, from the request to the answer."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optimizer.analyze import analyze
+from optimizer.errors import OutOfRange
+from optimizer.optimize import optimize
+from schemas.answers import OptimizeAnswer
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from service.documents.examples import bodies
+from service.report.document import report
+from service.report.html import html
+from service.validation import InvalidRequest, check
+
+PLATE = {"inner_radius_m": 0.08, "outer_radius_m": 0.32, "thickness_m": 0.06, "max_half_angle_deg": 75}
+SHAPES = ("sector", "segment")
+
+
+def asked(shape: str, **plate: float) -> dict[str, Any]:
+    """The 2D12 with plates in place of its radii and masses."""
+    body: dict[str, Any] = bodies()["2d12"]
+    for web in body["machine"]["webs"]:
+        del web["counterweight_radius_m"], web["max_mass_kg"]
+        web["envelope"] = {"shape": shape, **PLATE, **plate}
+    return body
+
+
+def answered(body: dict[str, Any]) -> OptimizeAnswer:
+    return optimize(OptimizeRequest.model_validate(body))
+
+
+def one_throw(rotating: float, envelope: dict[str, Any]) -> dict[str, Any]:
+    throw = {"position_m": 0, "crank_radius_m": 0.1, "crank_angle_deg": 30, "rotating_mass_kg": rotating}
+    web = {"name": "a", "position_m": 0, "envelope": envelope}
+    return {"machine": {"kind": "reciprocating", "speed_rpm": 1000, "throws": [throw], "webs": [web]}}
+
+
+def test_one_web_that_balances_one_crank() -> None:
+    plate = {"outer_radius_m": 0.2, "thickness_m": 0.03, "density_kg_m3": 7850}
+    areal = 0.03 * 7850
+    # analytic: U = m r = 2/3 rho t R^3 sin a, m = rho t R^2 a
+    found = answered(one_throw(5.0, {"shape": "sector", **plate}))
+    half = np.arcsin(0.5 / (2.0 / 3.0 * areal * 0.2**3))
+    (one,) = found.counterweights
+    assert found.status == "optimal"
+    assert one.mass_kg == pytest.approx(areal * 0.2**2 * half, rel=1e-5)
+    assert one.shape is not None
+    assert one.shape.half_angle_deg == pytest.approx(np.rad2deg(half), rel=1e-5)
+    assert (one.shape.chord_height_m, one.angle_deg) == (None, pytest.approx(210.0))
+    # analytic: sin^3 a = U / (2/3 rho t R^3), m = rho t R^2 (a - sin a cos a), chord at R cos a
+    found = answered(one_throw(5.0, {"shape": "segment", **plate}))
+    half = np.arcsin(np.cbrt(0.5 / (2.0 / 3.0 * areal * 0.2**3)))
+    (one,) = found.counterweights
+    assert found.status == "optimal"
+    assert one.mass_kg == pytest.approx(areal * 0.2**2 * (half - np.sin(half) * np.cos(half)), rel=1e-5)
+    assert one.shape is not None
+    assert one.shape.chord_height_m == pytest.approx(0.2 * np.cos(half), rel=1e-5)
+    assert one.mass_radius_kg_m == pytest.approx(0.5, rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize("plate", [{}, {"thickness_m": 0.2}, {"max_half_angle_deg": 90}, {"inner_radius_m": 0.0}])
+def test_the_smallest_objective_is_that_of_the_same_reach(shape: str, plate: dict[str, float]) -> None:
+    # independent: in the first stage a plate is how far its unbalance reaches, whatever it weighs
+    found = answered(asked(shape, **plate))
+    body = bodies()["2d12"]
+    size = {**PLATE, **plate}
+    whole = 2 / 3 * size["thickness_m"] * 7850 * (size["outer_radius_m"] ** 3 - size["inner_radius_m"] ** 3)
+    if shape == "sector":
+        whole *= np.sin(np.deg2rad(size["max_half_angle_deg"]))
+    else:
+        height = size["outer_radius_m"] * np.cos(np.deg2rad(size["max_half_angle_deg"]))
+        hub = max(size["inner_radius_m"] ** 2 - height**2, 0.0) ** 1.5
+        whole = 2 / 3 * size["thickness_m"] * 7850 * ((size["outer_radius_m"] ** 2 - height**2) ** 1.5 - hub)
+    for web in body["machine"]["webs"]:
+        web["max_mass_kg"] = whole / web["counterweight_radius_m"]
+    plain = answered(body)
+    assert found.status == plain.status == "optimal"
+    assert found.certificate is not None
+    assert plain.certificate is not None
+    assert found.certificate.lower_bound == pytest.approx(plain.certificate.lower_bound, rel=1e-6)
+
+
+def test_a_segment_is_no_heavier_than_a_sector() -> None:
+    sector, segment = (answered(asked(shape)) for shape in SHAPES)
+    assert segment.total_mass_kg is not None
+    assert sector.total_mass_kg is not None
+    assert segment.total_mass_kg < sector.total_mass_kg
+
+
+@settings(max_examples=12)
+@given(
+    st.sampled_from(SHAPES), st.floats(0.01, 0.3), st.floats(30.0, 90.0), st.floats(0.0, 0.9), st.integers(0, 2**32 - 1)
+)
+def test_nothing_lighter_does_as_well(shape: str, thickness: float, half: float, inner: float, seed: int) -> None:
+    # independent: random counterweights about those that were found, by analyze
+    body = asked(shape, thickness_m=thickness, max_half_angle_deg=half, inner_radius_m=inner * 0.32)
+    found = answered(body)
+    assert found.status == "optimal"
+    proof = found.certificate
+    assert proof is not None
+    assert proof.mass_lower_bound_kg is not None
+    assert proof.mass_objective_limit is not None
+    random = np.random.default_rng(seed)
+    for scale in (1e-6, 1e-4, 1e-2):
+        fitted = [
+            {
+                "web": one.web,
+                "mass_kg": one.mass_kg * (1.0 - scale * random.uniform()),
+                "angle_deg": one.angle_deg + 10 * scale * random.normal(),
+            }
+            for one in found.counterweights
+        ]
+        other = analyze(AnalyzeRequest.model_validate({"machine": body["machine"], "counterweights": fitted}))
+        assert other.residual is not None
+        assert other.residual.after is not None
+        after = other.residual.after
+        span = 0.28 * 2
+        objective = after.force.peak_N + after.moment.peak_Nm / span
+        lighter = other.total_mass_kg < proof.mass_lower_bound_kg * (1.0 - 1e-9)
+        assert not (lighter and objective < proof.mass_objective_limit * (1.0 - 1e-9))
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_is_answered_is_what_analyze_finds(shape: str) -> None:
+    body = asked(shape)
+    found = answered(body)
+    fitted = [{"web": one.web, "mass_kg": one.mass_kg, "angle_deg": one.angle_deg} for one in found.counterweights]
+    again = analyze(AnalyzeRequest.model_validate({"machine": body["machine"], "counterweights": fitted}))
+    assert again.residual is not None
+    assert again.residual.after is not None
+    assert found.residual.after is not None
+    assert again.residual.after.force.peak_N == pytest.approx(found.residual.after.force.peak_N, rel=1e-6)
+    assert again.residual.after.moment.peak_Nm == pytest.approx(found.residual.after.moment.peak_Nm, rel=1e-6)
+    for one, other in zip(found.counterweights, again.counterweights, strict=True):
+        assert other.radius_m == pytest.approx(one.radius_m, rel=1e-6)
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_a_budget_counts_what_is_cut(shape: str) -> None:
+    body = asked(shape)
+    free = answered(body)
+    assert free.total_mass_kg is not None
+    body["machine"]["max_total_mass_kg"] = 0.7 * free.total_mass_kg
+    found = answered(body)
+    assert found.status == "optimal"
+    assert found.total_mass_kg == pytest.approx(0.7 * free.total_mass_kg, rel=1e-4)
+    assert found.active_limits == ("max_total_mass",)
+    assert found.certificate is not None
+    assert free.certificate is not None
+    assert found.certificate.objective > free.certificate.objective * 1.01
+
+
+@pytest.mark.parametrize("shape", SHAPES)
+def test_what_a_thicker_plate_would_gain(shape: str) -> None:
+    # analytic: the unbalance that a plate holds grows with its thickness; central differences of certified objectives
+    found = answered(asked(shape, thickness_m=0.03))
+    prices = {price.web: price.value for price in found.shadow_prices if price.limit == "envelope"}
+    held = {one.web: one.mass_radius_kg_m for one in found.counterweights if "envelope" in one.active_limits}
+    assert set(prices) == set(held)
+    assert len(held) >= 2
+    objectives = []
+    for share in (0.99, 1.01):
+        proof = answered(asked(shape, thickness_m=0.03 * share)).certificate
+        assert proof is not None
+        objectives.append(proof.objective)
+    gained = sum(prices[web] * held[web] * 0.02 for web in held)
+    assert objectives[0] - objectives[1] == pytest.approx(gained, rel=2e-3)
+
+
+def test_ceilings_that_plates_cannot_keep() -> None:
+    body = asked("segment")
+    body["objective"] = {"moment_ceiling_Nm": 10.0}
+    found = answered(body)
+    assert found.status == "infeasible"
+    assert found.infeasibility is not None
+    assert found.infeasibility.conflict == ("moment_ceiling_Nm",)
+
+
+def test_a_report_shows_the_plates() -> None:
+    document = html(report(OptimizeRequest.model_validate(asked("segment")))).decode()
+    assert "segment, radii" in document
+
+
+BAD = {
+    "/machine/webs/0/envelope/inner_radius_m": {"inner_radius_m": 0.4},
+    "/machine/webs/0/envelope/outer_radius_m": {"outer_radius_m": -1},
+    "/machine/webs/0/envelope/density_kg_m3": {"density_kg_m3": 0},
+    "/machine/webs/0/envelope/thickness_m": {"thickness_m": 0},
+    "/machine/webs/0/envelope/max_half_angle_deg": {"max_half_angle_deg": 91},
+    "/machine/webs/0/envelope/shape": {"shape": "heart"},
+}
+
+
+@pytest.mark.parametrize("pointer", BAD)
+def test_a_plate_that_is_none_is_refused_by_its_field(pointer: str) -> None:
+    body = asked("sector")
+    body["machine"]["webs"][0]["envelope"].update(BAD[pointer])
+    with pytest.raises(InvalidRequest) as refused:
+        check(OptimizeRequest, body)
+    assert pointer in {"/" + "/".join(map(str, problem.path)) for problem in refused.value.problems}
+
+
+@pytest.mark.parametrize(
+    ("change", "field"),
+    [
+        ({"counterweight_radius_m": 0.2}, "counterweight_radius_m"),
+        ({"max_mass_kg": 20}, "max_mass_kg"),
+        ({"envelope": None, "max_mass_kg": 5}, "counterweight_radius_m"),
+        ({"envelope": None, "counterweight_radius_m": 0.2}, "max_mass_kg"),
+    ],
+)
+def test_a_web_has_a_plate_or_a_radius_and_a_mass(change: dict[str, Any], field: str) -> None:
+    body = asked("sector")
+    body["machine"]["webs"][1].update(change)
+    with pytest.raises(InvalidRequest) as refused:
+        check(OptimizeRequest, body)
+    assert [problem.path for problem in refused.value.problems] == [("machine", "webs", 1, field)]
+
+
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"objective": {"orders": "all"}},
+        {"tolerances": {"mass_relative": 0.01}},
+        {"objective": {"force_ceiling_N": 1e5}, "max_total_mass_kg": 10},
+    ],
+)
+def test_what_plates_do_not_go_with_is_said(more: dict[str, Any]) -> None:
+    body = asked("sector")
+    body["machine"]["max_total_mass_kg"] = more.pop("max_total_mass_kg", None)
+    with pytest.raises(InvalidRequest) as refused:
+        check(OptimizeRequest, {**body, **more})
+    assert refused.value.problems[0].path == ("machine", "webs", 0, "envelope")
+
+
+def test_more_than_a_plate_holds_is_refused() -> None:
+    machine = asked("segment")["machine"]
+    fitted = [{"web": "1b", "mass_kg": 1000, "angle_deg": 0}]
+    with pytest.raises(OutOfRange, match="holds") as refused:
+        analyze(AnalyzeRequest.model_validate({"machine": machine, "counterweights": fitted}))
+    assert refused.value.problems[0].path == ("counterweights", 0, "mass_kg")
