@@ -7,6 +7,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
+from optimizer.program.cut_settled import settled_turn
 from optimizer.program.cut_stage import Kept, Point, Pool, Proof, Search, Stage, times
 from optimizer.program.limits import Limits
 from optimizer.program.over_turn import OverTurn
@@ -171,8 +172,10 @@ class _Course:
         return self._run(Kept(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
 
     def found(self, mass_proof: Proof | None, target: float) -> Found:
+        statement, most = self.so_far.statement(self.pool.cuts), self._most(len(self.goals))
+        bound = None if mass_proof is None else mass_proof.bound
         return Found(
-            self.inside,
+            settled_turn(self.program, statement, self.inside, most, bound, _TOLD),
             tuple(self.goals),
             mass_proof,
             target,

@@ -7,16 +7,17 @@ their size, that leaves every term of the objective and every response under a c
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, mapped
+from optimizer.program.limits import Limits
 from optimizer.program.points import Points, points_at
 from optimizer.program.scaling import least_change
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 
 #: how near to nothing, or to a limit, as a share of the largest mass or of the limit: the next where one is too much
-_NEAR = (1e-4, 1e-6, 1e-8)
+NEAR = (1e-4, 1e-6, 1e-8)
 #: relative gap of the least mass that may be left
-_HEAVIER = 1e-5
+HEAVIER = 1e-5
 
 
 def settled(statement: Statement, points: Points, target: Real, mass_bound: Real | None) -> Points:
@@ -30,12 +31,13 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     mass_bound : (N,) kg, no optimum is lighter; None where the mass does not count.
     """
     every = np.arange(target.size)
-    heaviest = np.full(target.shape, np.inf) if mass_bound is None else mass_bound / (1.0 - _HEAVIER)
+    heaviest = np.full(target.shape, np.inf) if mass_bound is None else mass_bound / (1.0 - HEAVIER)
 
     def attempt(points: Points, programs: np.ndarray, dust: float, touched: float) -> tuple[Points, np.ndarray]:
         part = statement if programs is every else statement.chosen(programs)
         old = points if programs is every else points.chosen(programs)
-        unbalance, moved = _moved(part, old.unbalance, dust, touched)
+        influence = np.concatenate([part.norms.influence, part.ceilings.norms.influence], axis=-2)
+        unbalance, moved = brought(part.limits, influence, old.unbalance, dust, touched)
         if not moved.size:
             return points, moved
         new = points_at(part, unbalance)
@@ -44,8 +46,8 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
         kept &= new.mass <= np.maximum(old.mass, heaviest[programs])
         return points.put(programs, new.where(kept, old)), programs[moved][~kept[moved]]
 
-    points, undone = attempt(points, every, _NEAR[0], _NEAR[0])
-    for ladder in ([(dust, 0.0) for dust in _NEAR[1:]], [(0.0, touched) for touched in _NEAR]):
+    points, undone = attempt(points, every, NEAR[0], NEAR[0])
+    for ladder in ([(dust, 0.0) for dust in NEAR[1:]], [(0.0, touched) for touched in NEAR]):
         left = undone
         for dust, touched in ladder:
             if left.size:
@@ -53,15 +55,18 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     return points
 
 
-def _moved(statement: Statement, u: Complex, dust: float, touched: float) -> tuple[Complex, np.ndarray]:
+def brought(
+    limits: Limits, influence: Real | Complex, u: Complex, dust: float, touched: float
+) -> tuple[Complex, np.ndarray]:
     """The points within the limits where all that is near enough is settled, and the programs (n,) that differ.
 
     Parameters
     ----------
+    influence : (N, J, K) on what is to stay as it is.
+    u : (N, K) kg m.
     dust : share of the largest mass that is next to nothing.
     touched : share of a limit that is next to it.
     """
-    limits = statement.limits
     size = np.abs(u)
     mass = size / limits.radius
     none = (mass > 0) & (mass <= dust * np.max(mass, axis=-1, keepdims=True, initial=0.0))
@@ -79,10 +84,9 @@ def _moved(statement: Statement, u: Complex, dust: float, touched: float) -> tup
     moved = np.flatnonzero(np.any(put != u, axis=-1))
     if not moved.size:
         return u, moved
-    part = statement if moved.size == len(u) else statement.chosen(moved)
-    influence = np.concatenate([part.norms.influence, part.ceilings.norms.influence], axis=-2)
-    change = np.sum(influence * (put - u)[moved][:, None, :], axis=-1)
-    between = np.where(none | edge | next_to, 0.0, size)[moved]
-    put[moved] += between * least_change(influence * between[:, None, :], change)
-    put[moved] = part.limits.into(put[moved])
+    between = np.where(none | edge | next_to, 0.0, size)
+    part = slice(None) if moved.size == len(u) else moved
+    change = np.sum(influence[part] * (put - u)[part][:, None, :], axis=-1)
+    put[part] += between[part] * least_change(influence[part] * between[part][:, None, :], change)
+    put[part] = mapped(limits, lambda array: array[part]).into(put[part])
     return put, moved

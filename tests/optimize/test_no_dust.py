@@ -5,8 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.optimize import optimize
 from optimizer.sweep import run_chunk
 from tests.hard.cases.case import Body, machine, row, throw
+from tests.optimize.whole_turn import ALONE, asked, inline_six
 from tests.sweep.single import sweep
 from tests.verification.checking import optimized
 
@@ -49,6 +51,20 @@ def test_angles_at_an_edge_are_the_edge(seed: int) -> None:
     at_edge = [one.angle_deg for one in found.counterweights if "sector" in one.active_limits]
     assert at_edge
     assert set(at_edge) <= {193.0, 207.0}
+
+
+@pytest.mark.parametrize("goal", [{"bearing_measure": "peak", **ALONE}, {"bearing_measure": "rms"}])
+def test_over_the_turn_too(goal: dict[str, Any]) -> None:
+    """Two webs or more of an inline six carry nothing: 4e-9 of the largest before they were taken away."""
+    six = inline_six()
+    for web in six["webs"]:
+        web["max_mass_kg"] = 0.5
+    found = optimize(asked(six, bearing_weight=1, **goal))
+    assert found.status == "optimal"
+    mass = np.array([one.mass_kg for one in found.counterweights])
+    assert np.all((mass == 0) | (mass > 1e-3 * np.max(mass)))
+    assert 0 < np.sum(mass == 0) < 12
+    assert np.all((mass == 0.5) | (mass < 0.5 * (1 - 1e-4)))
 
 
 def test_a_sweep_fits_what_a_request_does() -> None:
