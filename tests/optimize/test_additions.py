@@ -57,7 +57,10 @@ NAMED_IN = {
     "figures/cautions.py": "warns of both",
     "figures/stages.py": "figures of both",
     "figures/rules_of_thumb.py": "figures of both",
+    "figures/balance_quality.py": "what turns with the shaft of both",
     "pareto/pareto.py": "a front is of these two: fields of its answer",
+    "pareto/measures.py": "what a front trades by the names that the contract has for it",
+    "pareto/trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
     "figures/dynamics.py": "of the piston",
