@@ -63,12 +63,16 @@ def _no_less(quantity: Quantity, u: Complex, reached: Reached, kind: _Kind) -> f
 
 
 def _matter(program: OverTurn, reached: Sequence[Reached], worst: Sequence[float]) -> list[int]:
-    """Peaks that may decide the last goal."""
+    """Peaks that may decide the last goal, where what counterweights add stands still."""
     found: set[int] = set()
     for group in program.goals[-1].groups:
         least = max((each.offset + each.weight * reached[each.quantity].lower for each in group.weighed), default=0.0)
         found |= {each.quantity for each in group.weighed if each.offset + each.weight * worst[each.quantity] > least}
-    return sorted(q for q in found if program.quantities[q].measure == "peak" and not program.samples.cancelled[q])
+    peaks = [
+        quantity.measure == "peak" and quantity.response.turning is None and not cancelled
+        for quantity, cancelled in zip(program.quantities, program.samples.cancelled, strict=True)
+    ]
+    return sorted(q for q in found if peaks[q])
 
 
 def _sharper(program: OverTurn, u: Complex, asked: Sequence[tuple[_Kind, int]]) -> Iterator[float]:

@@ -13,6 +13,7 @@ from optimizer.program.cut import Scatter
 from optimizer.program.cuts import Found, Unkept, over_turn
 from optimizer.program.limits import Limits
 from optimizer.program.misplaced import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
+from optimizer.program.misplaced_turn import largest_last_goals
 from optimizer.program.over_turn import Goal, Group, OverTurn
 from optimizer.program.statement import Row, weighted_peak
 from optimizer.response import Phasors, Response
@@ -164,3 +165,22 @@ def test_the_worst_of_all_counterweights_off_together(webs: int) -> None:
         outline = np.abs(norms.at(u)[:, None] + angle_corners(vectors, angle)) if webs else np.zeros((3, 1))
         about = np.max(outline, axis=-1)
         assert np.all((about >= worst_by_angle(norms, u, angle) * (1 - 1e-12)) | (webs == 0))
+
+
+@pytest.mark.parametrize("turning", [False, True])
+@pytest.mark.parametrize("seed", range(3))
+def test_loads_over_the_turn_are_no_worse_than_is_said(seed: int, turning: bool) -> None:
+    """Independent: errors of every counterweight, random or all at their largest, where some turn by themselves too."""
+    rng = np.random.default_rng(seed)
+    program = bearings(seed, count=3, webs=3)
+    if turning:
+        turned = np.array([0.0, -2.0, 1.0])
+        moved = (replace(each, response=replace(each.response, turning=turned)) for each in program.quantities)
+        program = replace(program, quantities=tuple(moved))
+    u = random_point(rng, program.limits)
+    angle, share = 0.1, 0.05
+    by_angle, by_mass = largest_last_goals(program, u, program.values(u, 1e-9).reached, angle, share)
+    for _ in range(24):
+        errors = np.sign(rng.normal(size=3)) * rng.choice([1.0, rng.uniform()])
+        assert float(program.values(u * (1 + share * errors), 1e-9).goals[-1]) <= by_mass * (1 + 1e-9)
+        assert float(program.values(u * np.exp(1j * angle * errors), 1e-9).goals[-1]) <= by_angle * (1 + 1e-9)
