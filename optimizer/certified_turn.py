@@ -73,7 +73,8 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
         responses = tuple(each.unmirrored() for each in responses)
     case = Case(together, scene.layout, (responses,), whole_turn_of(scene))
     asked = goals(together, [case], scene.omega_squared)
-    found = over_turn(asked.program, request.accuracy.relative_gap, request.objective.least_mass, asked.allowances)
+    accuracy, least = request.accuracy, request.objective.least_mass
+    found = over_turn(asked.program, accuracy.relative_gap, least, asked.allowances, accuracy.time_limit_s)
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
     return fitted(request, scene, asked, found)
@@ -92,9 +93,11 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     shown = chosen(request, mass, angle, u)
     values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
     judged = _judged(request, asked.program, found, u, values, mass)
+    late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
+    ended = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. " if late else ""
     return CertifiedTurn(
         str(judged.status),
-        str(judged.reason),
+        f"{ended}{judged.reason}",
         shown.on_crank,
         shown.on_shafts,
         found.certify_s,

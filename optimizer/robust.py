@@ -5,6 +5,7 @@ the worst corner of every peak is known once the counterweights are; such corner
 until the counterweights have none that is worse: then the program is that of all corners.
 """
 
+import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -155,10 +156,12 @@ class Robust:
     def solved(self) -> tuple[Goals, Found | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
         objective, gap = self.request.objective, self.request.accuracy.relative_gap
+        until = time.thread_time() + self.request.accuracy.time_limit_s
         for _ in range(_MOST_ROUNDS):
             asked = self.asked()
-            found = over_turn(asked.program, gap, objective.least_mass, asked.allowances)
-            if isinstance(found, Unkept) or not self.learnt(found.point.unbalance):
+            left = max(until - time.thread_time(), 0.0)
+            found = over_turn(asked.program, gap, objective.least_mass, asked.allowances, left)
+            if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open
         return self.asked(), found

@@ -183,6 +183,13 @@ class Accuracy(Model):
         description="certified gap asked for, relative to the objective without counterweights",
         examples=[1e-6],
     )
+    time_limit_s: Annotated[float, Strict()] = Field(
+        5.0,
+        gt=0,
+        le=30,
+        description="computing time after which a search over the whole turn ends and says its gap [s]",
+        examples=[5.0],
+    )
 
 
 class Fidelity(Model):

@@ -33,7 +33,8 @@ _MOST_ROUNDS = 60
 _ATTEMPTS = ((1e-10, 1.0), (1e-10, 20.0), (1e-12, 1.0), (1e-8, 50.0))
 #: limits beyond this multiple of the natural reach cannot bind
 _REACH = 10.0
-_TIME_LIMIT_S = 5.0
+#: for what has begun when time is up
+_LAST_S = 1e-2
 #: no bracket is left wider
 _COARSE = 1e-4
 #: share of a goal below which samples of the turn tell no more
@@ -95,6 +96,7 @@ class Stage(NamedTuple):
     proof: Proof | None  # None where nothing is proven, which can only be so of a mass
     rounds: int
     certify_s: float  # time spent on bounds
+    timed_out: bool  # the time limit ended the search
 
 
 class Pool:
@@ -127,7 +129,7 @@ class Pool:
 class Search:
     """One stage: the last goal of a program, or the mass, under what is kept."""
 
-    def __init__(self, program: OverTurn, pool: Pool, kept: Kept, inside: Point, raised: bool) -> None:
+    def __init__(self, program: OverTurn, pool: Pool, kept: Kept, inside: Point, raised: bool, until: float) -> None:
         """Prepare.
 
         Parameters
@@ -135,7 +137,9 @@ class Search:
         kept : levels of all goals but the last, or of all where the mass is to be small.
         inside : a point that keeps all that has to be kept.
         raised : ceilings take up the tolerance that they have.
+        until : time.thread_time() at which the search ends.
         """
+        self.until = until
         self.program, self.pool, self.kept, self.inside = program, pool, kept, inside
         self.of_mass = kept.most.size == len(program.goals)
         self.raised = raised
@@ -165,8 +169,8 @@ class Search:
         told : whether a value and its bound are all that has to be known.
         """
         best, proof = self.inside, None if self.of_mass else self._resting()
-        attempts, gap, rounds, coarse = list(_ATTEMPTS), np.inf, 0, True
-        while attempts and rounds < _MOST_ROUNDS:
+        attempts, gap, rounds, coarse, timed_out = list(_ATTEMPTS), np.inf, 0, True, False
+        while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
             statement = self.program.statement(self.pool.cuts)
             found = self._solved(statement, *attempts[0])
@@ -193,7 +197,12 @@ class Search:
                 proof = self._closed(proof)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
-        return Stage(self._tidied(best), proof, rounds, self.certify_s)
+        else:
+            timed_out = self._late()
+        return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
+
+    def _late(self) -> bool:
+        return time.thread_time() >= self.until
 
     def _closed(self, proof: Proof | None) -> Proof | None:
         """The better of a proof and of that by the floors of all that is known by now."""
@@ -260,7 +269,8 @@ class Search:
         targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
         of_target = program.goal_of_case[program.goal_of_case < aimed.size]
         last = len(program.goals) - 1
-        posed_as = data, tolerance, _TIME_LIMIT_S, goal_of == last, targets, sums(last, 0.0)
+        left = max(self.until - time.thread_time(), _LAST_S)
+        posed_as = data, tolerance, left, goal_of == last, targets, sums(last, 0.0)
         found = solved(*posed_as, self.about)
         if isinstance(found, NoPoint) and self.about is not None:
             # what was boosted about another point may be worse than what was not

@@ -1,5 +1,6 @@
 """Certified optimum of a program over the turn by cuts: its goals one after the other, then the least mass."""
 
+import time
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
@@ -15,6 +16,8 @@ from optimizer.program.reach import bounded, far_limits
 from optimizer.program.solution import CEILING_ROUNDING, OPTIMUM_SHARE
 
 METHOD = "cuts, clarabel"
+#: of a search whose time limit nobody has asked for
+TIME_LIMIT_S = 5.0
 
 #: room below the ceilings, as a share of their size, that lets them be kept as they are
 _AMPLE = 1e-8
@@ -63,6 +66,7 @@ class Found:
     cuts: int
     certify_s: float  # time spent on bounds
     contradicted: bool  # a point exceeds the ceilings by less than any is proven to
+    timed_out: bool  # the time limit ended a search
 
     @property
     def proof(self) -> Proof:
@@ -88,7 +92,13 @@ class Unkept:
     certify_s: float
 
 
-def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowances: Sequence[float]) -> Found | Unkept:
+def over_turn(
+    program: OverTurn,
+    relative_gap: float,
+    least_mass: bool,
+    allowances: Sequence[float],
+    time_limit_s: float = TIME_LIMIT_S,
+) -> Found | Unkept:
     """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
 
     Parameters
@@ -96,14 +106,17 @@ def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowanc
     relative_gap : asked gap of the last goal, relative to its yardstick.
     least_mass : take the least total mass among the optima.
     allowances : of all goals but the last, the share of its yardstick that what follows may use.
+    time_limit_s : of this thread's own time, after which the search ends with what it has: what else a machine does
+        changes no answer.
     """
+    until = time.thread_time() + time_limit_s
     pool = Pool(program)
-    nearest = _nearest(program, pool)
+    nearest = _nearest(program, pool, until)
     excess = nearest.point.values.excess
     contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING
     if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
         return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds, nearest.certify_s)
-    course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted)
+    course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted, until=until)
     for n, allowance in enumerate(allowances):
         size = float(program.units[n])
         course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), max(allowance, OPTIMUM_SHARE) * size)
@@ -122,19 +135,21 @@ def over_turn(program: OverTurn, relative_gap: float, least_mass: bool, allowanc
         target = course.goals[last].value + share
         mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
         tried.append(course.found(mass_proof, target))
-        if tried[-1].mass_gap <= _LIGHT:
+        if tried[-1].mass_gap <= _LIGHT or course.timed_out:
             break
     # what is sought more sharply may be found less so
     best = min(tried, key=lambda found: found.mass_gap)
-    return replace(best, rounds=course.rounds, certify_s=course.certify_s)
+    return replace(best, rounds=course.rounds, certify_s=course.certify_s, timed_out=course.timed_out)
 
 
 class _Course:
     """Stages one after the other, each with what is known already."""
 
-    def __init__(self, program: OverTurn, pool: Pool, nearest: Stage, raised: bool, contradicted: bool) -> None:
+    def __init__(
+        self, program: OverTurn, pool: Pool, nearest: Stage, raised: bool, contradicted: bool, until: float
+    ) -> None:
         self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
-        self.inside, self.so_far = nearest.point, program
+        self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
         self.rounds, self.certify_s = nearest.rounds, nearest.certify_s
         self.goals: list[Reached] = []
 
@@ -184,13 +199,15 @@ class _Course:
             self.pool.count(),
             self.certify_s,
             self.contradicted,
+            self.timed_out,
         )
 
     def _most(self, n: int) -> Real:
         return np.array([goal.most for goal in self.goals[:n]])
 
     def _run(self, kept: Kept, enough: float) -> Proof | None:
-        stage = Search(self.so_far, self.pool, kept, self.inside, self.raised).run(enough)
+        stage = Search(self.so_far, self.pool, kept, self.inside, self.raised, self.until).run(enough)
+        self.timed_out |= stage.timed_out
         self.inside, self.rounds = stage.point, self.rounds + stage.rounds
         self.certify_s += stage.certify_s
         return stage.proof
@@ -200,16 +217,16 @@ def _rest(program: OverTurn) -> Point:
     return Point(np.zeros(program.limits.radius.shape, complex), program.at_rest, 0.0)
 
 
-def _nearest(program: OverTurn, pool: Pool) -> Stage:
+def _nearest(program: OverTurn, pool: Pool, until: float) -> Stage:
     """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
     rest = _rest(program)
     if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
-        return Stage(rest, None, 0, 0.0)
+        return Stage(rest, None, 0, 0.0, False)
     excess = program.excess()
     still = _rest(excess)
     excess = _bounded(excess, still, np.zeros(0))
     none = np.zeros(0)
-    found = Search(excess, pool, Kept(none, none, none), still, False).run(
+    found = Search(excess, pool, Kept(none, none, none), still, False, until).run(
         _TOLD, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
     )
     return found._replace(point=_again(program, found.point))

@@ -242,3 +242,16 @@ def test_brute_force_never_beats_the_certificate(seed: int) -> None:
     assert proof.lower_bound is not None
     # what 0.1 degree may miss of the curve
     assert proof.lower_bound <= peak * (1 + 1e-5)
+
+
+@pytest.mark.parametrize("objective", [{"bearing_weight": 1}, {"bearing_ceiling_N": 12e3}])
+def test_a_search_that_its_time_limit_ends_says_so(objective: dict[str, Any]) -> None:
+    request = asked(inline_six(), **objective)
+    accuracy = request.accuracy.model_copy(update={"time_limit_s": 1e-9, "relative_gap": 1e-12})
+    found = optimize(request.model_copy(update={"accuracy": accuracy}))
+    assert found.status == "inaccurate"
+    assert found.status_reason.startswith("The time limit of 1e-09 s ended the search. ")
+    proof = found.certificate
+    assert proof is not None
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= proof.objective
