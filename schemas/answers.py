@@ -390,7 +390,8 @@ class OptimizeAnswer(OutputFields, Answer):
     )
     sensitivity: Sensitivity | None = Field(
         None,
-        description="what one degree and one per cent on all counterweights together may cost; null if infeasible",
+        description="what one degree and one per cent on all counterweights together may cost; null if infeasible, and"
+        " where balance shafts count over all orders",
         examples=[{"objective_rise_per_deg": 105.4, "objective_rise_per_percent": 60.4}],
     )
     residual: Residual = Field(description="first order before and after", examples=[{"before": {}, "after": {}}])
