@@ -51,9 +51,11 @@ lint: .venv/development
 bench: .venv/development $(kernels)
 	$(bin)/python -m tests.benchmarks
 
-# hard cases of the program and of the effects against high-precision references: a summary of each
+# hard cases of the program and of the effects against high-precision references, and of programs over the whole turn
+# against samples: a summary of each
 hard: .venv/development $(kernels)
-	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; exit $$failed
+	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; \
+	$(bin)/python -m tests.hard_turn || failed=1; exit $$failed
 
 # hours: the references against references of their own, and what the tests do a few times, thousands of times; the image needs root
 long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \

@@ -1,0 +1,35 @@
+"""``python -m tests.hard_turn``: hard cases over the whole turn; exit code 1 if any misses what is demanded."""
+
+import argparse
+import sys
+from collections import Counter
+from fnmatch import fnmatch
+
+from tests.hard_turn.cases import all_cases
+from tests.hard_turn.judge import run
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.hard_turn", description=__doc__)
+    parser.add_argument("--only", default="*", metavar="PATTERN", help="names of the cases, such as 'webs/*'")
+    arguments = parser.parse_args()
+    chosen = [case for case in all_cases() if fnmatch(case.name, arguments.only)]
+    if not chosen:
+        parser.error(f"no case is named {arguments.only}")
+    verdicts = [run(case) for case in chosen]
+    failed = [verdict for verdict in verdicts if verdict.faults]
+    for verdict in failed:
+        print(f"{verdict.case.name} ({verdict.case.why})", *verdict.faults, sep="\n    ")
+    for theme in dict.fromkeys(verdict.case.theme for verdict in verdicts):
+        of_theme = [verdict for verdict in verdicts if verdict.case.theme == theme]
+        statuses = ", ".join(f"{name} {count}" for name, count in Counter(one.status for one in of_theme).items())
+        optimal = [one for one in of_theme if one.status == "optimal"]
+        gap, mass_gap = (max((getattr(one, name) for one in optimal), default=0.0) for name in ("gap", "mass_gap"))
+        longest = max(one.seconds for one in of_theme)
+        print(f"{theme}: {statuses}; largest gaps {gap:.1e}, of the mass {mass_gap:.1e}; longest {longest:.1f} s")
+    print(f"{len(verdicts)} cases, {len(failed)} failed")
+    return int(bool(failed))
+
+
+if __name__ == "__main__":
+    sys.exit(main())
