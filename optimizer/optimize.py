@@ -10,6 +10,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
+from optimizer.certified_discrete import certified_discrete, continuous
 from optimizer.certified_robust import certified_robust, nothing_off
 from optimizer.certified_shapes import certified_shapes
 from optimizer.certified_turn import certified_turn
@@ -70,13 +71,17 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         return _over_the_turn(request, start)
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
-    asked, best = certified_shapes(posed(request), scene.responses, np.array([scene.omega_squared]), solver)
+    asked, square = posed(request), np.array([scene.omega_squared])
+    if request.machine.discrete:
+        best = certified_discrete(asked, scene.responses, square, solver)
+    else:
+        asked, best = certified_shapes(asked, scene.responses, square, solver)
     if envelopes(request.machine):
         # of what is cut from a plate the radius follows; no balance shafts stand beside plates
         request, scene = asked, replace(scene, request=asked)
 
     reporting = time.perf_counter()
-    unreachable = bool(best.found.unreachable[0])
+    unreachable = bool(best.status[0] == "infeasible")
     fitted = chosen(request, best.mass_kg[0], best.angle_deg[0], best.unbalance[0])
     scene = replace(scene, shafts=fitted.on_shafts)
     fields = _infeasible(asked, scene, best, fitted, solver) if unreachable else _reached(asked, scene, best, fitted)
@@ -143,6 +148,7 @@ def _nothing_off(
 
 def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted: Fitted) -> dict[str, object]:
     """Counterweights, what holds them up, and their certificate."""
+    request = continuous(request) if request.machine.discrete else request
     machine, goal, u = request.machine, request.objective, best.unbalance[0]
     touched = touched_limits(machine, goal, scene.responses, best.mass_kg[0], u, scene.omega_squared)
     (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
@@ -168,7 +174,8 @@ def _prices(
     touched: tuple[MachineLimit, ...],
 ) -> tuple[ShadowPrice, ...]:
     gap = float(best.verdict.gap[0, 0])
-    if np.isnan(gap):
+    if np.isnan(gap) or request.machine.discrete:
+        # what limits cost those of any mass says nothing of what can be chosen
         return ()
     prices = shadow_prices(best.program, best.unbalance, best.found.multipliers)
     return priced(
@@ -236,7 +243,11 @@ def _infeasible(
         proofs[name] = named(peak, physical(peak, alone.multipliers, "objective", square).chosen(0))
         smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
     impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
-    (proof,) = named_proofs(*_conflict(request, best, most, multipliers, solver), square, request.objective.least_mass)
+    against = None
+    if best.found.unreachable[0]:
+        of_excess = _conflict(request, best, most, multipliers, solver)
+        (proof,) = named_proofs(*of_excess, square, request.objective.least_mass)
+        against = proof.conflict
     return {
         "counterweights": (),
         "total_mass_kg": None,
@@ -262,6 +273,6 @@ def _infeasible(
                 balance_shafts=fitted.balance_shafts,
                 first_order=first_order(scene.first_order(fitted.on_crank)),
             ),
-            multipliers=InfeasibilityMultipliers(conflict=proof.conflict, **smallest_proofs(proofs)),
+            multipliers=InfeasibilityMultipliers(conflict=against, **smallest_proofs(proofs)),
         ),
     }

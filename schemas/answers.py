@@ -243,6 +243,15 @@ class Certificate(Model):
         None, description="angles at which responses over the whole turn were held; null without any", examples=[24]
     )
     rounds: int | None = Field(None, description="programs solved to find them; null likewise", examples=[5])
+    continuous_lower_bound: float | None = Field(
+        None,
+        description="the bound that multipliers prove: no counterweights of any mass and angle within the limits have a"
+        " smaller objective; null where nothing is chosen from a catalogue, or if nothing is proven",
+        examples=[None],
+    )
+    nodes: int | None = Field(
+        None, description="nodes of the tree behind lower_bound; null where nothing is chosen", examples=[None]
+    )
     goals: tuple[GoalReached, ...] = Field(
         (),
         description="goals before the last, in their order; the certificate is that of the last one under them",

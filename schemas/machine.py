@@ -9,6 +9,7 @@ from pydantic import ConfigDict, Field
 
 from schemas.balance_quality import BalanceQuality
 from schemas.base import Model, NotEmpty
+from schemas.catalogue import Catalogue, Holes, Masses, catalogue_rules, stated
 from schemas.cylinder import Cylinder
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
@@ -155,6 +156,14 @@ class Web(Ruled):
         " two are equally near",
         examples=[0],
     )
+    catalogue_masses_kg: Masses | None = Field(
+        None, description="masses that there are for this web, in place of those of the catalogue", examples=[None]
+    )
+    hole_angles_deg: Holes | None = Field(
+        None,
+        description="angles as drawn at shaft angle 0 of the bolt holes, in place of steps of the catalogue",
+        examples=[None],
+    )
 
     @property
     def reach_m(self) -> float:
@@ -227,6 +236,14 @@ class Rotor(Ruled):
     max_total_mass_kg: Annotated[Mass | None, Unit("kg")] = Field(
         None, description="largest total mass of all counterweights; null is no limit", examples=[None]
     )
+    catalogue: Catalogue | None = Field(
+        None, description="what counterweights are chosen from; null is any mass at any angle", examples=[None]
+    )
+    max_counterweights: Annotated[Count, Field(ge=0, le=MAX_WEBS)] | None = Field(
+        None,
+        description="most webs that may have a counterweight, where they are chosen from a catalogue; null is no limit",
+        examples=[None],
+    )
     unbalances: tuple[ShaftUnbalance, ...] = Field(
         (),
         max_length=MAX_UNBALANCES,
@@ -246,12 +263,18 @@ class Rotor(Ruled):
         for k, web in enumerate(self.webs):
             yield Rule(web.envelope is not None, ("webs", k, "envelope"), message)
 
+    @property
+    def discrete(self) -> bool:
+        """Whether counterweights are chosen from what there is."""
+        return any(True for _ in stated(self))
+
     def rules(self) -> Iterator[Rule]:
         yield from _unique_names(("webs",), [web.name for web in self.webs])
         yield from _unique_names(("unbalances",), [each.name for each in self.unbalances])
         if self.overspeed_rpm is not None:
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
+        yield from catalogue_rules(self)
 
 
 class ReciprocatingMachine(Rotor):
@@ -320,6 +343,8 @@ class ReciprocatingMachine(Rotor):
                 message = "this name is taken already; names of webs must be unique on all shafts"
                 yield Rule(web.name in taken, (*path, "name"), message)
                 yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
+                for name in ("catalogue_masses_kg", "hole_angles_deg"):
+                    yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
                 taken.add(web.name)
         message = "with balance shafts the total mass has no limit: limit the masses of the webs"
         yield Rule(self.max_total_mass_kg is not None, ("max_total_mass_kg",), message)

@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base import Model
+from schemas.catalogue import no_catalogue
 from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS, ReciprocatingMachine, no_balance_shafts
 from schemas.quantities import Count, Flag, Mass, Name
 from schemas.requests import FittedCounterweight, Objective, fitted_rules
@@ -124,6 +125,7 @@ class MatchRequest(Ruled):
             "parts are matched with counterweights of a known radius"
         ):
             yield Rule(broken, ("machine", *path), message)
+        yield from no_catalogue(self.machine, ("machine",), "a match")
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need rows to go on")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")

@@ -15,6 +15,7 @@ from schemas.answers import (
     Timing,
 )
 from schemas.base import Answer, Model, NotEmpty
+from schemas.catalogue import no_catalogue
 from schemas.machine import no_balance_shafts
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
@@ -69,6 +70,7 @@ class ParetoRequest(OptimizeRequest):
         yield from self.envelope_rules("a front is of counterweights of a known radius")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
+        yield from no_catalogue(self.machine, ("machine",), "a front")
         budgets = self.total_mass_budgets_kg or ()
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)

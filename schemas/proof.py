@@ -140,8 +140,9 @@ class EndMultipliers(Model):
 class InfeasibilityMultipliers(Model):
     """Multipliers that prove what an infeasible answer says."""
 
-    conflict: BoundMultipliers = Field(
-        description="with them the ceilings are exceeded by any counterweights within the limits",
+    conflict: BoundMultipliers | None = Field(
+        description="with them the ceilings are exceeded by any counterweights within the limits; null where they are"
+        " only by those that can be chosen",
         examples=[{"rows": [{"name": "force", "value": 0.01}]}],
     )
     smallest_force: BoundMultipliers = Field(

@@ -3,11 +3,12 @@
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Annotated, Any, Literal
 
-from pydantic import Field, Strict
+from pydantic import Field, Strict, model_validator
 
 from schemas.angles import Angles
 from schemas.base import Model
-from schemas.machine import MAX_WEBS, Machine
+from schemas.catalogue import DISCRETE_GAP
+from schemas.machine import MAX_WEBS, Machine, no_balance_shafts
 from schemas.outputs import OutputNames
 from schemas.quantities import Angle, Flag, Force, Fraction, Mass, Moment, Name, Pressure, Weight
 from schemas.rules import Rule, Ruled
@@ -180,14 +181,16 @@ class Accuracy(Model):
         1e-6,
         ge=1e-12,
         le=1,
-        description="certified gap asked for, relative to the objective without counterweights",
+        description="certified gap asked for, relative to the objective without counterweights; 1e-3 if not said where"
+        " counterweights are chosen from a catalogue",
         examples=[1e-6],
     )
     time_limit_s: Annotated[float, Strict()] = Field(
         5.0,
         gt=0,
         le=30,
-        description="computing time after which a search over the whole turn ends and says its gap [s]",
+        description="computing time after which a search over the whole turn or among"
+        " discrete choices ends and says its gap [s]",
         examples=[5.0],
     )
 
@@ -259,6 +262,7 @@ class OptimizeRequest(Scene, Ruled):
     def rules(self) -> Iterator[Rule]:
         yield from scenario_rules(self)
         yield from self._shaft_rules()
+        yield from self._catalogue_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             scatters = self.tolerances.reciprocating_mass_relative > 0
             message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
@@ -284,6 +288,31 @@ class OptimizeRequest(Scene, Ruled):
         yield Rule(bool(self.scenarios), ("scenarios",), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
 
+    def _catalogue_rules(self) -> Iterator[Rule]:
+        """What does not go with discrete choices."""
+        machine = self.machine
+        if not machine.discrete:
+            return
+        yield from self.worst_case_rules("does not go with a catalogue")
+        for name in self.objective.over_the_turn:
+            yield Rule(True, ("objective", name), "does not go with a catalogue: of the first order only")
+        yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
+        for broken, path, message in machine.no_envelopes("what is chosen from a catalogue has a radius of its own"):
+            yield Rule(broken, ("machine", *path), message)
+
+    @model_validator(mode="before")
+    @classmethod
+    def _discrete_gap(cls, given: Any) -> Any:
+        """What discrete choices are asked for where no gap is said, before the usual default takes its place."""
+        if not isinstance(given, dict) or not _discrete(given.get("machine")):
+            return given
+        accuracy = given.get("accuracy", {})
+        if isinstance(accuracy, Model):
+            accuracy = accuracy.model_dump(exclude_unset=True)
+        if not isinstance(accuracy, dict) or "relative_gap" in accuracy:
+            return given
+        return {**given, "accuracy": {**accuracy, "relative_gap": DISCRETE_GAP}}
+
     def _shaft_rules(self) -> Iterator[Rule]:
         """What does not go with balance shafts."""
         machine, goal = self.machine, self.objective
@@ -295,6 +324,18 @@ class OptimizeRequest(Scene, Ruled):
                 whole = (getattr(goal, name) is not None) & (goal.orders == "first")
                 message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
                 yield Rule(whole, ("objective", name), message)
+
+
+def _discrete(machine: Any) -> bool:
+    """Whether a machine, checked or not, asks for discrete choices."""
+    if isinstance(machine, Model):
+        return bool(getattr(machine, "discrete", False))
+    if not isinstance(machine, dict):
+        return False
+    webs = machine.get("webs")
+    places = [machine, *(web for web in (webs if isinstance(webs, list | tuple) else ()) if isinstance(web, dict))]
+    asks = ("catalogue", "max_counterweights", "catalogue_masses_kg", "hole_angles_deg")
+    return any(place.get(name) is not None for place in places for name in asks)
 
 
 class FittedCounterweight(Model):

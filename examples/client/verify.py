@@ -38,6 +38,7 @@ from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Responses, S
 MASS = 1e-12  # of a limit: by which rounded masses may exceed it
 ANGLE = 1e-12  # degrees likewise
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
+SAME = 1e-9  # of a mass, relative, and of an angle in degrees: by which they are those of a catalogue
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
 MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
 #: an answer is held if these claims are, as far as they are made
@@ -174,11 +175,18 @@ def optimum(request: Place, answer: Place) -> Claims:
     yield from first_order("after", answer / "residual" / "after", after)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.before))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
+    chosen = (asked / "catalogue") or (asked / "max_counterweights") or any(map(stocked, asked / "webs"))
+    if chosen:
+        # what multipliers prove of any mass and angle; the tree or the comparison behind the rest is not repeated
+        yield from catalogue(asked, answer / "counterweights")
+        yield "lower_bound", lowest, None, ONE
+        lowest = proof / "continuous_lower_bound"
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)
     # nothing that exceeds no ceiling by more is better
     multipliers, priced = proof / "multipliers", partial(priced_at, dict.fromkeys(rows, lowest.number(0.0)))
     yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, excess, priced)
+    lowest = proof / "lower_bound"
     gap, size = objective.number(0.0) - lowest.number(0.0), (proof / "yardstick").number(0.0)
     noise = SPECK * (abs(objective.number(0.0)) + abs(lowest.number(0.0)))
     if lowest and proof / "yardstick":
@@ -186,13 +194,41 @@ def optimum(request: Place, answer: Place) -> Claims:
         yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
         yield yardstick(statement, proof / "yardstick", rest, implied)
     asks_least = (goal / "least_mass").read((bool,), "true or false", True)
-    if asks_least:
+    if asks_least and not chosen:
         most = dict.fromkeys(rows, (proof / "mass_objective_limit").number(0.0))
         yield from lightest(statement, proof, multipliers, most, after, mass)
         yield from light(statement, proof, dict.fromkeys(rows, size), mass, status == "optimal")
     if status == "optimal":
-        room = (request / "accuracy" / "relative_gap").number(1e-6, least=0) * size + noise - gap
+        room = (request / "accuracy" / "relative_gap").number(1e-3 if chosen else 1e-6, least=0) * size + noise - gap
         yield "status", lowest, room if proof / "yardstick" else None, size
+
+
+def stocked(web: Place) -> bool:
+    """Whether a web has masses or holes of its own."""
+    return bool(web / "catalogue_masses_kg") or bool(web / "hole_angles_deg")
+
+
+def catalogue(asked: Place, place: Place) -> Claims:
+    """Masses, holes and counts that there are; steps are not covered."""
+    general = asked / "catalogue"
+    used: list[Number] = []
+    for web, one in zip(asked / "webs", place):
+        mass, angle = (one / "mass_kg").number(), (one / "angle_deg").double()
+        if mass.high <= 0:
+            continue
+        masses = (web / "catalogue_masses_kg") or (general / "masses_kg")
+        off = min((abs(each.number() - mass) for each in masses), key=lambda each: each.high, default=None)
+        yield "catalogue", one / "mass_kg", None if off is None else mass * real(SAME) - off, mass
+        turn = Fraction(360)
+        away = [abs((Fraction(each.double()) - Fraction(angle) + turn / 2) % turn - turn / 2)
+                for each in web / "hole_angles_deg"]  # fmt: skip
+        yield "catalogue", one / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
+        if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
+            used.append(mass)
+    fitted = sum((one / "mass_kg").double() > 0 for one in place)
+    for most, count in ((asked / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
+        if most:
+            yield "catalogue", most, most.number() - real(count), ONE
 
 
 def lightest(

@@ -23,7 +23,7 @@ from optimizer.program.statement import Norms, Statement
 #: nodes bounded at once, and options of all of them together
 _BATCH, _BATCH_OPTIONS = 128, 2_000_000
 #: sums of a half, and pairs, up to which what is left of a node is exhausted in halves
-_SUMS, _PAIRS = 600, 40_000
+_SUMS, _PAIRS = 100, 10_000
 #: bytes that open nodes may hold
 _MEMORY = 200_000_000
 #: steps in which the price of the budget is halved in on

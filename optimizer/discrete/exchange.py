@@ -9,11 +9,11 @@ from optimizer.discrete.halves import exhaust
 from optimizer.discrete.options import Incumbent, Options
 
 #: sums of a half of a neighbourhood, and pairs of them that are evaluated
-_SUMS, _PAIRS = 4_000, 200_000
+_SUMS, _PAIRS = 900, 20_000
 #: slots that change together, one after the other
 _SIZES = (2, 4, 6)
 #: neighbourhoods in a row, for every slot, without a better set, after which the search ends
-_PATIENCE = 12
+_PATIENCE = 6
 _SEED = 20_240_229
 
 

@@ -24,6 +24,8 @@ _MARGIN = 1.0 + 1e-9
 _ROUNDING = 1e-14
 #: pairs that are evaluated at once
 _AT_ONCE = 200_000
+#: pairs up to which all are evaluated
+_FEW = 20_000
 #: part numbers that fit into the bits of a whole number
 _BITS = 62
 
@@ -85,7 +87,7 @@ def exhaust(
     terms = norms.constant + lever[: norms.constant.size] @ rest
     lever = lever[: norms.constant.size]
     pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
-    if not np.isfinite(incumbent.level) or pairs.count <= _AT_ONCE:
+    if not np.isfinite(incumbent.level) or pairs.count <= _FEW:
         return pairs.count <= most_pairs and pairs.all(spent)
     pairs.nearest()
     return pairs.near(most_pairs, spent)

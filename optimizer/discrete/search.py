@@ -52,10 +52,13 @@ def search(
     at_least : lower bound of that optimum.
     relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
     """
-    end = time.monotonic() + time_limit_s
+    began = time.monotonic()
 
     def spent() -> bool:
-        return time.monotonic() >= end
+        return time.monotonic() >= began + time_limit_s
+
+    def halfway() -> bool:
+        return time.monotonic() >= began + 0.5 * time_limit_s
 
     resolution = EQUAL * yardstick
     incumbent = Incumbent(statement, options, resolution)
@@ -70,7 +73,7 @@ def search(
     if exhaust(options, every, incumbent, _SUMS, _PAIRS, spent):
         return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
-    neighbourhoods(incumbent, relaxed, lambda: incumbent.least - at_least <= gap, spent)
+    neighbourhoods(incumbent, relaxed, lambda: incumbent.least - at_least <= gap, halfway)
     tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent)
     bound = min(tree.lower_bound, incumbent.least)
     closed = incumbent.least - bound <= max(gap, 0.0)

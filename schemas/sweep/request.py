@@ -1,12 +1,13 @@
 """What a client asks of a sweep: a base request, axes through it, and what to keep of the results."""
 
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import chain, combinations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
 from schemas.base import FieldProblem, Model
+from schemas.catalogue import no_catalogue
 from schemas.machine import MAX_THROWS, ReciprocatingMachine, no_balance_shafts
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Angle, Count, Flag
@@ -182,7 +183,9 @@ class SweepRequest(Ruled):
             for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
                 if broken:
                     yield FieldProblem(("base", *path), message)
-        for broken, path, message in no_balance_shafts(self.base.machine, ("base", "machine"), "a sweep"):
+        place = ("base", "machine")
+        alone = (each(self.base.machine, place, "a sweep") for each in (no_balance_shafts, no_catalogue))
+        for broken, path, message in chain.from_iterable(alone):
             if broken:
                 yield FieldProblem(path, message)
         for j, output in enumerate(self.base.outputs):

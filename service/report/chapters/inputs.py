@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from optimizer.formulate import given_ceilings, span, weights
+from schemas.catalogue import Catalogue
 from schemas.cylinder import Cylinder
 from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw, Web
 from schemas.over_turn import ForceTable, TorqueTable
@@ -40,8 +41,29 @@ def _general(machine: Machine, reference_plane_m: float) -> Table:
             ("reference plane", "as given" if given else "midway between the outermost throws"),
             ("axial span of throws and webs, m", float(span(machine))),
             ("largest total mass of counterweights, kg", _limit(machine.max_total_mass_kg)),
+            *_catalogue(machine),
         ],
     )
+
+
+def _catalogue(machine: Machine) -> Iterator[tuple[str, Cell | float]]:
+    """What counterweights are chosen from, where they are."""
+    if not machine.discrete:
+        return
+    general = machine.catalogue or Catalogue()
+    if general.masses_kg is not None:
+        yield "masses that there are, kg", ", ".join(f"{mass:g}" for mass in general.masses_kg)
+    if general.mass_step_kg is not None:
+        yield "step of masses, kg", general.mass_step_kg
+    if general.angle_step_deg is not None:
+        yield "step of angles from the crank, deg", general.angle_step_deg
+    for web in machine.webs:
+        if web.catalogue_masses_kg is not None:
+            yield f"masses of {web.name}, kg", ", ".join(f"{mass:g}" for mass in web.catalogue_masses_kg)
+        if web.hole_angles_deg is not None:
+            yield f"holes of {web.name}, deg", ", ".join(f"{angle:g}" for angle in web.hole_angles_deg)
+    yield "most counterweights", _limit(machine.max_counterweights)
+    yield "most part numbers", _limit(general.max_part_numbers)
 
 
 def _limit(value: float | None) -> Cell | float:

@@ -130,7 +130,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         words += "No lower bound is proven."
     else:
         words += (
-            "A lower bound in closed form shows that no counterweights within these limits bring it below "
+            f"{_what_bounds(proof)} bring it below "
             f"{digits(proof.lower_bound)}: whatever else is tried, it gains at most {_percent(proof.relative_gap)} of "
             "the objective without counterweights."
         )
@@ -143,6 +143,9 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         ("relative gap", proof.relative_gap),
         ("relative to", proof.yardstick),
     ]
+    if proof.nodes is not None:
+        rows.append(("lower bound for any masses and angles", proof.continuous_lower_bound))
+        rows.append(("nodes of the tree", proof.nodes))
     if proof.mass_lower_bound_kg is not None:
         blocks.append(
             Paragraph(
@@ -164,6 +167,13 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         heads = ["goal", "#came to", "#proven at least", "#the later goals keep it below", "#so may use of it"]
         blocks.append(table("Goals before the last, in their order", heads, met))
     return Chapter(title, tuple(blocks))
+
+
+def _what_bounds(proof: Certificate) -> str:
+    if proof.nodes is None:
+        return "A lower bound in closed form shows that no counterweights within these limits"
+    by = f"A tree of {proof.nodes} bounds over" if proof.nodes else "The comparison of"
+    return f"{by} all sets of counterweights that can be chosen shows that none"
 
 
 def _bound() -> Equation:

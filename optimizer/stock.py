@@ -1,0 +1,105 @@
+"""From a machine's catalogue, holes and steps of angle to the options of its webs."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.discrete.options import Options
+from optimizer.errors import refuse
+from optimizer.figures.balance_rate import own_throws
+from optimizer.limits import largest_mass, sectors
+from optimizer.mechanics.angles import direction
+from schemas.base import FieldProblem
+from schemas.catalogue import Catalogue
+from schemas.machine import Machine, ReciprocatingMachine, Web
+
+#: masses that agree this closely, relative, are one part number
+_SAME = 1e-9
+#: by which an angle may be outside of its sector, degrees
+_ANGLE = 1e-9
+
+
+class Stock(NamedTuple):
+    """The options of every web, and the angles at which they are."""
+
+    options: Options
+    angle_deg: Real  # (K, O), 0 where there is nothing
+
+    def fitted(self, chosen: np.ndarray) -> tuple[Real, Real]:
+        """Masses [kg] and angles [deg] (K,) of options chosen (K,)."""
+        return self.options.of(self.options.mass, chosen), self.options.of(self.angle_deg, chosen)
+
+
+def stock(machine: Machine) -> Stock:
+    """What every web of one machine can take.
+
+    Raises
+    ------
+    OutOfRange
+        where steps of angle have no crank to count from, or none is in the sector of a web.
+    """
+    catalogue = machine.catalogue or Catalogue()
+    problems: list[FieldProblem] = []
+    held: list[tuple[Real, Real]] = []
+    cranks = _cranks(machine)
+    free, centre, half_angle = sectors(machine)
+    for k, (web, most) in enumerate(zip(machine.webs, largest_mass(machine).tolist(), strict=True)):
+        angles, path = np.mod(np.array(web.hole_angles_deg or (), dtype=float), 360.0), ("machine", "webs", k)
+        if web.hole_angles_deg is None:
+            crank = cranks[k]
+            if crank is None:
+                problems.append(FieldProblem((*path, "throw"), "steps of angle count from a crank: name the throw"))
+                continue
+            steps = np.arange(round(360.0 / (catalogue.angle_step_deg or 360.0)))
+            angles = np.mod(crank + steps * (catalogue.angle_step_deg or 360.0), 360.0)
+            off = np.abs(np.mod(angles - centre[k] + 180.0, 360.0) - 180.0)
+            angles = angles[free[k] | (off <= half_angle[k] + _ANGLE)]
+            if not angles.size:
+                problems.append(FieldProblem((*path, "sector"), "no step of the angle falls into the sector"))
+                continue
+        masses = np.array([mass for mass in _masses(web, catalogue, most) if 0.0 < mass <= most])
+        each, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
+        held.append((np.append(0.0, each), np.append(0.0, at)))
+    refuse(problems)
+    most_options = max((mass.size for mass, _ in held), default=1)
+    mass, angle = (np.array([np.pad(one[n], (0, most_options - one[n].size)) for one in held]) for n in (0, 1))
+    mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
+    radius = np.array([web.counterweight_radius_m for web in machine.webs]).reshape(-1, 1)
+    options = Options(
+        unbalance=mass * radius * direction(angle),
+        mass=mass,
+        part=_parts(mass),
+        exists=np.arange(most_options) < np.array([one.size for one, _ in held]).reshape(-1, 1),
+        most_fitted=machine.max_counterweights,
+        most_parts=catalogue.max_part_numbers,
+    )
+    return Stock(options, angle)
+
+
+def _cranks(machine: Machine) -> list[float | None]:
+    """Angle of the own crank of every web, deg; the eccentric of a scroll points along +x."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return [0.0] * len(machine.webs)
+    return [None if throw is None else machine.throws[throw].crank_angle_deg for throw in own_throws(machine)]
+
+
+def _masses(web: Web, catalogue: Catalogue, most: float) -> Iterator[float]:
+    own = web.catalogue_masses_kg if web.catalogue_masses_kg is not None else catalogue.masses_kg
+    if own is not None:
+        yield from sorted(own)
+    elif catalogue.mass_step_kg is not None:
+        # a hair more, because a quotient of decimals is no whole number
+        for n in range(1, int(most / catalogue.mass_step_kg * (1.0 + 1e-12)) + 1):
+            yield min(n * catalogue.mass_step_kg, most)
+
+
+def _parts(mass: Real) -> np.ndarray:
+    """Part numbers (K, O) of masses: the place of each among all that differ, -1 of none."""
+    order = np.argsort(mass, axis=None, kind="stable")
+    sorted_masses = mass.ravel()[order]
+    new = np.diff(sorted_masses, prepend=0.0) > _SAME * sorted_masses
+    found = np.empty(mass.size, int)
+    found[order] = np.cumsum(new) - 1
+    return np.where(mass > 0, found.reshape(mass.shape), -1)
