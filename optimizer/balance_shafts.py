@@ -14,9 +14,10 @@ from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import counterweights, places, unbalance, unbalances_of_shaft
 from optimizer.formulate import with_weights_of
 from optimizer.mechanics.layout import stacked
-from schemas.answers import Counterweight, ShaftUnbalance
-from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine, Web
+from schemas.counterweights import Counterweight, FittedShaft
+from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine
 from schemas.requests import OptimizeRequest
+from schemas.webs import Web
 
 _TURNS = {1: "at its speed", 2: "at twice its speed"}
 
@@ -52,7 +53,7 @@ class Fitted(NamedTuple):
 
     counterweights: tuple[Counterweight, ...]
     total_mass_kg: float
-    balance_shafts: tuple[ShaftUnbalance, ...]
+    balance_shafts: tuple[FittedShaft, ...]
     on_crank: Complex  # (K,) kg m
     on_shafts: Complex | None  # (S,) kg m; None without balance shafts
 
@@ -101,7 +102,7 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real) -> Fitted:
         first = there.stop
         on_shaft = unbalances_of_shaft(machine, shaft, mass_kg[there], angle_deg[there])
         found.append(
-            ShaftUnbalance(
+            FittedShaft(
                 name=shaft.name,
                 speed_ratio=shaft.speed_ratio,
                 gearing=_gearing(shaft, on_shaft),

@@ -25,14 +25,9 @@ from optimizer.program.over_turn import Goal, Group, OverTurn, Values, Weighed
 from optimizer.program.statement import Row, weighted_peak
 from optimizer.program.verdict import CONTRADICTED, INFEASIBLE, Claim, Verdict, mass_resolution, verdict
 from optimizer.scene import Prepared
-from schemas.answers import (
-    Certificate,
-    Closest,
-    GoalReached,
-    Infeasibility,
-    MachineLimit,
-    SmallestPeak,
-)
+from schemas.answers import Certificate, GoalReached
+from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
+from schemas.limits import MachineLimit
 from schemas.proof import BoundMultipliers, InfeasibilityMultipliers, Multipliers
 from schemas.requests import OptimizeRequest
 

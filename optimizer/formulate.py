@@ -17,9 +17,9 @@ from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.program.statement import Statement, combined, statement, weighted_peak
 from optimizer.response import Response
-from schemas.answers import CeilingField, MachineLimit
+from schemas.limits import CeilingField, MachineLimit
 from schemas.machine import Machine, ReciprocatingMachine
-from schemas.requests import Objective
+from schemas.objective import Objective
 
 
 def span(machine: Machine) -> Reals:

@@ -24,10 +24,11 @@ from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
 from optimizer.program.statement import Row, combined, weighted_peak
 from optimizer.response import Response
 from optimizer.shaft import INFLUENCES, bearing_places
-from schemas.answers import CeilingField, MachineLimit
 from schemas.base import FieldProblem
+from schemas.limits import CeilingField, MachineLimit
 from schemas.machine import ReciprocatingMachine
-from schemas.requests import Fidelity, Objective, OptimizeRequest
+from schemas.objective import Objective
+from schemas.requests import Fidelity, OptimizeRequest
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.shapes import envelopes
-from schemas.answers import MachineLimit, WebLimit
+from schemas.limits import MachineLimit, WebLimit
 from schemas.machine import Machine
 
 #: a limit counts as touched when what it limits is nearer than this share of it; optima may differ by

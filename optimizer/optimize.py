@@ -34,17 +34,10 @@ from optimizer.program.statement import Statement
 from optimizer.required import missing
 from optimizer.scene import Prepared
 from optimizer.shapes import envelopes
-from schemas.answers import (
-    Certificate,
-    Closest,
-    Counterweight,
-    Infeasibility,
-    MachineLimit,
-    OptimizeAnswer,
-    ShadowPrice,
-    SmallestPeak,
-    Timing,
-)
+from schemas.answers import Certificate, OptimizeAnswer, Timing
+from schemas.counterweights import Counterweight
+from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
+from schemas.limits import MachineLimit, ShadowPrice
 from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as PrintedMultipliers
 from schemas.requests import OptimizeRequest

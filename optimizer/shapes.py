@@ -9,7 +9,8 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.mechanics.envelope import AnnularSector, Envelope, Segment, opened_for
-from schemas.machine import Machine, Web
+from schemas.machine import Machine
+from schemas.webs import Web
 
 _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector, "segment": Segment}
 

@@ -13,7 +13,8 @@ from optimizer.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
 from schemas.base import FieldProblem
 from schemas.catalogue import Catalogue
-from schemas.machine import Machine, ReciprocatingMachine, Web
+from schemas.machine import Machine, ReciprocatingMachine
+from schemas.webs import Web
 
 #: masses that agree this closely, relative, are one part number
 _SAME = 1e-9

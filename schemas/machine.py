@@ -5,180 +5,23 @@ from functools import reduce
 from operator import or_
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from schemas.balance_quality import BalanceQuality
 from schemas.base import Model, NotEmpty
-from schemas.catalogue import Catalogue, Holes, Masses, catalogue_rules, stated
-from schemas.cylinder import Cylinder
+from schemas.catalogue import Catalogue, catalogue_rules, stated
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
-from schemas.quantities import Angle, Count, Fraction, Length, Mass, MaxMass, Name, Position, Speed, Unbalance
+from schemas.quantities import Angle, Count, Length, Mass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled, larger
-from schemas.units import Unit, between, positive
+from schemas.throws import MAX_THROWS, Throw
+from schemas.units import Unit
+from schemas.webs import Web
 
-MAX_THROWS = 500
-MAX_ROWS = 60
 MAX_ROWS_TOGETHER = 500
 MAX_WEBS = 500
 MAX_BALANCE_SHAFTS = 20
 MAX_UNBALANCES = 500
-
-
-class ConnectingRod(Model):
-    """The connecting rod of a row; its mass is shared between crosshead and crank pin."""
-
-    length_m: Annotated[Length | None, Unit("m")] = Field(
-        description="length between centres; null is an infinite rod (scotch yoke, Oldham ring)", examples=[0.7]
-    )
-    mass_kg: Mass = Field(0.0, description="mass of the whole rod", examples=[86.025])
-    reciprocating_share: Fraction = Field(
-        1 / 3,
-        description="share of the rod's mass that reciprocates; the rest turns with the crank pin",
-        examples=[0.3],
-    )
-
-
-class Row(Model):
-    """One cylinder axis and the masses that reciprocate along it."""
-
-    name: Name | None = Field(None, description="name of the row, unique on its throw", examples=["I"])
-    axis_deg: Angle = Field(
-        description="direction of the cylinder axis towards outer dead centre, counter-clockwise from +x",
-        examples=[0.0],
-    )
-    offset_m: Position = Field(
-        0.0, description="axial distance of the row's plane from its throw's plane", examples=[0.0]
-    )
-    reciprocating_mass_kg: Mass = Field(
-        description="piston, piston rod and crosshead, without the connecting rod", examples=[277.79]
-    )
-    connecting_rod: ConnectingRod | None = Field(
-        None,
-        description="the connecting rod; needed only when an output asks for more than the first order",
-        examples=[{"length_m": 0.7, "mass_kg": 86.025, "reciprocating_share": 0.3}],
-    )
-    cylinder: Cylinder | None = Field(
-        None, description="gas data; a row without it carries no gas, and the output gas needs it", examples=[None]
-    )
-
-
-class Throw(Model):
-    """One crank throw with the rows that share its pin."""
-
-    name: Name | None = Field(None, description="name of the throw, unique in the machine", examples=["1"])
-    position_m: Position = Field(description="plane of the throw along the shaft (z)", examples=[0.175])
-    crank_radius_m: Length = Field(description="crank radius, half the stroke", examples=[0.14])
-    crank_angle_deg: Angle = Field(
-        description="direction of the crank as drawn at shaft angle 0, counter-clockwise from +x", examples=[0.0]
-    )
-    rotating_mass_kg: Mass = Field(
-        0.0,
-        description="unbalanced rotating mass referred to the crank radius, without rods and counterweights",
-        examples=[12.0],
-    )
-    rows: tuple[Row, ...] = Field(
-        (),
-        max_length=MAX_ROWS,
-        description="rows on this throw; none makes a purely rotating unbalance",
-        examples=[[{"name": "I", "axis_deg": 0, "reciprocating_mass_kg": 277.79}]],
-    )
-
-
-class Sector(Model):
-    """The angles that a counterweight may take: centre plus or minus half the opening."""
-
-    centre_deg: Angle = Field(description="middle of the sector, as drawn at shaft angle 0", examples=[180.0])
-    half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
-        description="half the opening of the sector, above 0 and at most 90 degrees", examples=[60.0]
-    )
-
-
-class Envelope(Ruled):
-    """The plate from which a counterweight is cut: between two radii, about the direction of its unbalance."""
-
-    shape: Literal["sector", "segment"] = Field(
-        description="sector: bounded by both radii and two edges through the shaft; segment: by a chord and the outer"
-        " radius, the lightest outline that there is",
-        examples=["segment"],
-    )
-    inner_radius_m: Annotated[float, between(0.0, 1e9), Unit("m")] = Field(
-        0.0, description="radius of what is in the way, as the hub; 0 where nothing is", examples=[0.06]
-    )
-    outer_radius_m: Length = Field(description="radius that the counterweight may reach", examples=[0.25])
-    thickness_m: Length = Field(description="thickness along the shaft", examples=[0.04])
-    density_kg_m3: Annotated[float, positive(1e6), Unit("kg/m3")] = Field(
-        7850.0, description="density; steel if not said", examples=[7850]
-    )
-    max_half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
-        90.0, description="half of the largest opening, as seen from the shaft at the outer radius", examples=[75.0]
-    )
-
-    def rules(self) -> Iterator[Rule]:
-        yield Rule(
-            self.inner_radius_m >= self.outer_radius_m, ("inner_radius_m",), "must be smaller than the outer radius"
-        )
-
-
-class Web(Ruled):
-    """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
-
-    model_config = ConfigDict(
-        json_schema_extra={
-            "anyOf": [{"required": ["counterweight_radius_m", "max_mass_kg"]}, {"required": ["envelope"]}]
-        }
-    )
-
-    name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
-    position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])
-    counterweight_radius_m: Annotated[Length | None, Unit("m")] = Field(
-        None, description="radius of the counterweight's centre of mass; not with an envelope", examples=[0.25]
-    )
-    max_mass_kg: Annotated[MaxMass | None, Unit("kg")] = Field(
-        None,
-        description="largest counterweight that fits; 0 allows none, null is no limit; must be said but for an"
-        " envelope",
-        examples=[60.0],
-    )
-    envelope: Envelope | None = Field(
-        None,
-        description="the plate from which the counterweight is cut, in place of its radius and its largest mass",
-        examples=[None],
-    )
-    sector: Sector | None = Field(
-        None,
-        description="angles that the counterweight may take; null allows every angle",
-        examples=[{"centre_deg": 180, "half_angle_deg": 60}],
-    )
-    throw: Annotated[Count, Field(ge=0, lt=MAX_THROWS)] | None = Field(
-        None,
-        description="number from 0 of the throw whose crank the web belongs to; null is the nearest, and none where"
-        " two are equally near",
-        examples=[0],
-    )
-    catalogue_masses_kg: Masses | None = Field(
-        None, description="masses that there are for this web, in place of those of the catalogue", examples=[None]
-    )
-    hole_angles_deg: Holes | None = Field(
-        None,
-        description="angles as drawn at shaft angle 0 of the bolt holes, in place of steps of the catalogue",
-        examples=[None],
-    )
-
-    @property
-    def reach_m(self) -> float:
-        """Radius to which a counterweight reaches at most: that of its centre of mass, where no more is known."""
-        return self.envelope.outer_radius_m if self.envelope else self.counterweight_radius_m or 0.0
-
-    def rules(self) -> Iterator[Rule]:
-        if self.envelope is None:
-            # left out, and not null: no limit has to be meant
-            yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), "Field required")
-            yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), "Field required")
-        else:
-            message = "follows from the envelope: leave it out"
-            yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)
-            yield Rule(self.max_mass_kg is not None, ("max_mass_kg",), message)
 
 
 class ShaftUnbalance(Model):

@@ -4,9 +4,11 @@ from typing import Literal
 
 from pydantic import ConfigDict, Field
 
-from schemas.answers import Counterweight, FirstOrder, Timing
+from schemas.answers import Timing
 from schemas.base import Answer, Model
+from schemas.counterweights import Counterweight
 from schemas.dynamics import RowSeries
+from schemas.first_order import FirstOrder
 from schemas.quantities import Kilograms, Name
 
 

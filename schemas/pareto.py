@@ -5,17 +5,13 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answers import (
-    Counterweight,
-    EffectUse,
-    FirstOrder,
-    Floor,
-    Infeasibility,
-    MachineLimit,
-    Timing,
-)
+from schemas.answers import EffectUse, Timing
 from schemas.base import Answer, Model, NotEmpty
 from schemas.catalogue import no_catalogue
+from schemas.counterweights import Counterweight
+from schemas.first_order import FirstOrder, Floor
+from schemas.infeasibility import Infeasibility
+from schemas.limits import MachineLimit
 from schemas.machine import no_balance_shafts
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons

@@ -4,8 +4,9 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.answers import Counterweight, Infeasibility
 from schemas.base import Model
+from schemas.counterweights import Counterweight
+from schemas.infeasibility import Infeasibility
 from schemas.quantities import Kilograms, NewtonMetres, Newtons
 
 Traded = Literal["force", "moment", "bearings", "bending", "mass"]

@@ -7,8 +7,9 @@ from typing import Annotated, Any, Literal
 from pydantic import AliasChoices, BeforeValidator, Field
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
-from schemas.machine import MAX_ROWS_TOGETHER, MAX_THROWS, MAX_WEBS
+from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS
 from schemas.sweep import MAX_DESIGNS
+from schemas.throws import MAX_THROWS
 
 
 def _data_dir() -> Path:

@@ -12,8 +12,10 @@ from optimizer.figures.stages import stages
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from schemas.machine import ConnectingRod, ReciprocatingMachine, Row, Throw, Web
+from schemas.machine import ReciprocatingMachine
 from schemas.outputs import Stage
+from schemas.throws import ConnectingRod, Row, Throw
+from schemas.webs import Web
 
 OMEGA = 50.0  # rad/s, the speed of the seeds' reference figures
 RPM = OMEGA * 30.0 / np.pi

@@ -12,10 +12,11 @@ from optimizer.figures.peaks import bearing_and_bending_curves, of_shaft
 from optimizer.formulate import span
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.scene import Prepared
-from schemas.answers import Certificate, Residual
+from schemas.answers import Certificate
 from schemas.base import Model
 from schemas.caution import Caution, CautionCode
 from schemas.dynamics import MainBearings
+from schemas.first_order import Residual
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.robust import Sensitivity

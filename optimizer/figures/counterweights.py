@@ -12,9 +12,10 @@ from optimizer.mechanics.envelope import Envelope
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.shapes import envelopes
-from schemas.answers import Counterweight, Shape
-from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine, Web
+from schemas.counterweights import Counterweight, Shape
+from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
+from schemas.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn
 _ROUNDING = 8 * float(np.finfo(float).eps)

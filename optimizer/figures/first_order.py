@@ -13,7 +13,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
-from schemas.answers import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual, ResidualOrders
+from schemas.first_order import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual, ResidualOrders
 from schemas.outputs import Hodograph, Hodographs, Order
 from schemas.proof import BoundMultipliers
 

@@ -10,9 +10,10 @@ from optimizer.formulate import RESPONSES, given_ceilings, limited, weights
 from optimizer.limits import MACHINE_LIMITS, TOUCHED, WEB_LIMITS
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.response import Response
-from schemas.answers import Counterweight, MachineLimit, PriceUnit, ShadowPrice, WebLimit
+from schemas.counterweights import Counterweight
+from schemas.limits import MachineLimit, PriceUnit, ShadowPrice, WebLimit
 from schemas.machine import Machine
-from schemas.requests import Objective
+from schemas.objective import Objective
 
 #: optima may differ by this share of the objective without counterweights: what is worth less holds nothing up
 _WORTH = 1e-6

@@ -16,8 +16,9 @@ from optimizer.program.certificate import Multipliers, normalised, objective_low
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from schemas.machine import ReciprocatingMachine, Row
+from schemas.machine import ReciprocatingMachine
 from schemas.match import MatchRequest
+from schemas.throws import Row
 
 #: asked of every program, in units of its objective without counterweights
 _GAP = 1e-6

@@ -21,7 +21,8 @@ from optimizer.mechanics.layout import layout
 from optimizer.optimize import optimize
 from optimizer.own_solver import own_solver
 from optimizer.program.verdict import Claim, verdict
-from schemas.answers import AnalyzeAnswer, FirstOrder, OptimizeAnswer, Residual, Timing
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Timing
+from schemas.first_order import FirstOrder, Residual
 from schemas.machine import ReciprocatingMachine
 from schemas.match import MatchRequest
 from schemas.match_answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare

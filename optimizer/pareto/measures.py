@@ -13,7 +13,8 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
 from optimizer.program.statement import Norms, Row, WeightedPeak
 from optimizer.scene import Prepared
-from schemas.requests import Objective, OptimizeRequest
+from schemas.objective import Objective
+from schemas.requests import OptimizeRequest
 from schemas.trade import Traded
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of what is traded

@@ -12,7 +12,7 @@ from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Norms, Statement, combined, statement, weighted_peak
 from optimizer.response import Response
 from schemas.machine import Machine
-from schemas.requests import Objective
+from schemas.objective import Objective
 
 
 @dataclass(frozen=True)

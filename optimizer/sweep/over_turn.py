@@ -9,7 +9,8 @@ from optimizer.arrays import Complex
 from optimizer.certified_turn import CertifiedTurn, certified_turn
 from optimizer.outputs import prepare
 from optimizer.program.cuts import METHOD
-from schemas.answers import Certificate, GoalReached, Infeasibility
+from schemas.answers import Certificate, GoalReached
+from schemas.infeasibility import Infeasibility
 from schemas.proof import DesignMultipliers
 from schemas.requests import OptimizeRequest
 from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns

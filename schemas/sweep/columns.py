@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 
 from schemas.machine import Machine
+from schemas.objective import Objective
 from schemas.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
-from schemas.requests import AnalyzeRequest, Objective, OptimizeRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.target import Target, pointer
 
 _ALWAYS = (

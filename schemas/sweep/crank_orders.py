@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from math import factorial, prod
 from typing import Any, NamedTuple
 
-from schemas.machine import Machine, ReciprocatingMachine, Row, Throw
+from schemas.machine import Machine, ReciprocatingMachine
+from schemas.throws import Row, Throw
 
 #: angles and planes so near are one
 _NEAR = 1e-9

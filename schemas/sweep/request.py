@@ -8,15 +8,17 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
 from schemas.base import FieldProblem, Model
 from schemas.catalogue import no_catalogue
-from schemas.machine import MAX_THROWS, ReciprocatingMachine, no_balance_shafts
+from schemas.machine import ReciprocatingMachine, no_balance_shafts
+from schemas.objective import OVER_THE_TURN, of_the_shaft
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Angle, Count, Flag
-from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest, of_the_shaft
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
 from schemas.sweep.crank_orders import MAX_ORDERED, MAX_SEQUENCES, CrankOrders, crank_orders
 from schemas.target import BadPointer, Target, find_target
+from schemas.throws import MAX_THROWS
 
 MAX_AXES = 64
 #: parts of a request that an axis may vary

@@ -5,8 +5,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import NamedTuple, TypeVar
 
-from schemas.answers import Counterweight
-from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine, Web
+from schemas.counterweights import Counterweight
+from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
+from schemas.webs import Web
 from service.report.blocks import digits
 from service.report.drawing import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
 

@@ -4,7 +4,7 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from schemas.answers import Counterweight
+from schemas.counterweights import Counterweight
 from schemas.machine import Machine, ReciprocatingMachine
 from service.report.blocks import digits
 from service.report.drawing import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened

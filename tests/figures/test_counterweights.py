@@ -13,7 +13,7 @@ from pydantic import ValidationError
 
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.limits import limits
-from schemas.answers import Counterweight
+from schemas.counterweights import Counterweight
 from schemas.machine import ReciprocatingMachine, ScrollMachine
 from tests.hard.cases.case import machine, throw, web
 

@@ -6,7 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from schemas.answers import OptimizeAnswer, ShadowPrice
+from schemas.answers import OptimizeAnswer
+from schemas.limits import ShadowPrice
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized
 

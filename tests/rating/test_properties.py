@@ -13,9 +13,9 @@ from optimizer.rating.power import indicated_power
 from optimizer.rating.rate import rate
 from optimizer.rating.sizes import Piston, nominal_bore
 from schemas.cylinder import Cylinder
-from schemas.machine import Row
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingAnswer
+from schemas.throws import Row
 from tests.rating.design import body, request, requests
 
 

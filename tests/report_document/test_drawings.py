@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.answers import Counterweight
+from schemas.counterweights import Counterweight
 from service.report import charts
 from service.report.drawing import AFTER, PAGE_WIDTH, Drawing
 from service.report.front import front

@@ -6,7 +6,7 @@ from typing import Any, get_args
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.answers import MachineLimit, WebLimit
+from schemas.limits import MachineLimit, WebLimit
 from service.report.chapters.balance import limits
 from service.report.document import report
 from service.report.html import html

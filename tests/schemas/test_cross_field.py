@@ -8,7 +8,8 @@ from pydantic import BaseModel, ValidationError
 from schemas.angles import Angles
 from schemas.cylinder import Cylinder
 from schemas.machine import ReciprocatingMachine, ScrollMachine
-from schemas.requests import AnalyzeRequest, DirectionWeights, Objective, OptimizeRequest
+from schemas.objective import DirectionWeights, Objective
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 
 THROW: dict[str, Any] = {"position_m": 0, "crank_radius_m": 0.14, "crank_angle_deg": 0}
 ROW: dict[str, Any] = {"axis_deg": 0, "reciprocating_mass_kg": 1}

@@ -68,7 +68,15 @@ def units_in(schema: Any) -> set[str]:
 
 
 def of_a_request(model: type[Model]) -> bool:
-    return model.__module__ in ("schemas.machine", "schemas.cylinder", "schemas.requests", "schemas.rating")
+    return model.__module__ in (
+        "schemas.machine",
+        "schemas.throws",
+        "schemas.webs",
+        "schemas.objective",
+        "schemas.cylinder",
+        "schemas.requests",
+        "schemas.rating",
+    )
 
 
 @each_model

@@ -13,8 +13,9 @@ from optimizer.program import cuts
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.sweep import run_chunk
 from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
+from schemas.objective import OVER_THE_TURN
 from schemas.outputs import Order
-from schemas.requests import OVER_THE_TURN, AnalyzeRequest, OptimizeRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
 from service.validation import InvalidRequest, check, pointer
 

@@ -4,8 +4,10 @@ import math
 from collections.abc import Iterator, Sequence
 
 from optimizer.formulate import span
-from schemas.answers import Counterweight, FirstOrder, Floor, OptimizeAnswer
+from schemas.answers import OptimizeAnswer
 from schemas.base import FieldProblem
+from schemas.counterweights import Counterweight
+from schemas.first_order import FirstOrder, Floor
 from schemas.machine import Machine
 from schemas.outputs import Hodographs, Stage
 from schemas.requests import OptimizeRequest

@@ -5,9 +5,12 @@ from collections.abc import Iterator, Sequence
 from optimizer.formulate import given_ceilings, span, weights
 from schemas.catalogue import Catalogue
 from schemas.cylinder import Cylinder
-from schemas.machine import Machine, ReciprocatingMachine, Row, ScrollMachine, Throw, Web
+from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
+from schemas.objective import Priority
 from schemas.over_turn import ForceTable, TorqueTable
-from schemas.requests import OptimizeRequest, Priority
+from schemas.requests import OptimizeRequest
+from schemas.throws import Row, Throw
+from schemas.webs import Web
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
 from service.report.chapters.worst_case import asked
 

@@ -1,6 +1,6 @@
 """What shakes at multiples of the shaft speed."""
 
-from schemas.answers import ResidualOrders
+from schemas.first_order import ResidualOrders
 from schemas.outputs import Order, OrdersComparison
 from service.report.blocks import Chapter, Paragraph, Table, table
 

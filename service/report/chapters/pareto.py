@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
+from schemas.objective import Objective
 from schemas.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
-from schemas.requests import Objective
 from schemas.trade import TradedFront, TradedPoint
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, table
 from service.report.chapters.balance import limits

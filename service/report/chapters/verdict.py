@@ -2,8 +2,10 @@
 
 from collections.abc import Iterator
 
-from schemas.answers import Certificate, Infeasibility, OptimizeAnswer
-from schemas.requests import Objective, OptimizeRequest
+from schemas.answers import Certificate, OptimizeAnswer
+from schemas.infeasibility import Infeasibility
+from schemas.objective import Objective
+from schemas.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
 from service.report.chapters.balance import limits, shown, which
 from service.report.formula import formula

@@ -1,0 +1,109 @@
+"""Places for counterweights, and what may sit there."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field
+
+from schemas.base import Model
+from schemas.catalogue import Holes, Masses
+from schemas.quantities import Angle, Count, Length, MaxMass, Name, Position
+from schemas.rules import Rule, Ruled
+from schemas.throws import MAX_THROWS
+from schemas.units import Unit, between, positive
+
+
+class Sector(Model):
+    """The angles that a counterweight may take: centre plus or minus half the opening."""
+
+    centre_deg: Angle = Field(description="middle of the sector, as drawn at shaft angle 0", examples=[180.0])
+    half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
+        description="half the opening of the sector, above 0 and at most 90 degrees", examples=[60.0]
+    )
+
+
+class Envelope(Ruled):
+    """The plate from which a counterweight is cut: between two radii, about the direction of its unbalance."""
+
+    shape: Literal["sector", "segment"] = Field(
+        description="sector: bounded by both radii and two edges through the shaft; segment: by a chord and the outer"
+        " radius, the lightest outline that there is",
+        examples=["segment"],
+    )
+    inner_radius_m: Annotated[float, between(0.0, 1e9), Unit("m")] = Field(
+        0.0, description="radius of what is in the way, as the hub; 0 where nothing is", examples=[0.06]
+    )
+    outer_radius_m: Length = Field(description="radius that the counterweight may reach", examples=[0.25])
+    thickness_m: Length = Field(description="thickness along the shaft", examples=[0.04])
+    density_kg_m3: Annotated[float, positive(1e6), Unit("kg/m3")] = Field(
+        7850.0, description="density; steel if not said", examples=[7850]
+    )
+    max_half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
+        90.0, description="half of the largest opening, as seen from the shaft at the outer radius", examples=[75.0]
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield Rule(
+            self.inner_radius_m >= self.outer_radius_m, ("inner_radius_m",), "must be smaller than the outer radius"
+        )
+
+
+class Web(Ruled):
+    """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "anyOf": [{"required": ["counterweight_radius_m", "max_mass_kg"]}, {"required": ["envelope"]}]
+        }
+    )
+
+    name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
+    position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])
+    counterweight_radius_m: Annotated[Length | None, Unit("m")] = Field(
+        None, description="radius of the counterweight's centre of mass; not with an envelope", examples=[0.25]
+    )
+    max_mass_kg: Annotated[MaxMass | None, Unit("kg")] = Field(
+        None,
+        description="largest counterweight that fits; 0 allows none, null is no limit; must be said but for an"
+        " envelope",
+        examples=[60.0],
+    )
+    envelope: Envelope | None = Field(
+        None,
+        description="the plate from which the counterweight is cut, in place of its radius and its largest mass",
+        examples=[None],
+    )
+    sector: Sector | None = Field(
+        None,
+        description="angles that the counterweight may take; null allows every angle",
+        examples=[{"centre_deg": 180, "half_angle_deg": 60}],
+    )
+    throw: Annotated[Count, Field(ge=0, lt=MAX_THROWS)] | None = Field(
+        None,
+        description="number from 0 of the throw whose crank the web belongs to; null is the nearest, and none where"
+        " two are equally near",
+        examples=[0],
+    )
+    catalogue_masses_kg: Masses | None = Field(
+        None, description="masses that there are for this web, in place of those of the catalogue", examples=[None]
+    )
+    hole_angles_deg: Holes | None = Field(
+        None,
+        description="angles as drawn at shaft angle 0 of the bolt holes, in place of steps of the catalogue",
+        examples=[None],
+    )
+
+    @property
+    def reach_m(self) -> float:
+        """Radius to which a counterweight reaches at most: that of its centre of mass, where no more is known."""
+        return self.envelope.outer_radius_m if self.envelope else self.counterweight_radius_m or 0.0
+
+    def rules(self) -> Iterator[Rule]:
+        if self.envelope is None:
+            # left out, and not null: no limit has to be meant
+            yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), "Field required")
+            yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), "Field required")
+        else:
+            message = "follows from the envelope: leave it out"
+            yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)
+            yield Rule(self.max_mass_kg is not None, ("max_mass_kg",), message)
