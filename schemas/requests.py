@@ -109,6 +109,8 @@ class OptimizeRequest(Scene, Ruled):
             scatters = self.tolerances.reciprocating_mass_relative > 0
             message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
             yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
+        if not any(web.envelope is not None for web in self.machine.webs):
+            return
         if self.objective.over_the_turn or self.robust:
             also = "scenarios and tolerances" if self.robust else f"objective.{self.objective.over_the_turn[0]}"
             yield from self.envelope_rules(f"of the first order and of one machine only: not with {also}")

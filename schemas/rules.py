@@ -15,6 +15,9 @@ from schemas.base import FieldProblem, Model
 
 Path = tuple[str | int, ...]
 
+#: what is said of a field that is missing
+REQUIRED = "this field is required"
+
 
 class Rule(NamedTuple):
     """Whether a rule is broken, by one request or by each of many; the field at fault, and what is said of it."""

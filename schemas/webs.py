@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import ConfigDict, Field
+from pydantic import Field
 
 from schemas.base import Model
 from schemas.catalogue import Holes, Masses
 from schemas.quantities import Angle, Count, Length, MaxMass, Name, Position
-from schemas.rules import Rule, Ruled
+from schemas.rules import REQUIRED, Rule, Ruled
 from schemas.throws import MAX_THROWS
 from schemas.units import Unit, between, positive
 
@@ -50,12 +50,6 @@ class Envelope(Ruled):
 
 class Web(Ruled):
     """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
-
-    model_config = ConfigDict(
-        json_schema_extra={
-            "anyOf": [{"required": ["counterweight_radius_m", "max_mass_kg"]}, {"required": ["envelope"]}]
-        }
-    )
 
     name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
     position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])
@@ -101,8 +95,8 @@ class Web(Ruled):
     def rules(self) -> Iterator[Rule]:
         if self.envelope is None:
             # left out, and not null: no limit has to be meant
-            yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), "Field required")
-            yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), "Field required")
+            yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), REQUIRED)
+            yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), REQUIRED)
         else:
             message = "follows from the envelope: leave it out"
             yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)

@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from schemas.base import FieldProblem, Model
-from schemas.rules import Path
+from schemas.rules import REQUIRED, Path
 
 Request = TypeVar("Request", bound=Model)
 MAX_ERRORS = 50
@@ -21,7 +21,7 @@ _LONGEST_INTEGER = 400
 _DISCRIMINATORS = ("kind", "type")
 
 _MESSAGES = {
-    "missing": "this field is required",
+    "missing": REQUIRED,
     "extra_forbidden": "unknown field",
     "model_type": "must be an object",
     "model_attributes_type": "must be an object",
@@ -36,7 +36,7 @@ _MESSAGES = {
     "string_type": "must be a string",
     "string_unicode": "must be valid Unicode text",
     "string_pattern_mismatch": "must not contain control characters",
-    "union_tag_not_found": "this field is required",
+    "union_tag_not_found": REQUIRED,
     "union_tag_invalid": "must be one of {expected_tags}",
 }
 _SUBJECT = re.compile(r"^\w+ should")

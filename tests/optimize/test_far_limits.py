@@ -4,12 +4,12 @@ import copy
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
 from optimizer.pareto.pareto import pareto
 from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from schemas.requests import OptimizeRequest
+from service.validation import InvalidRequest, check
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.sweep.single import sweep
 from tests.verification.checking import optimized
@@ -131,5 +131,6 @@ def test_no_limit_in_a_sweep_and_in_a_front() -> None:
 def test_a_limit_that_is_left_out_is_refused() -> None:
     body = issued(None)
     del body["machine"]["webs"][1]["max_mass_kg"]
-    with pytest.raises(ValidationError, match="max_mass_kg"):
-        OptimizeRequest.model_validate(body)
+    with pytest.raises(InvalidRequest) as refused:
+        check(OptimizeRequest, body)
+    assert [problem.path for problem in refused.value.problems] == [("machine", "webs", 1, "max_mass_kg")]

@@ -126,6 +126,9 @@ def test_the_examples_in_halves_and_with_limits_clipped(name: str) -> None:
     whole = answer(body)
     if len(body["webs"]) <= 8:
         agree(whole, answer(halved(body)))
+    if body.get("balance_shafts"):
+        # their total has no limit
+        return
     tight = {**body, "max_total_mass_kg": max(0.5 * (whole.total_mass_kg or 0.0), 1.0)}
     agree(answer(tight), answer(clipped(tight)))
 

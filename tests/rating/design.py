@@ -98,7 +98,7 @@ def requests(draw: st.DrawFn, **fixed: Any) -> RatingRequest:
         {
             "cylinders": draw(st.integers(1, 4)),
             "acting": draw(st.sampled_from(["double", "head", "crank"])),
-            "piston_rod_diameter_m": draw(_number(0.0, 0.02)),
+            "piston_rod_diameter_m": draw(_number(0.0, 0.008)),
             "suction_temperature_K": draw(_number(280.0, 330.0)),
             "relative_clearance": draw(_number(0.02, 0.2)),
             "temperature_coefficient": draw(_number(0.9, 1.0)),

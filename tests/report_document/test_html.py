@@ -110,7 +110,7 @@ def test_characters_that_do_not_print_are_replaced(made: Make) -> None:
 
 def test_every_drawing_is_well_formed_by_itself(hostile: Document) -> None:
     found = drawings(html(hostile))
-    assert len(found) == 9
+    assert len(found) == 12
     shapes = {child.tag.rpartition("}")[2] for drawing in found for child in drawing}
     assert shapes == {"path", "circle", "text"}
 

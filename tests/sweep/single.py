@@ -17,6 +17,7 @@ from schemas.objective import OVER_THE_TURN
 from schemas.outputs import Order
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
+from schemas.target import BadPointer, find_target
 from service.validation import InvalidRequest, check, pointer
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -243,4 +244,13 @@ def numeric_paths(request: SweepRequest) -> list[str]:
             walk(body[part], (part,))
     # a sweep does not weigh what is known over the turn
     refused = tuple(pointer(("objective", name)) for name in OVER_THE_TURN)
-    return [path for path in found if not path.startswith(refused)]
+    return [path for path in found if not path.startswith(refused) and _is_number(request, path)]
+
+
+def _is_number(request: SweepRequest, path: str) -> bool:
+    """Whether a field is one, and no choice of a few."""
+    try:
+        find_target(request.base, path)
+    except BadPointer:
+        return False
+    return True
