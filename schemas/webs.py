@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
 from schemas.base import Model
 from schemas.catalogue import Holes, Masses
@@ -50,6 +50,12 @@ class Envelope(Ruled):
 
 class Web(Ruled):
     """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "anyOf": [{"required": ["counterweight_radius_m", "max_mass_kg"]}, {"required": ["envelope"]}]
+        }
+    )
 
     name: Name = Field(description="name of the place, unique in the machine", examples=["1a"])
     position_m: Position = Field(description="plane of the counterweight along the shaft (z)", examples=[0.28])

@@ -18,7 +18,8 @@ export class Schema {
   // all alternatives, however deep they are nested
   alternatives(node) {
     const found = this.deref(node);
-    const options = found.anyOf ?? found.oneOf;
+    // of an object they only say which of its fields go together
+    const options = found.properties ? undefined : found.anyOf ?? found.oneOf;
     return options ? options.flatMap((option) => this.alternatives(option)) : [found];
   }
 
@@ -56,7 +57,8 @@ export class Schema {
   }
 
   object(node) {
-    return { properties: node.properties, required: new Set(node.required ?? []) };
+    // of fields that go together the first ones are those that are usual
+    return { properties: node.properties, required: new Set([...(node.required ?? []), ...(node.anyOf?.[0].required ?? [])]) };
   }
 
   union(objects) {
