@@ -8,6 +8,7 @@ as asked.
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from time import thread_time
 
 import numpy as np
 
@@ -28,6 +29,8 @@ from schemas.requests import OptimizeRequest
 _FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 9)))
 #: how many nodes are kept beside the ends, and how often others are laid
 _KEPT, _ROUNDS = 9, 12
+#: tangents reach no less far than chords, whatever the rounding of their pieces
+_REACHES = 1.0 + 1e-13
 #: nodes that are nearer than this share of the largest half-angle are one
 _SAME = 1e-9
 
@@ -49,12 +52,15 @@ def certified_shapes(
         return request, certified(request, responses, omega_squared, solver)
     nodes: _Nodes = {k: _nodes(_FIRST, float(plate.most)) for k, plate in plates.items()}
     best: tuple[OptimizeRequest, Certified] | None = None
+    end = thread_time() + request.accuracy.time_limit_s
     for _ in range(_ROUNDS):
         asked, found, called_for = _round(request, plates, nodes, responses, omega_squared, solver)
         if best is None or _gap(found) <= _gap(best[1]):
             best = asked, found
         if found.status[0] != "inaccurate":
             return asked, found
+        if thread_time() > end:
+            break
         nodes = {k: _closer(nodes[k], called_for[k]) for k in plates}
     assert best is not None
     return best
@@ -127,7 +133,7 @@ def _tangents(plate: Envelope, nodes: Real) -> _Webs:
     rise = np.diff(slope)
     crossing = np.where(rise > 0, -np.diff(height) / np.where(rise > 0, rise, 1.0), at[1:])
     ends = np.concatenate([[0.0], np.clip(crossing, at[:-1], at[1:]), unbalance[-1:]])
-    return 1.0 / slope, np.diff(ends) * slope
+    return 1.0 / slope, np.diff(ends) * slope * _REACHES
 
 
 def _pieces(whole: Statement, owner: np.ndarray, webs: Mapping[int, _Webs]) -> Statement:

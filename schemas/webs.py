@@ -12,6 +12,9 @@ from schemas.rules import REQUIRED, Rule, Ruled
 from schemas.throws import MAX_THROWS
 from schemas.units import Unit, between, positive
 
+#: largest inner radius, as a share of the outer one
+_INNERMOST = 0.999
+
 
 class Sector(Model):
     """The angles that a counterweight may take: centre plus or minus half the opening."""
@@ -30,22 +33,26 @@ class Envelope(Ruled):
         " radius, the lightest outline that there is",
         examples=["segment"],
     )
-    inner_radius_m: Annotated[float, between(0.0, 1e9), Unit("m")] = Field(
+    inner_radius_m: Annotated[float, between(0.0, 1e3), Unit("m")] = Field(
         0.0, description="radius of what is in the way, as the hub; 0 where nothing is", examples=[0.06]
     )
-    outer_radius_m: Length = Field(description="radius that the counterweight may reach", examples=[0.25])
-    thickness_m: Length = Field(description="thickness along the shaft", examples=[0.04])
-    density_kg_m3: Annotated[float, positive(1e6), Unit("kg/m3")] = Field(
+    outer_radius_m: Annotated[float, between(1e-4, 1e3), Unit("m")] = Field(
+        description="radius that the counterweight may reach", examples=[0.25]
+    )
+    thickness_m: Annotated[float, between(1e-5, 1e2), Unit("m")] = Field(
+        description="thickness along the shaft", examples=[0.04]
+    )
+    density_kg_m3: Annotated[float, between(1.0, 1e5), Unit("kg/m3")] = Field(
         7850.0, description="density; steel if not said", examples=[7850]
     )
-    max_half_angle_deg: Annotated[float, positive(90.0), Unit("deg")] = Field(
+    max_half_angle_deg: Annotated[float, between(0.1, 90.0), Unit("deg")] = Field(
         90.0, description="half of the largest opening, as seen from the shaft at the outer radius", examples=[75.0]
     )
 
     def rules(self) -> Iterator[Rule]:
-        yield Rule(
-            self.inner_radius_m >= self.outer_radius_m, ("inner_radius_m",), "must be smaller than the outer radius"
-        )
+        # what is thinner is no plate, and its figures are what rounding leaves of large ones
+        thin = self.inner_radius_m > _INNERMOST * self.outer_radius_m
+        yield Rule(thin, ("inner_radius_m",), f"must be smaller than {_INNERMOST:g} of the outer radius")
 
 
 class Web(Ruled):

@@ -187,8 +187,25 @@ def test_a_report_shows_the_plates() -> None:
     assert "segment, radii" in document
 
 
+@pytest.mark.parametrize("shape", SHAPES)
+@pytest.mark.parametrize(
+    "plate",
+    [
+        {"outer_radius_m": 1000, "thickness_m": 100, "inner_radius_m": 0},
+        {"outer_radius_m": 1e-4, "thickness_m": 1e-5, "inner_radius_m": 0, "max_half_angle_deg": 0.1},
+        {"inner_radius_m": 0.3196, "max_half_angle_deg": 90},
+    ],
+)
+def test_plates_at_the_ends_of_what_is_taken(
+    shape: str, plate: dict[str, float], caplog: pytest.LogCaptureFixture
+) -> None:
+    assert answered(asked(shape, **plate)).status == "optimal"
+    # no bound was above a value on the way
+    assert not caplog.records
+
+
 BAD = {
-    "/machine/webs/0/envelope/inner_radius_m": {"inner_radius_m": 0.4},
+    "/machine/webs/0/envelope/inner_radius_m": {"inner_radius_m": 0.3199},
     "/machine/webs/0/envelope/outer_radius_m": {"outer_radius_m": -1},
     "/machine/webs/0/envelope/density_kg_m3": {"density_kg_m3": 0},
     "/machine/webs/0/envelope/thickness_m": {"thickness_m": 0},
