@@ -80,7 +80,7 @@ class JobFiles:
 
     def piece(self, job: str, record: Record) -> Path:
         """The file of some rows, or of the rows that were selected."""
-        name = f"{record.start:09d}-{record.stop:09d}"
+        name = _rows(record)
         return self.folder(job) / (name if record.digest is None else f"{name}-{record.digest[:16]}")
 
     def opened(self, job: str, record: Record) -> BinaryIO:
@@ -94,10 +94,9 @@ class JobFiles:
 
     def absent(self, job: str, records: Iterable[Record]) -> list[Record]:
         """Those of some files that are not there."""
-        with suppress(FileNotFoundError, NotADirectoryError):
-            there = set(os.listdir(self.folder(job)))
-            return [record for record in records if self.piece(job, record).name not in there]
-        return list(records)
+        names = self.names(job)
+        there = {*names, *(_rows_of(name) for name in names)}
+        return [record for record in records if self.piece(job, record).name not in there]
 
     def keep(self, job: str, start: int, stop: int, content: bytes) -> Record:
         """Write the file of some rows, in one step and on disk when this returns.
@@ -111,8 +110,10 @@ class JobFiles:
         self._write(self.piece(job, record), content)
         return record
 
-    def adopt(self, job: str, record: Record) -> Record:
-        """Give a file that was written before there were digests its name.
+    def named(self, job: str, record: Record) -> Record:
+        """Write a file that is older than digests once more, under the name that its content gives it.
+
+        The older one stays until the database knows the digest, so that a crash in between loses nothing.
 
         Raises
         ------
@@ -120,10 +121,13 @@ class JobFiles:
         """
         with self.opened(job, record) as file:
             content = file.read()
-        named = Record(record.start, record.stop, digest(content), len(content))
-        self.piece(job, record).replace(self.piece(job, named))
-        synchronise(self.folder(job))
-        return named
+        return self.keep(job, record.start, record.stop, content)
+
+    def drop(self, job: str, record: Record) -> None:
+        """Remove the file of some rows."""
+        # what stays is removed when the job has ended
+        with suppress(OSError):
+            self.piece(job, record).unlink()
 
     def _write(self, path: Path, content: bytes) -> None:
         _make(path.parent)
@@ -156,9 +160,14 @@ class JobFiles:
 
     def tidy(self, job: str, found: Iterable[str], records: Iterable[Record]) -> int:
         """Remove those of some names that are no file of the job; how many that were."""
-        known = {_FLAG, *(self.piece(job, record).name for record in records)}
+        kept = list(records)
+        known = {_FLAG, *(self.piece(job, record).name for record in kept)}
+        # a reader may be about to tell the database their digests
+        older = {_rows(record) for record in kept if record.digest is None}
         gone = 0
         for name in set(found) - known:
+            if _rows_of(name) in older:
+                continue
             with suppress(OSError):
                 (self.folder(job) / name).unlink()
                 gone += 1
@@ -191,6 +200,14 @@ class JobFiles:
                     shutil.rmtree(self.folder(job))
                     gone += 1
         return gone
+
+
+def _rows(record: Record) -> str:
+    return f"{record.start:09d}-{record.stop:09d}"
+
+
+def _rows_of(name: str) -> str:
+    return "-".join(name.split("-")[:2])
 
 
 def _make(folder: Path) -> None:

@@ -17,6 +17,7 @@ from service.cli import app
 from service.jobs.coordinator import Pace
 from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.desk import Desk
+from service.jobs.housekeeping import Housekeeping
 from service.jobs.kinds import table_bytes
 from service.jobs.schema import NUMBER, WrongSchema
 from service.jobs.tables import metadata
@@ -113,6 +114,48 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
     again = Desk(settings)
     assert again.of().get(DONE).done == 400
     again.close()
+
+
+def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
+    write_1(settings)
+    # not opened, so that only what is called here runs
+    desk = Desk(settings)
+    jobs, parts = desk.of(), desk._parts
+    done = jobs.get(DONE)
+    schema = jobs.schema(done)
+    house = Housekeeping(parts.store, parts.retention, parts.files)
+    adopt = parts.leases.adopt
+
+    def late(*about: Any) -> None:
+        # the moment between the file's name and the database's knowledge of it
+        house.tidy()
+        assert not parts.files.absent(DONE, parts.store.pieces(DONE))
+        adopt(*about)
+
+    before = jobs.rows(done, schema)
+    monkeypatch.setattr(parts.leases, "adopt", late)
+    first = pa.Table.from_batches(jobs.rows(done, schema).batches)
+    # who has asked before the names were given still reads
+    assert pa.Table.from_batches(before.batches).equals(first)
+    assert jobs.get(DONE).repaired == 0
+    expected = {parts.files.piece(DONE, piece).name for piece in parts.store.pieces(DONE)}
+    assert set(parts.files.names(DONE)) == expected
+    assert all(name.count("-") == 2 for name in expected)
+    desk.close()
+
+
+def test_a_crash_between_a_name_and_its_record_costs_nothing(settings: Settings) -> None:
+    write_1(settings)
+    desk = Desk(settings)
+    jobs, parts = desk.of(), desk._parts
+    done = jobs.get(DONE)
+    for piece in parts.store.pieces(DONE):
+        parts.files.named(DONE, piece)
+    Housekeeping(parts.store, parts.retention, parts.files).tidy()
+    assert pa.Table.from_batches(jobs.rows(done, jobs.schema(done)).batches).num_rows == 400
+    assert jobs.get(DONE).repaired == 0
+    assert len(parts.files.names(DONE)) == 2
+    desk.close()
 
 
 @pytest.mark.parametrize(
