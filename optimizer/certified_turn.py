@@ -19,7 +19,7 @@ from optimizer.goals import Case, Goals, goals
 from optimizer.limits import TOUCHED
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.certificate import ceiling_allowance
-from optimizer.program.cut_stage import Proof
+from optimizer.program.cut_proof import Proof
 from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
 from optimizer.program.over_turn import Goal, Group, OverTurn, Values, Weighed
 from optimizer.program.statement import Row, weighted_peak

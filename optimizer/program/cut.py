@@ -20,6 +20,8 @@ from optimizer.curve import TurnResponse, peaks
 _WITHIN = np.array([-0.75, -0.25, 0.25, 0.75])
 #: share of what is added up at which it has cancelled
 _DUST = 1e-13
+#: cuts of a quantity that are kept from one round to the next
+_MOST_CUTS = 16
 
 
 class Scatter(NamedTuple):
@@ -146,6 +148,33 @@ class Samples:
             cut = quantity.cut(float(angle[k]), complex(value[k]))
             found.append(quantity.peak(u, scatter, float(size[k]), float(size[k]), cut))
         return tuple(found)
+
+
+class Pool:
+    """The cuts that are known of every quantity."""
+
+    def __init__(self, first: Sequence[Sequence[Cut]], scatter: Scatter) -> None:
+        self.cuts = [list(cuts) for cuts in first]
+        self.scatter = scatter
+
+    def count(self) -> int:
+        return sum(len(cuts) for cuts in self.cuts)
+
+    def add(self, found: Sequence[Reached], u: Complex, matters: Real) -> bool:
+        """Take the cut of every quantity whose true value is above what matters; whether any was new."""
+        new = False
+        for cuts, each, least in zip(self.cuts, found, matters, strict=True):
+            known = max(cut.at(u, self.scatter) for cut in cuts)
+            if each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps):
+                cuts.append(each.cut)
+                new = True
+        return new
+
+    def forget(self, u: Complex) -> None:
+        """Keep what is largest at a point."""
+        for q, cuts in enumerate(self.cuts):
+            if len(cuts) > _MOST_CUTS:
+                self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u, self.scatter))[:_MOST_CUTS]
 
 
 def _cleared(quantity: Quantity, values: Complex) -> Complex:

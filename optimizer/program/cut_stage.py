@@ -7,17 +7,15 @@ gap tells when to stop, and not the solver.
 """
 
 import time
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
-from optimizer.program.cut import Cut
-from optimizer.program.floors import floor_multipliers
-from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
+from optimizer.program.cut import Pool
+from optimizer.program.cut_proof import Proof, proofs, resting_proof, times, units
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.reference.assembled import NoPoint, Target, solved
 from optimizer.program.reference.modelling import Stage as CostStage
@@ -25,8 +23,6 @@ from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
-#: cuts of a quantity that are kept from one round to the next
-_MOST_CUTS = 16
 #: rounds of a stage before it ends with what is proven
 _MOST_ROUNDS = 60
 #: tolerance of the solver and multiple of the margins, and what is tried where that leaves more open than asked
@@ -51,24 +47,6 @@ _NARROWEST = 1e-12
 _LEAST_MARGIN = 1e-12
 #: relative width of the brackets of a point that may be the answer
 _CLOSE = 1e-12
-#: shares of several sums, which are to sum to no more than 1
-_MEAN = 1.0 - 64 * np.finfo(float).eps
-
-
-@dataclass(frozen=True)
-class Proof:
-    """A bound by multipliers of a statement with finitely many cuts.
-
-    charge : what the goals that are kept below a level are charged with: the bound of several goals is that of the
-        statement, whose groups are those of all goals times their prices, less this.
-    cuts : of every quantity, in the order of the statement.
-    """
-
-    bound: float
-    statement: Statement
-    multipliers: Multipliers
-    charge: float
-    cuts: tuple[int, ...]
 
 
 @dataclass(frozen=True)
@@ -99,33 +77,6 @@ class Stage(NamedTuple):
     timed_out: bool  # the time limit ended the search
 
 
-class Pool:
-    """The cuts that are known of every quantity."""
-
-    def __init__(self, program: OverTurn) -> None:
-        self.cuts: list[list[Cut]] = [list(cuts) for cuts in program.first]
-        self.scatter = program.scatter
-
-    def count(self) -> int:
-        return sum(len(cuts) for cuts in self.cuts)
-
-    def add(self, found: Values, u: Complex, matters: Real) -> bool:
-        """Take the cut of every quantity whose true value is above what matters; whether any was new."""
-        new = False
-        for cuts, each, least in zip(self.cuts, found.reached, matters, strict=True):
-            known = max(cut.at(u, self.scatter) for cut in cuts)
-            if each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps):
-                cuts.append(each.cut)
-                new = True
-        return new
-
-    def forget(self, u: Complex) -> None:
-        """Keep what is largest at a point."""
-        for q, cuts in enumerate(self.cuts):
-            if len(cuts) > _MOST_CUTS:
-                self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u, self.scatter))[:_MOST_CUTS]
-
-
 class Search:
     """One stage: the last goal of a program, or the mass, under what is kept."""
 
@@ -144,8 +95,7 @@ class Search:
         self.of_mass = kept.most.size == len(program.goals)
         self.raised = raised
         self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
-        several = len(program.goals) > 1
-        self.unit = program.units if several else np.ones(1)
+        self.unit = units(program)
         statement = times(program.statement(program.first), 1.0 / self.unit[program.goal_of])
         needed = 2.0 * float(np.max(np.abs(inside.unbalance), initial=0.0))
         largest = float(np.max(program.limits.reach, initial=0.0))
@@ -177,8 +127,8 @@ class Search:
             if found is None:
                 attempts, coarse = attempts[1:], False
                 continue
-            u, proofs = found
-            for one in proofs:
+            u, proven = found
+            for one in proven:
                 proof = one if proof is None or one.bound > proof.bound else proof
             self._spare(enough * (best.mass if self.of_mass else 1.0))
             if coarse:
@@ -219,7 +169,7 @@ class Search:
 
     def _learnt(self, statement: Statement, u: Complex, values: Values) -> bool:
         """Whether a point has shown a cut that was not known."""
-        new = self.pool.add(values, u, self._matters(statement, u))
+        new = self.pool.add(values.reached, u, self._matters(statement, u))
         self.pool.forget(u)
         return new
 
@@ -283,59 +233,17 @@ class Search:
         self.price = np.bincount(of_target, found.price, aimed.size) * worth / self.unit[: aimed.size]
         u = program.limits.into(scaling.unbalance(posed, found.solution))
         began = time.perf_counter()
-        proofs = list(self._proofs(statement, u, scaling.multipliers(posed, found.solution)))
+        multipliers = scaling.multipliers(posed, found.solution)
+        proven = list(proofs(program, self.pool.cuts, statement, u, multipliers, self.kept.counted))
         self.certify_s += time.perf_counter() - began
-        return u, proofs
+        return u, proven
 
     def _resting(self) -> Proof:
-        """What is proven of the last goal without a solver, whatever the goals before it come to."""
+        """What is proven of the last goal without a solver."""
         began = time.perf_counter()
-        statement = self.program.statement(self.pool.cuts)
-        last = np.flatnonzero(self.program.goal_of_case == len(self.program.goals) - 1)
-        cuts = tuple(map(len, self.pool.cuts))
-        proofs = [
-            Proof(float(objective_lower_bound(alone, each)), alone, each, 0.0, cuts)
-            for alone in (times(statement, (self.program.case_of == case).astype(float)) for case in last)
-            for each in (*resting_multipliers(alone), floor_multipliers(self.program, self.pool.cuts, alone))
-        ]
+        proof = resting_proof(self.program, self.pool.cuts)
         self.certify_s += time.perf_counter() - began
-        return max(proofs, key=lambda proof: proof.bound)
-
-    def _proofs(self, statement: Statement, u: Complex, found: Multipliers) -> Iterator[Proof]:
-        """Bounds by the multipliers of the solver and by sharper ones."""
-        counted = self.kept.counted
-        charge = float(np.sum(counted))
-        if self.program.goal_of_case.size > 1:
-            statement, found, charges = self._charged(statement, found)
-            kept = self.program.goal_of_case < counted.size
-            charge = float(np.sum(charges[kept] * counted[self.program.goal_of_case[kept]]))
-        sharper = mass_multipliers if self.of_mass else objective_multipliers
-        for multipliers in sharper(statement, u, found):
-            if self.of_mass:
-                bound = float(mass_lower_bound(statement, multipliers, np.asarray(charge)))
-            else:
-                bound = float(objective_lower_bound(statement, multipliers)) - charge
-            if np.isfinite(bound):
-                yield Proof(bound, statement, multipliers, charge, tuple(map(len, self.pool.cuts)))
-
-    def _charged(self, statement: Statement, found: Multipliers) -> tuple[Statement, Multipliers, Real]:
-        """The statement whose groups have the prices of their sums, where each group's multipliers sum to 1."""
-        case_of, goal_of_case = self.program.case_of, self.program.goal_of_case
-        price = np.zeros(goal_of_case.size)
-        np.maximum.at(price, case_of, np.add.reduceat(np.maximum(found.row, 0.0), statement.first_rows))
-        last = goal_of_case == len(self.program.goals) - 1
-        unit = 1.0 if self.of_mass else float(np.sum(price[last])) / self.unit[-1]
-        if not unit > 0:
-            return statement, nothing_proven(statement), price
-        charges = price / self.unit[goal_of_case if self.unit.size > 1 else 0] / unit
-        if np.count_nonzero(last) > 1:
-            # the largest sum is no less than their mean, whatever the rounding of the shares
-            charges[last] *= _MEAN
-        each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[case_of]
-        multipliers = Multipliers(
-            found.term * each[statement.group][statement.row], found.row * each[statement.group], found.ceiling / unit
-        )
-        return times(statement, charges[case_of]), multipliers, charges
+        return proof
 
     def _matters(self, statement: Statement, u: Complex) -> Real:
         """(quantities,) above which a quantity changes anything."""
@@ -390,17 +298,3 @@ class Search:
         kept = self.kept.most
         over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
         return np.concatenate([over, values.over - self.allowed])
-
-
-def times(statement: Statement, factor: Real) -> Statement:
-    """The statement with its groups times factors (groups,)."""
-    if np.all(factor == 1.0):
-        return statement
-    of_row = factor[statement.group]
-    of_term = of_row[statement.row]
-    norms = replace(
-        statement.norms,
-        constant=statement.norms.constant * of_term,
-        influence=statement.norms.influence * of_term[:, None],
-    )
-    return replace(statement, norms=norms, floor=statement.floor * of_row)

@@ -8,8 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
+from optimizer.program.cut import Pool
+from optimizer.program.cut_proof import Proof, times
 from optimizer.program.cut_settled import settled_turn
-from optimizer.program.cut_stage import Kept, Point, Pool, Proof, Search, Stage, times
+from optimizer.program.cut_stage import Kept, Point, Search, Stage
 from optimizer.program.limits import Limits
 from optimizer.program.over_turn import OverTurn
 from optimizer.program.reach import bounded, far_limits
@@ -110,7 +112,7 @@ def over_turn(
         changes no answer.
     """
     until = time.thread_time() + time_limit_s
-    pool = Pool(program)
+    pool = Pool(program.first, program.scatter)
     nearest = _nearest(program, pool, until)
     excess = nearest.point.values.excess
     contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING

@@ -9,7 +9,7 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
-from optimizer.program import cut_stage
+from optimizer.program import cut_proof, cut_stage
 from optimizer.program.reference.assembled import Assembled, NoPoint, solved
 from optimizer.program.reference.modelling import ScaledSolution
 from optimizer.program.verdict import CONTRADICTED
@@ -109,12 +109,12 @@ def test_a_solver_that_lies_proves_nothing_false(
 
 def _raised(monkeypatch: pytest.MonkeyPatch, wrong: Callable[..., bool]) -> None:
     """Bounds that are 1 too high, where they are wrong."""
-    right = cut_stage.objective_lower_bound
+    right = cut_proof.objective_lower_bound
 
     def bound(statement: Any, multipliers: Any) -> Any:
         return right(statement, multipliers) + wrong(statement)
 
-    monkeypatch.setattr(cut_stage, "objective_lower_bound", bound)
+    monkeypatch.setattr(cut_proof, "objective_lower_bound", bound)
 
 
 @pytest.mark.parametrize(
