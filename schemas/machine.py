@@ -11,6 +11,7 @@ from schemas.balance_quality import BalanceQuality
 from schemas.base import Model, NotEmpty
 from schemas.catalogue import Catalogue, catalogue_rules, stated
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
+from schemas.drive_bearing import DriveBearing
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Length, Mass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled, larger
@@ -224,6 +225,11 @@ class ScrollMachine(Rotor):
     anti_rotation: Annotated[OldhamRing | CrankPins, Field(discriminator="type")] = Field(
         description="what keeps the scroll from turning",
         examples=[{"type": "crank_pins", "count": 3, "pin_circle_radius_m": 0.05, "position_m": 0.03}],
+    )
+    drive_bearing: DriveBearing = Field(
+        DriveBearing(),
+        description="what the drive's bearing carries beside crank pins; serves pin_loads alone",
+        examples=[{"type": "rigid"}],
     )
 
     rotation_torque_Nm: TorqueOverTurn | None = Field(

@@ -1,4 +1,6 @@
-"""Loads of the anti-rotation pins of a scroll: what is asked, and what is answered. Seed 003, equations (1) to (3).
+"""Loads of the anti-rotation pins of a scroll: what is asked, and what is answered.
+
+Equations (1) to (3) are those of Liu, Zhao and Li, "Anti-rotation by small crank pins in a scroll compressor" (2006).
 
 Shaft angle 0 is where the eccentric points along angle 0 of the pin circle (pin 1 of even pins); angles grow in
 the direction of rotation. A load is the force of a pin on the orbiting scroll, positive along the eccentric.
@@ -12,9 +14,11 @@ from pydantic import Field
 
 from schemas.angles import Angles
 from schemas.base import Answer, Model, NotEmpty
+from schemas.drive_bearing import DriveBearing, Stiffness
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Degrees, Joules, NewtonMetres, Newtons
 from schemas.rules import Rule, Ruled
+from schemas.scroll_losses import LossComparison, Losses
 from schemas.units import Unit, between, non_negative, symmetric
 
 MAX_PINS = 1000
@@ -22,8 +26,6 @@ MAX_PINS_GIVEN = 200
 MAX_LOADS = 1_000_000
 MAX_LOADS_WITH_CLEARANCE = 50_000
 
-# the ranges keep every product and quotient of them far inside the floating-point numbers
-Stiffness = Annotated[float, between(1e-6, 1e18), Unit("N/m")]
 Clearance = Annotated[float, non_negative(1.0), Unit("m")]
 EccentricityError = Annotated[float, symmetric(1.0), Unit("m")]
 _TORQUE_EXAMPLE = {"angle_deg": [0, 120, 240], "torque_Nm": [12, 15, 13]}
@@ -74,7 +76,15 @@ class PinLoadsRequest(Ruled):
         examples=[5000.0, {"angle_deg": [0, 120, 240], "force_N": [4000, 5000, 4300]}],
     )
     orbit_radius_m: Annotated[PinRadius | None, Unit("m")] = Field(
-        None, description="radius of the orbit, the lever of the tangential gas force", examples=[0.005]
+        None,
+        description="radius of the orbit: the lever of the tangential gas force, and the way of an Oldham ring",
+        examples=[0.005],
+    )
+    drive_bearing: DriveBearing = Field(
+        DriveBearing(), description="what the drive's bearing carries beside the pins", examples=[{"type": "rigid"}]
+    )
+    comparison: LossComparison | None = Field(
+        None, description="the losses of the pins beside those of an Oldham ring; null leaves them out", examples=[None]
     )
     angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
 
@@ -109,8 +119,10 @@ class PinLoadsRequest(Ruled):
     def _pin_rules(self) -> Iterator[Rule]:
         pins = self.pins or ()
         given = any(pin.stiffness_N_per_m is not None for pin in pins)
-        needed = given or self.has_clearance
-        why = "every pin needs one" if given else "clearances and errors need the stiffness of every pin"
+        elastic = self.drive_bearing.type == "elastic"
+        needed = given or self.has_clearance or elastic
+        what = "an elastic drive bearing needs" if elastic else "clearances and errors need"
+        why = "every pin needs one" if given else f"{what} the stiffness of every pin"
         places = [_place(pin.radius_m, radians(pin.angle_deg % 360.0)) for pin in pins]
         for index, pin in enumerate(pins):
             yield Rule(needed and pin.stiffness_N_per_m is None, ("pins", index, "stiffness_N_per_m"), why)
@@ -124,7 +136,11 @@ class PinLoadsRequest(Ruled):
         yield Rule((torque is None) == (force is None), ("rotation_torque_Nm",), message)
         message = "the tangential gas force needs the radius of the orbit"
         yield Rule(force is not None and lever is None, ("orbit_radius_m",), message)
-        yield Rule(force is None and lever is not None, ("orbit_radius_m",), "serves only with a tangential gas force")
+        serves = force is not None or self.comparison is not None
+        message = "serves only with a tangential gas force or a comparison"
+        yield Rule(lever is not None and not serves, ("orbit_radius_m",), message)
+        missing = self.comparison is not None and lever is None
+        yield Rule(missing and force is None, ("orbit_radius_m",), "a comparison needs the radius of the orbit")
 
 
 def _place(radius: float, angle: float) -> tuple[float, float]:
@@ -164,7 +180,9 @@ class PinEquilibrium(Model):
         description="largest difference of the pins' moment from the torque; at a dead point the torque itself",
         examples=[0.0],
     )
-    max_net_force_N: Newtons = Field(description="largest sum of the loads", examples=[0.0])
+    max_net_force_N: Newtons = Field(
+        description="largest sum of the loads, with that of the drive's bearing", examples=[0.0]
+    )
     reason: str | None = Field(description="why it does not hold", examples=[None])
 
 
@@ -193,10 +211,31 @@ class PinContact(Model):
     gap_J: Joules = Field(description="largest gap between strain energy and its dual at a sample", examples=[1e-20])
 
 
+class DriveBearingLoad(Model):
+    """What the drive's bearing carries of the pins' net force: the force on the scroll, along the eccentric."""
+
+    load_N: tuple[Newtons | None, ...] = Field(
+        description="positive along the eccentric; null at a dead point", examples=[[-12.0, -11.5]]
+    )
+    peak_N: Newtons | None = Field(
+        description="largest magnitude over the turn; null where a dead point has no bound", examples=[98.0]
+    )
+    peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[20.0])
+
+
+class PitchEnergy(Model):
+    """Equation (2) of Liu, Zhao and Li: the work of pins and torque over one pin pitch, W_Q + W_F = 0."""
+
+    pitch_deg: Degrees = Field(description="one pin pitch, 360 over the number of pins, from angle 0", examples=[120.0])
+    pins_work_J: Joules = Field(description="W_Q, work of the pins", examples=[-26.18])
+    torque_work_J: Joules = Field(description="W_F, work of the rotation torque", examples=[26.18])
+    sum_J: Joules = Field(description="W_Q + W_F; 0 where the pins hold the torque on the average", examples=[0.0])
+
+
 class PinWarning(Model):
     """Something to know about the answer."""
 
-    code: Literal["too_few_pins", "dead_points", "not_converged"] = Field(
+    code: Literal["too_few_pins", "uneven_load", "dead_points", "not_converged"] = Field(
         description="what it is about", examples=["too_few_pins"]
     )
     message: str = Field(description="the same in a sentence", examples=["at least 3 pins are needed"])
@@ -228,6 +267,13 @@ class PinLoads(Model):
     mechanism: DegreesOfFreedom = Field(description="the mechanism's freedom", examples=[{"degrees_of_freedom": 1}])
     contact: PinContact | None = Field(
         description="which pins bear; null without clearances and errors", examples=[None]
+    )
+    drive_bearing: DriveBearingLoad | None = Field(
+        description="what the drive's bearing carries; null where it is free", examples=[None]
+    )
+    energy: PitchEnergy = Field(description="balance of work over one pin pitch", examples=[{"pitch_deg": 120.0}])
+    comparison: Losses | None = Field(
+        description="losses of pins and Oldham ring; null unless asked for", examples=[None]
     )
     warnings: tuple[PinWarning, ...] = Field(description="things to know", examples=[[]])
 

@@ -21,6 +21,7 @@ def _question(machine: ScrollMachine, guide: CrankPins, angles: Angles) -> PinLo
         rotation_torque_Nm=machine.rotation_torque_Nm,
         tangential_gas_force_N=force,
         orbit_radius_m=None if force is None else machine.orbit_radius_m,
+        drive_bearing=machine.drive_bearing,
         angles=angles,
     )
 

@@ -31,6 +31,9 @@ def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
     assert isinstance(machine.anti_rotation, CrankPins)
     pins = np.broadcast_to(np.asarray(machine.anti_rotation.count, dtype=float), scene.layout.omega.shape)
     factor = 2.0 / (pins * machine.anti_rotation.pin_circle_radius_m)
+    if machine.drive_bearing.carries:
+        # one pin or two hold nothing where the eccentric lies along them
+        factor = np.where(pins < 3.0, np.nan, factor)
     given: Any = machine.rotation_torque_Nm
     if machine.tangential_gas_force_N is not None:
         given = machine.tangential_gas_force_N

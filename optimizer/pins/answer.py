@@ -1,29 +1,18 @@
 """Loads of the anti-rotation pins of a scroll, from the request to the answer."""
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.mechanics.angles import direction
-from optimizer.pins.contact import Contact, pin_contact
-from optimizer.pins.loads import (
-    LoadShapes,
-    PeriodicTable,
-    Pins,
-    at_dead_point,
-    dead_points,
-    degrees_of_freedom,
-    elastic_loads,
-    even_pin_loads,
-    gas_torques,
-    levers,
-    peaks,
-)
+from optimizer.pins.contact import Contact
+from optimizer.pins.energy import compared, pitch_energy
+from optimizer.pins.loads import PeriodicTable, at_dead_point, degrees_of_freedom, gas_torques, levers, peaks
+from optimizer.pins.pattern import Pattern, pattern_of
 from schemas.over_turn import ForceTable, TorqueTable
 from schemas.scroll import (
     DegreesOfFreedom,
+    DriveBearingLoad,
     PinContact,
     PinEquilibrium,
     PinLoad,
@@ -39,49 +28,15 @@ _GRID_DEG = 0.5
 _REFINEMENTS, _PARTS = 8, 16
 
 
-@dataclass(frozen=True)
-class _Pattern:
-    """Pins as arrays (n,)."""
-
-    phase_deg: Real
-    radius: Real
-    stiffness: Real
-    clearance: Real
-    error: Real
-    #: whether the loads are those of the seed's formula, in equilibrium or not
-    formula: bool
-    dead_deg: Real
-
-    @property
-    def pins(self) -> Pins:
-        return Pins(self.radius * direction(self.phase_deg), self.stiffness)
-
-    @property
-    def has_clearance(self) -> bool:
-        return not self.formula and bool(np.any(self.clearance > 0.0) or np.any(self.error != 0.0))
-
-    def contact(self, torque: Real, angle_deg: Real) -> Contact:
-        lever = levers(self.pins.place, angle_deg)
-        return pin_contact(lever, torque, self.stiffness, self.clearance, self.error)
-
-    def loads(self, torque: Real, angle_deg: Real) -> Real:
-        """(..., n) N; without meaning at dead points."""
-        if self.formula:
-            return even_pin_loads(torque, self.radius[0], self.radius.size, angle_deg - self.phase_deg[0])
-        if self.has_clearance:
-            return self.contact(torque, angle_deg).load
-        return elastic_loads(torque, self.pins, angle_deg)
-
-
 def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
     """What every pin carries over a turn, and whether that holds the scroll at every instant."""
-    pattern = _pattern(request)
+    pattern = pattern_of(request)
     torque, resistance = _torques(request)
     angle = np.arange(request.angles.count, dtype=float) * (360.0 / request.angles.count)
     # at these the formula for one pin and two is worst; entries of the table are the ends of its pieces
     watched = np.concatenate([angle, torque.angle_deg, np.arange(0.0, 360.0, 45.0) + pattern.phase_deg[0]])
     contact = pattern.contact(torque.at(angle), angle) if pattern.has_clearance else None
-    load = pattern.loads(torque.at(angle), angle) if contact is None else contact.load
+    load = pattern.loads(torque.at(angle), angle) if contact is None else pattern.with_rest(contact.load)
     stuck = np.zeros(angle.shape, dtype=bool)
     if not pattern.formula:
         stuck = at_dead_point(angle, pattern.dead_deg) & (torque.at(angle) != 0.0)
@@ -103,47 +58,31 @@ def pin_loads(request: PinLoadsRequest) -> PinLoadsAnswer:
             tension_to_deg=None if halves is None else float(halves[i]),
             carries_load=None if bears is None else tuple(bears[:, i].tolist()),
         )
-        for i in range(pattern.radius.size)
+        for i in range(pattern.count)
     )
-    largest = float(np.max(np.abs(torque.value)))
+    drive = None
+    if pattern.drive > 0.0:
+        drive = DriveBearingLoad(
+            load_N=_without(load[:, -1], stuck),
+            peak_N=None if unbounded else float(peak[-1]),
+            peak_angle_deg=None if unbounded else float(peak_angle[-1]),
+        )
+    largest, lever = float(np.max(np.abs(torque.value))), request.orbit_radius_m or 0.0
     return PinLoadsAnswer(
         angle_deg=tuple(angle.tolist()),
         rotation_torque_Nm=tuple(torque.at(angle).tolist()),
         orbiting_resistance_torque_Nm=None if resistance is None else tuple(resistance.at(angle).tolist()),
         pins=pins,
-        peak_N=None if unbounded else float(np.max(peak)),
-        half_turn_mechanism_peak_N=4.0 * largest / (pattern.radius.size * float(np.mean(pattern.radius))),
+        peak_N=None if unbounded else float(np.max(peak[: pattern.count])),
+        half_turn_mechanism_peak_N=4.0 * largest / (pattern.count * float(np.mean(pattern.radius))),
         equilibrium=equilibrium,
         dead_points_deg=tuple(pattern.dead_deg.tolist()),
-        mechanism=_freedom(pattern.radius.size),
-        contact=None if contact is None else _contact(contact, stuck),
+        mechanism=_freedom(pattern.count),
+        contact=None if contact is None else _contact(contact.load[:, : pattern.count], contact, stuck),
+        drive_bearing=drive,
+        energy=pitch_energy(pattern, torque),
+        comparison=None if request.comparison is None else compared(request.comparison, lever, pattern, torque, angle),
         warnings=tuple(_warnings(pattern, contact, stuck)),
-    )
-
-
-def _pattern(request: PinLoadsRequest) -> _Pattern:
-    """Pins as they are given. One pin alone has the seed's formula, there is no other."""
-    if request.pins is None:
-        count, radius = request.pin_count or 0, request.pin_circle_radius_m or 0.0
-        phase = 360.0 * np.arange(count) / count
-        ones = np.ones(count)
-        dead = np.array([0.0, 180.0]) if count < 3 else np.zeros(0)
-        return _Pattern(phase, radius * ones, ones, 0.0 * ones, 0.0 * ones, True, dead)
-    pins = request.pins
-    phase = np.array([pin.angle_deg % 360.0 for pin in pins])
-    radius_given = np.array([pin.radius_m for pin in pins])
-    if len(pins) == 1:
-        dead = np.sort(np.mod(phase + np.array([0.0, 180.0]), 360.0))
-    else:
-        dead = dead_points(radius_given * direction(phase))
-    return _Pattern(
-        phase,
-        radius_given,
-        np.array([1.0 if pin.stiffness_N_per_m is None else pin.stiffness_N_per_m for pin in pins]),
-        np.array([pin.clearance_m for pin in pins]),
-        np.array([pin.eccentricity_error_m for pin in pins]),
-        len(pins) == 1,
-        dead,
     )
 
 
@@ -170,22 +109,16 @@ def _without(values: Real, left_out: np.ndarray) -> tuple[float | None, ...]:
     return tuple(None if out else value for value, out in zip(values.tolist(), left_out.tolist(), strict=True))
 
 
-def _compression_from(pattern: _Pattern, torque: PeriodicTable) -> Real:
+def _compression_from(pattern: Pattern, torque: PeriodicTable) -> Real:
     """Where every load becomes positive, (n,) degrees: half a turn long, since the torque keeps its sign."""
-    start = _shapes(pattern).phase_deg
+    start = pattern.shapes().phase_deg
     return np.mod(start if torque.value[0] > 0.0 else start + 180.0, 360.0)
 
 
-def _shapes(pattern: _Pattern) -> LoadShapes:
-    if pattern.formula:
-        return LoadShapes.even(pattern.phase_deg, float(pattern.radius[0]))
-    return LoadShapes.elastic(pattern.pins)
-
-
-def _peaks(pattern: _Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
+def _peaks(pattern: Pattern, torque: PeriodicTable) -> tuple[Real, Real]:
     """Largest magnitudes (n,) N over the turn and their angles (n,) degrees."""
     if not pattern.has_clearance and (pattern.formula or not pattern.dead_deg.size):
-        return peaks(_shapes(pattern), torque)
+        return peaks(pattern.shapes(), torque)
 
     def size(angle_deg: Real) -> Real:
         load = np.abs(pattern.loads(torque.at(angle_deg), angle_deg))
@@ -207,11 +140,11 @@ def _refined_peaks(size: Callable[[Real], Real], grid_deg: Real) -> tuple[Real, 
     return np.max(found, axis=-1), np.mod(best, 360.0)
 
 
-def _equilibrium(pattern: _Pattern, torque: PeriodicTable, angle: Real) -> PinEquilibrium:
+def _equilibrium(pattern: Pattern, torque: PeriodicTable, angle: Real) -> PinEquilibrium:
     """Balances of the loads at shaft angles (m,)."""
     moment = torque.at(angle)
     load = pattern.loads(moment, angle)
-    lever = levers(pattern.pins.place, angle)
+    lever = levers(pattern.places, angle)
     stuck = np.zeros(angle.shape, dtype=bool)
     dead = np.zeros(0)
     if not pattern.formula:
@@ -227,12 +160,16 @@ def _equilibrium(pattern: _Pattern, torque: PeriodicTable, angle: Real) -> PinEq
     return PinEquilibrium(holds=holds, max_moment_error_Nm=moment_error, max_net_force_N=net_force, reason=reason)
 
 
-def _reason(pattern: _Pattern, dead: bool) -> str:
+def _reason(pattern: Pattern, dead: bool) -> str:
     if pattern.formula:
-        force = ", and the sum of the forces is not 0" if pattern.radius.size == 1 else ""
+        force = ", and the sum of the forces is not 0" if pattern.count == 1 else ""
         return (
-            f"with {pattern.radius.size} pin(s) the loads give the torque only on the average over a turn: "
+            f"with {pattern.count} pin(s) the loads give the torque only on the average over a turn: "
             f"their moment swings between 0 and twice the torque{force}"
+        )
+    if dead and pattern.drive > 0.0:
+        return (
+            "all pins are on one line through the shaft's centre; where the eccentric lies along it no pin has a lever"
         )
     if dead:
         return (
@@ -257,10 +194,10 @@ def _freedom(count: int) -> DegreesOfFreedom:
     )
 
 
-def _contact(contact: Contact, stuck: np.ndarray) -> PinContact:
-    bearing = np.sum(contact.load != 0.0, axis=-1)[~stuck]
+def _contact(pins: Real, contact: Contact, stuck: np.ndarray) -> PinContact:
+    bearing = np.sum(pins != 0.0, axis=-1)[~stuck]
     return PinContact(
-        fewest_pins=int(np.min(bearing, initial=contact.load.shape[-1])),
+        fewest_pins=int(np.min(bearing, initial=pins.shape[-1])),
         most_pins=int(np.max(bearing, initial=0)),
         scroll_rotation_deg=_without(np.rad2deg(contact.rotation), stuck),
         load_error_bound_N=float(np.max(contact.error_bound[~stuck], initial=0.0)),
@@ -268,10 +205,13 @@ def _contact(contact: Contact, stuck: np.ndarray) -> PinContact:
     )
 
 
-def _warnings(pattern: _Pattern, contact: Contact | None, stuck: np.ndarray) -> Iterator[PinWarning]:
-    if pattern.radius.size < 3:
-        message = f"{pattern.radius.size} pin(s) have dead points; at least 3, not on one line, are needed"
+def _warnings(pattern: Pattern, contact: Contact | None, stuck: np.ndarray) -> Iterator[PinWarning]:
+    if pattern.count < 3 and pattern.dead_deg.size:
+        message = f"{pattern.count} pin(s) have dead points; at least 3, not on one line, are needed"
         yield PinWarning(code="too_few_pins", message=message)
+    elif pattern.count < 3:
+        message = "2 pins run, but load the scroll and the drive's bearing unevenly; evenly spaced 3 do not"
+        yield PinWarning(code="uneven_load", message=message)
     elif pattern.dead_deg.size:
         yield PinWarning(code="dead_points", message="all pins are on one line and pass dead points")
     if contact is not None:

@@ -10,6 +10,9 @@ sum Q = 0 is the stationary point of the strain energy less the work of the torq
 Both are convex and P = D at the optimum. D is strongly concave, so the loads are unique, and any Q in equilibrium is
 within |Q_i - Q_i*| <= sqrt(2 k_i (P - D)) of them. The gap P - D is a sum of non-negative terms, one for each pin
 (Fenchel-Young), and is computed as such, without cancellation. Pins are the last axis.
+
+Where a rigid bearing holds the scroll on the eccentric, t = 0 and the loads need not sum to 0: one unknown less, and
+one constraint less in the dual.
 """
 
 from dataclasses import dataclass
@@ -42,21 +45,28 @@ class _Scaled:
     clearance: Real
     error: Real
     torque: Real  # (m,)
+    held: bool = False
 
     def take(self, rows: np.ndarray) -> "_Scaled":
         return _Scaled(
-            self.lever[rows], self.stiffness[rows], self.clearance[rows], self.error[rows], self.torque[rows]
+            self.lever[rows], self.stiffness[rows], self.clearance[rows], self.error[rows], self.torque[rows], self.held
         )
 
     def strain(self, turn: Real, shift: Real) -> Real:
         return self.lever * turn[:, None] + shift[:, None] - self.error
+
+    def net(self, force: Real) -> Real:
+        """Sum of forces (m, n) that a shift has to bring to 0."""
+        return np.zeros(force.shape[:-1]) if self.held else np.sum(force, axis=-1)
 
     def beyond(self, strain: Real) -> Real:
         """Strain beyond the clearance, signed; 0 where the pin does not bear."""
         return strain - np.clip(strain, -self.clearance, self.clearance)
 
 
-def pin_contact(lever: Real, torque: Real, stiffness: Real, clearance: Real, error: Real) -> Contact:
+def pin_contact(
+    lever: Real, torque: Real, stiffness: Real, clearance: Real, error: Real, held: bool = False
+) -> Contact:
     """Loads at any number of shaft angles at once.
 
     Levers must differ where the torque is not 0; else nothing holds it, and the loads mean nothing.
@@ -68,18 +78,19 @@ def pin_contact(lever: Real, torque: Real, stiffness: Real, clearance: Real, err
     stiffness : (..., n) N/m, k > 0.
     clearance : (..., n) m, c >= 0.
     error : (..., n) m, eps.
+    held : whether a rigid bearing keeps t = 0.
     """
     shape = np.broadcast_shapes(lever.shape, (*np.shape(torque), 1), stiffness.shape, clearance.shape, error.shape)
     a, k, c, eps = (np.broadcast_to(x, shape).reshape(-1, shape[-1]) for x in (lever, stiffness, clearance, error))
     moment = np.broadcast_to(torque, shape[:-1]).reshape(-1)
     stiffest = np.max(k, axis=-1)
     k = k / stiffest[:, None]
-    mean = np.sum(k * a, axis=-1) / np.sum(k, axis=-1)
+    mean = np.zeros(k.shape[:-1]) if held else np.sum(k * a, axis=-1) / np.sum(k, axis=-1)
     a = a - mean[:, None]
     reach = _or_one(np.max(np.abs(a), axis=-1))
     moment = moment / (reach * stiffest)
     size = _or_one(np.max(np.concatenate([np.abs(moment)[:, None], c, np.abs(eps)], axis=-1), axis=-1))
-    scaled = _Scaled(a / reach[:, None], k, c / size[:, None], eps / size[:, None], moment / size)
+    scaled = _Scaled(a / reach[:, None], k, c / size[:, None], eps / size[:, None], moment / size, held)
     turn, shift = _minimise(scaled)
     load = _in_equilibrium(scaled, turn, shift)
     gap = _gap(scaled, turn, shift, load)
@@ -109,13 +120,13 @@ def _minimise(scaled: _Scaled) -> tuple[Real, Real]:
     a, k, eps = scaled.lever, scaled.stiffness, scaled.error
     whole, square = np.sum(k, axis=-1), np.sum(k * a**2, axis=-1)
     turn = (scaled.torque + np.sum(k * a * eps, axis=-1)) / _or_one(square)
-    shift = np.sum(k * eps, axis=-1) / whole
+    shift = scaled.net(k * eps) / whole
     pending = np.arange(turn.size)
     for _ in range(_ITERATIONS):
         rows = scaled.take(pending)
         strain = rows.strain(turn[pending], shift[pending])
         force = rows.stiffness * rows.beyond(strain)
-        moment, sum_ = np.sum(force * rows.lever, axis=-1) - rows.torque, np.sum(force, axis=-1)
+        moment, sum_ = np.sum(force * rows.lever, axis=-1) - rows.torque, rows.net(force)
         # the digits that bearing pins lose when error and clearance are taken off
         terms = np.abs(shift[pending])[:, None] + np.abs(rows.error) + rows.clearance + np.abs(strain)
         noise = np.sum(np.where(force != 0.0, rows.stiffness * terms, 0.0), axis=-1)
@@ -136,7 +147,7 @@ def _newton_step(rows: _Scaled, strain: Real, moment: Real, sum_: Real) -> tuple
     bearing = np.where(np.abs(strain) > rows.clearance, rows.stiffness, 0.0)
     delta = 4.0 * _EPS * np.sum(rows.stiffness, axis=-1)
     tt = np.sum(bearing * rows.lever**2, axis=-1) + delta
-    ts = np.sum(bearing * rows.lever, axis=-1)
+    ts = rows.net(bearing * rows.lever)
     ss = np.sum(bearing, axis=-1) + delta
     turn, shift = -(ss * moment - ts * sum_), -(tt * sum_ - ts * moment)
     # rounding can turn the direction of a singular system uphill; the gradient never is
@@ -183,7 +194,7 @@ def _in_equilibrium(scaled: _Scaled, turn: Real, shift: Real) -> Real:
     bearing = np.where(np.abs(strain) > scaled.clearance, scaled.stiffness, 0.0)
     beyond, whole, square, mean = _about_mean(scaled, bearing)
     for _ in range(2):
-        force = -np.sum(load, axis=-1)
+        force = -scaled.net(load)
         moment = scaled.torque - np.sum(load * scaled.lever, axis=-1) - mean * force
         turned = np.where(square > 0.0, moment / _or_one(square), 0.0)
         load = load + bearing * (turned[:, None] * beyond + (force / whole)[:, None])
@@ -193,7 +204,7 @@ def _in_equilibrium(scaled: _Scaled, turn: Real, shift: Real) -> Real:
 def _about_mean(scaled: _Scaled, bearing: Real) -> tuple[Real, Real, Real, Real]:
     """Levers (m, n) about the stiffness's mean of the bearing pins, whole stiffness, second moment, and that mean."""
     whole = _or_one(np.sum(bearing, axis=-1))
-    mean = np.sum(bearing * scaled.lever, axis=-1) / whole
+    mean = scaled.net(bearing * scaled.lever) / whole
     beyond = scaled.lever - mean[:, None]
     return beyond, whole, np.sum(bearing * beyond**2, axis=-1), mean
 

@@ -10,8 +10,11 @@ For any pattern the elastic distribution minimises sum Q^2 / (2 k) subject to su
     Q_i = T_R k_i d_i / sum k d^2,    d_i = a_i - sum k a / sum k = Im(e^{j theta} conj(w_i)),    w_i = z_i - z_mean.
 
 The seed's energy balance (2) fixes only the mean of the moment over the turn: with one pin or two, equation (1) gives
-2 T_R sin^2 theta (erratum E003-4). A pattern holds no torque where all levers are equal; that happens only to pins
-on one line, when the eccentric lies along it. Angles are in degrees, growing with the rotation; pins are the last axis.
+2 T_R sin^2 theta (erratum E003-4). A rigid bearing of the drive carries the net force: without sum Q = 0 the scroll
+turns about its own centre, w_i = z_i. An elastic one is one more pin at the centre, whose lever is 0.
+
+A pattern holds no torque where all levers are equal; that happens only to pins (and a bearing that carries) on one
+line, when the eccentric lies along it. Angles are in degrees, growing with the rotation; pins are the last axis.
 """
 
 from dataclasses import dataclass, replace
@@ -34,10 +37,14 @@ class Pins:
 
     place: Complex  # m, R e^{j psi}
     stiffness: Real  # N/m, or relative to each other
+    #: a rigid bearing of the drive holds the scroll's centre and carries the net force
+    held: bool = False
 
     @property
     def offset(self) -> Complex:
-        """Places from their mean, weighted with the stiffnesses, w (..., n) m."""
+        """Places from where the scroll turns, w (..., n) m: from their mean, weighted with the stiffnesses."""
+        if self.held:
+            return self.place
         weight = self.stiffness / np.sum(self.stiffness, axis=-1, keepdims=True)
         # from pin to pin: the mean is next to a pin that is much stiffer than the others, and would cancel there
         apart = self.place[..., :, None] - self.place[..., None, :]
@@ -106,9 +113,11 @@ def elastic_loads(torque: Real, pins: Pins, angle_deg: Real) -> Real:
     """
     size = np.max(np.abs(pins.place), axis=-1, keepdims=True)
     relative = pins.stiffness / np.max(pins.stiffness, axis=-1, keepdims=True)
-    scaled = Pins(pins.place / size, relative)
+    scaled = Pins(pins.place / size, relative, pins.held)
     lever = levers(scaled.offset, angle_deg)
     moment = torque / size[..., 0]
+    if pins.held:
+        return _about_centre(moment, lever, relative)
     load = _distribute(moment, np.zeros_like(moment), lever, relative)
     # very unequal stiffnesses cost digits, which one step of refinement brings back
     missing = moment - np.sum(load * lever, axis=-1)
@@ -123,6 +132,13 @@ def _distribute(moment: Real, force: Real, lever: Real, stiffness: Real) -> Real
     square = np.sum(stiffness * beyond**2, axis=-1)
     turn = np.where(square > 0.0, (moment - mean * force) / np.where(square > 0.0, square, 1.0), 0.0)
     return stiffness * (turn[..., None] * beyond + (force / whole)[..., None])
+
+
+def _about_centre(moment: Real, lever: Real, stiffness: Real) -> Real:
+    """Elastic loads with sum Q a = moment, whatever their sum."""
+    square = np.sum(stiffness * lever**2, axis=-1)
+    turn = np.where(square > 0.0, moment / np.where(square > 0.0, square, 1.0), 0.0)
+    return stiffness * turn[..., None] * lever
 
 
 def principal(offset: Complex, weight: Real) -> tuple[Real, Real, Real]:
@@ -167,7 +183,7 @@ def at_dead_point(angle_deg: Real, dead_deg: Real) -> np.ndarray:
 
 @dataclass(frozen=True)
 class LoadShapes:
-    """Loads of n pins as T_R(theta) c sin(theta - g) / (1 - e cos(2 (theta - b))).
+    """Loads of n pins as T_R(theta) c sin(theta - g) / (1 - e cos(2 (theta - b))); a rigid bearing's is the last.
 
     The formula has e = 0; the elastic distribution 1 - e = 2 s^2 / (S^2 + s^2), S and s the semi-axes of the pattern.
     """
@@ -185,12 +201,15 @@ class LoadShapes:
     @classmethod
     def elastic(cls, pins: Pins) -> "LoadShapes":
         relative = pins.stiffness / np.max(pins.stiffness)
-        offset = Pins(pins.place, relative).offset
+        offset = Pins(pins.place, relative, pins.held).offset
         major, minor, axis = principal(offset, relative)
         whole = float(major**2 + minor**2)
+        push = relative * offset
+        if pins.held:
+            push = np.append(push, -np.sum(push))
         return cls(
-            2.0 * relative * np.abs(offset) / whole,
-            np.mod(np.rad2deg(np.angle(offset)), 360.0),
+            2.0 * np.abs(push) / whole,
+            np.mod(np.rad2deg(np.angle(push)), 360.0),
             float((major - minor) * (major + minor)) / whole,
             2.0 * float(minor) ** 2 / whole,
             float(np.rad2deg(axis)),

@@ -1,0 +1,67 @@
+"""Keys of an Oldham ring: loads, sliding speeds and friction loss, broadcasting over leading axes.
+
+The ring slides by e cos(theta - u) along its axis u in the frame, guided by two keys on that axis; two keys across it
+sit in the scroll and drive the ring. The rotation torque T is carried by each pair as the couple 2 N R, so N = T/(2 R);
+the keys in the scroll carry beside that the inertia of the ring, m e omega^2 cos(theta - u), half each. Against the
+frame the ring slides with e omega sin, against the scroll, which circles, with e omega cos. Friction loads no key here.
+Angles in radians, counted in the direction of rotation.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.arrays import Real
+
+
+@dataclass(frozen=True)
+class Oldham:
+    """An Oldham ring, (...)."""
+
+    orbit_radius: Real  # m, e
+    key_radius: Real  # m, R
+    mass: Real  # kg
+    axis: Real  # rad, u
+    omega: Real  # rad/s
+
+
+@dataclass(frozen=True)
+class Keys:
+    """Loads and sliding speeds of the keys at shaft angles (..., T)."""
+
+    frame: Real  # (..., T) N, of each of the two in the frame
+    scroll: Real  # (..., T, 2) N along the axis, of the two in the scroll
+    frame_speed: Real  # (..., T) m/s, magnitude
+    scroll_speed: Real  # (..., T) m/s, magnitude
+
+    def loss(self, friction: Real) -> Real:
+        """Power lost to sliding, (..., T) W, for a coefficient of friction (..., T)."""
+        in_frame = 2.0 * np.abs(self.frame) * self.frame_speed
+        return np.asarray(friction * (in_frame + np.sum(np.abs(self.scroll), axis=-1) * self.scroll_speed))
+
+
+def keys(ring: Oldham, torque: Real, angle: Real) -> Keys:
+    """What the keys carry and how they slide.
+
+    Parameters
+    ----------
+    torque : (..., T) N m.
+    angle : (..., T) rad.
+    """
+    orbit, reach = np.asarray(ring.orbit_radius)[..., None], np.asarray(ring.key_radius)[..., None]
+    speed = orbit * np.asarray(ring.omega)[..., None]
+    own = angle - np.asarray(ring.axis)[..., None]
+    couple = torque / (2.0 * reach)
+    inertia = 0.5 * np.asarray(ring.mass)[..., None] * speed * np.asarray(ring.omega)[..., None] * np.cos(own)
+    scroll = np.stack([couple - inertia, -couple - inertia], axis=-1)
+    return Keys(couple, scroll, speed * np.abs(np.sin(own)), speed * np.abs(np.cos(own)))
+
+
+def pin_losses(load: Real, diameter: Real, friction: Real, omega: Real) -> Real:
+    """Power that pins lose in their two journals, (..., T) W: mu |Q| d/2 at omega, twice a pin.
+
+    Parameters
+    ----------
+    load : (..., T, n) N.
+    """
+    return np.asarray(np.sum(np.abs(load), axis=-1) * diameter * friction * omega)

@@ -1,0 +1,70 @@
+"""Work of the pins over one pitch, and their losses beside those of an Oldham ring."""
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.mechanics.oldham import Keys, Oldham, keys, pin_losses
+from optimizer.pins.loads import PeriodicTable, levers
+from optimizer.pins.pattern import Pattern
+from schemas.scroll import PitchEnergy
+from schemas.scroll_losses import LossComparison, Losses, OldhamLoads
+
+#: panels of the integrals; a pin that begins or ceases to bear inside one costs less than 1e-3 of its own mean loss
+_PANEL_DEG = 2.0
+_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(4)
+
+
+def pitch_energy(pattern: Pattern, torque: PeriodicTable) -> PitchEnergy:
+    """W_Q = - integral of sum Q a over one pitch, and W_F = integral of T, for d theta from 0."""
+    pitch = 360.0 / pattern.count
+    angle, weight = _quadrature(pitch, torque.angle_deg)
+    load = pattern.loads(torque.at(angle), angle)
+    pins = -float(np.sum(weight * np.sum(load * levers(pattern.places, angle), axis=-1)))
+    work = float(np.sum(weight * torque.at(angle)))
+    return PitchEnergy(pitch_deg=pitch, pins_work_J=pins, torque_work_J=work, sum_J=pins + work)
+
+
+def compared(
+    asked: LossComparison, orbit_radius: float, pattern: Pattern, torque: PeriodicTable, angle_deg: Real
+) -> Losses:
+    """Losses of the pins and of a ring in their place; the ring's keys at shaft angles (T,) degrees."""
+    omega, ring = asked.speed_rpm * np.pi / 30.0, asked.oldham_ring
+    data = Oldham(*map(np.asarray, (orbit_radius, ring.key_radius_m, ring.mass_kg, np.deg2rad(ring.axis_deg), omega)))
+    # sliding speeds change sign on the ring's axis and across it, loads of even pins at their own angles
+    breaks = [torque.angle_deg, np.mod(ring.axis_deg + np.arange(0.0, 360.0, 90.0), 360.0), pattern.phase_deg]
+    angle, weight = _quadrature(360.0, np.concatenate([*breaks, np.mod(pattern.phase_deg + 180.0, 360.0)]))
+    of_pins = pin_losses(
+        pattern.loads(torque.at(angle), angle)[:, : pattern.count],
+        np.asarray(asked.pin_diameter_m),
+        np.asarray(asked.pin_friction_coefficient),
+        np.asarray(omega),
+    )
+    unbounded = not pattern.formula and bool(np.any(torque.at(pattern.dead_deg) != 0.0))
+    pins = None if unbounded else float(np.sum(weight * of_pins)) / (2.0 * np.pi)
+    friction = np.asarray(ring.friction_coefficient)
+    of_ring = keys(data, torque.at(angle), np.deg2rad(angle)).loss(friction)
+    loss = float(np.sum(weight * of_ring)) / (2.0 * np.pi)
+    at_samples = keys(data, torque.at(angle_deg), np.deg2rad(angle_deg))
+    shown = _ring(at_samples, orbit_radius * omega, loss)
+    return Losses(pins_W=pins, oldham_ring=shown, ratio=None if pins is None or loss == 0.0 else pins / loss)
+
+
+def _ring(found: Keys, speed: float, loss: float) -> OldhamLoads:
+    return OldhamLoads(
+        frame_key_N=tuple(found.frame.tolist()),
+        scroll_keys_N=tuple((one, other) for one, other in found.scroll.tolist()),
+        frame_speed_m_s=tuple(found.frame_speed.tolist()),
+        scroll_speed_m_s=tuple(found.scroll_speed.tolist()),
+        peak_key_N=float(max(np.max(np.abs(found.frame)), np.max(np.abs(found.scroll)))),
+        peak_speed_m_s=speed,
+        loss_W=loss,
+    )
+
+
+def _quadrature(end_deg: float, breaks_deg: Real) -> tuple[Real, Real]:
+    """Nodes in degrees and weights in radians over [0, end], panel by panel between the breaks."""
+    grid = np.linspace(0.0, end_deg, max(1, int(np.ceil(end_deg / _PANEL_DEG))) + 1)
+    edges = np.unique(np.concatenate([grid, breaks_deg[breaks_deg < end_deg]]))
+    half = 0.5 * np.diff(edges)
+    nodes = (edges[:-1] + half)[:, None] + half[:, None] * _NODES
+    return nodes.ravel(), np.deg2rad(half[:, None] * _WEIGHTS).ravel()
