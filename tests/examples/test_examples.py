@@ -12,8 +12,10 @@ from optimizer.mechanics.inertia import Wrench, first_order_responses, reciproca
 from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.optimize import optimize
+from optimizer.sweep.whole import sweep_table
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
+from schemas.sweep import SweepRequest
 
 FILES = sorted((Path(__file__).parents[2] / "examples").glob("*.json"))
 NAMES = [file.stem for file in FILES]
@@ -188,3 +190,36 @@ def test_balance_shafts_take_what_counterweights_leave() -> None:
     second = acceleration_harmonic(2, np.asarray(0.3))
     assert four.balance_shafts_mass_kg == pytest.approx(2 * 0.5 * 0.7 * 0.045 * second / 0.02, rel=2e-3)
     assert four.certificate.objective < 0.03 * four.certificate.objective_without_counterweights
+
+
+def test_a_twin_from_a_catalogue() -> None:
+    body = json.loads(FILES[NAMES.index("catalogue-twin")].read_text())
+    found = optimize(OptimizeRequest.model_validate(body))
+    assert found.status_reason.startswith("Every set")
+    masses = [one.mass_kg for one in found.counterweights]
+    assert set(masses) <= {0.0, *body["machine"]["catalogue"]["masses_kg"]}
+    assert len(set(masses) - {0.0}) <= 2
+    # the web at the drive end has holes of its own
+    assert found.counterweights[-1].angle_deg in (0.0, *body["machine"]["webs"][-1]["hole_angles_deg"])
+
+
+def test_a_row_with_plates_keeps_half_of_what_reciprocates_analytic() -> None:
+    found = optimize(request_of("plate-single"))
+    assert found.residual.after is not None
+    half = 0.5 * 4.0 * 0.06 * (1000.0 * np.pi / 30.0) ** 2
+    assert found.residual.after.force.peak_N == pytest.approx(half, rel=1e-5)
+    assert [one.shape is not None for one in found.counterweights] == [True, True]
+
+
+def test_crank_orders_of_an_eight() -> None:
+    """Published: three of the 183 orders leave no moment of order 1 or 2; with counterweights four are on the front."""
+    body = json.loads((Path(__file__).parents[2] / "examples/sweeps/inline-eight-crank-orders.json").read_text())
+    del body["pareto"]
+    table = sweep_table(SweepRequest.model_validate(body))
+    assert table.num_rows == 183
+    assert set(table["status"].to_pylist()) == {"optimal"}
+    # m r A_2 and the pitch: what the second order leaves is told apart at a thousandth of it
+    size = 1e-3 * 43.0 * 0.13 * (750.0 * np.pi / 30.0) ** 2 * 0.4 / 4.0
+    second = np.array(table["moment_peak_Nm.order_2"].to_pylist())
+    bare = [mass < 1e-9 for mass in table["total_mass_kg"].to_pylist()]
+    assert int(np.sum((second < size) & bare)) == 3

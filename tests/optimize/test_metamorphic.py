@@ -20,9 +20,11 @@ from schemas.answers import Certificate, OptimizeAnswer
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
 
+#: what is chosen from a catalogue or cut from a plate has no halves
 EXAMPLES = {
     path.stem: json.loads(path.read_text())["machine"]
     for path in sorted((Path(__file__).parents[2] / "examples").glob("*.json"))
+    if path.stem not in ("catalogue-twin", "plate-single")
 }
 SEEDS = st.integers(0, 10**6)
 OBJECTIVES = st.sampled_from([{"combine": "sum"}, {"combine": "max"}, {"direction_weights": {"x": 1, "y": 0.4}}])

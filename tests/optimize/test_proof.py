@@ -12,11 +12,12 @@ from tests.optimize import by_hand
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
 
-#: by hand the proofs are those of the crankshaft alone
+#: by hand the proofs are those of the crankshaft alone, of counterweights of any mass at known radii
 EXAMPLES = sorted(
     path
     for path in (Path(__file__).parents[2] / "examples").glob("*.json")
     if "balance_shafts" not in json.loads(path.read_text())["machine"]
+    and path.stem not in ("catalogue-twin", "plate-single")
 )
 #: how far the printed bound may lie below the exact one, relative
 CLOSE = 1e-9
