@@ -9,6 +9,7 @@ import numpy as np
 from optimizer.balance_shafts import fitted
 from optimizer.errors import refuse
 from optimizer.figures.counterweights import as_given
+from optimizer.given import on_webs
 from optimizer.outputs import fields, prepare
 from optimizer.shapes import envelopes, fitted_masses
 from schemas.answers import AnalyzeAnswer, Timing
@@ -30,7 +31,8 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
         if a counterweight is more than its envelope holds.
     """
     start = time.perf_counter()
-    mass, angle = as_given(request)
+    request = on_webs(request)
+    mass, angle = as_given(request.machine, request.counterweights)
     refuse(_too_heavy(request))
     # what is cut from a plate has the radius that its mass gives it
     request = request.model_copy(update={"machine": fitted_masses(request.machine, mass)})
@@ -59,6 +61,6 @@ def _too_heavy(request: AnalyzeRequest) -> Iterator[FieldProblem]:
     names = [web.name for web in request.machine.webs]
     most = {names[k]: float(plate.mass(plate.most)) for k, plate in envelopes(request.machine).items()}
     for index, one in enumerate(request.counterweights):
-        if one.mass_kg > most.get(one.web, np.inf) * (1.0 + _ROUNDING):
-            message = f"the envelope of this web holds {most[one.web]:.6g} kg at most"
+        if one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ROUNDING):
+            message = f"the envelope of this web holds {most[str(one.web)]:.6g} kg at most"
             yield FieldProblem(("counterweights", index, "mass_kg"), message)

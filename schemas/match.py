@@ -7,10 +7,10 @@ from pydantic import ConfigDict, Field, Strict
 
 from schemas.base import Model
 from schemas.catalogue import no_catalogue
+from schemas.fitted import FittedCounterweight, fitted_rules
 from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS, ReciprocatingMachine, no_balance_shafts
 from schemas.objective import Objective
 from schemas.quantities import Count, Flag, Mass, Name
-from schemas.requests import FittedCounterweight, fitted_rules
 from schemas.rules import Path, Rule, Ruled
 
 MAX_CLASSES = 8

@@ -1,6 +1,6 @@
 """What a client asks: optimise or analyse a machine."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, Strict, model_validator
@@ -8,10 +8,10 @@ from pydantic import Field, Strict, model_validator
 from schemas.angles import Angles
 from schemas.base import Model
 from schemas.catalogue import DISCRETE_GAP
+from schemas.fitted import GivenCounterweight, fitted_rules
 from schemas.machine import MAX_WEBS, Machine, no_balance_shafts
 from schemas.objective import Objective
 from schemas.outputs import OutputNames
-from schemas.quantities import Angle, Mass, Name
 from schemas.rules import Rule, Ruled
 from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
 
@@ -182,36 +182,15 @@ def _discrete(machine: Any) -> bool:
     return any(place.get(name) is not None for place in places for name in asks)
 
 
-class FittedCounterweight(Model):
-    """A counterweight that is on the machine."""
-
-    web: Name = Field(description="name of the web that carries it", examples=["1a"])
-    mass_kg: Mass = Field(description="mass of the counterweight", examples=[24.5])
-    angle_deg: Angle = Field(description="angle of the counterweight as drawn at shaft angle 0", examples=[180.0])
-
-
 class AnalyzeRequest(Scene, Ruled):
     """The machine as it stands, or with given counterweights."""
 
-    counterweights: tuple[FittedCounterweight, ...] = Field(
+    counterweights: tuple[GivenCounterweight, ...] = Field(
         (),
         max_length=MAX_WEBS,
-        description="counterweights on the machine, at most one for each web",
+        description="counterweights on the machine, at most one for each web, and others in planes of their own",
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )
 
     def rules(self) -> Iterator[Rule]:
         yield from fitted_rules(self.machine, self.counterweights)
-
-
-def fitted_rules(machine: Machine, counterweights: Sequence[FittedCounterweight]) -> Iterator[Rule]:
-    """Every counterweight on a web of the machine, and every web with one at most."""
-    shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
-    names = {web.name for place in (machine, *shafts) for web in place.webs}
-    seen: set[str] = set()
-    for index, counterweight in enumerate(counterweights):
-        path = ("counterweights", index, "web")
-        yield Rule(counterweight.web not in names, path, "the machine has no web of this name")
-        twice = counterweight.web in seen & names
-        yield Rule(twice, path, "this web carries a counterweight already")
-        seen.add(counterweight.web)

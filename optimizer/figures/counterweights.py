@@ -13,8 +13,8 @@ from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.shapes import envelopes
 from schemas.counterweights import Counterweight, Shape
+from schemas.fitted import FittedCounterweight, GivenCounterweight
 from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
 from schemas.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn
@@ -51,13 +51,13 @@ def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:
     return mass_kg * radius * direction(angles_deg)
 
 
-def as_given(request: AnalyzeRequest) -> tuple[Real, Real]:
-    """Masses (..., K) [kg] and angles (..., K) [deg] of the counterweights of a request; 0 where a web has none.
+def as_given(machine: Machine, counterweights: Sequence[FittedCounterweight | GivenCounterweight]) -> tuple[Real, Real]:
+    """Masses (..., K) [kg] and angles (..., K) [deg] of counterweights on webs; 0 where a web has none.
 
     Those on the webs of balance shafts stand behind those of the crankshaft.
     """
-    given = {counterweight.web: counterweight for counterweight in request.counterweights}
-    fitted = [given.get(web.name) for web in places(request.machine)]
+    given = {counterweight.web: counterweight for counterweight in counterweights}
+    fitted = [given.get(web.name) for web in places(machine)]
     mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
     return mass, np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
 

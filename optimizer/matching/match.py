@@ -23,6 +23,7 @@ from optimizer.own_solver import own_solver
 from optimizer.program.verdict import Claim, verdict
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.first_order import FirstOrder, Residual
+from schemas.fitted import GivenCounterweight
 from schemas.machine import ReciprocatingMachine
 from schemas.match import MatchRequest
 from schemas.match_answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
@@ -44,8 +45,7 @@ class _Best(NamedTuple):
 def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
-    given = AnalyzeRequest(machine=request.machine, counterweights=request.counterweights)
-    fitted, angle = as_given(given)
+    fitted, angle = as_given(request.machine, request.counterweights)
     problem = stated(request, fitted, angle)
     searching = time.perf_counter()
     choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
@@ -229,7 +229,8 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine) -> _Evaluat
         close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
         answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
     else:
-        answer = analyze(AnalyzeRequest(machine=machine, counterweights=request.counterweights))
+        given = tuple(GivenCounterweight(**one.model_dump()) for one in request.counterweights)
+        answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
     plan = layout(machine)
     first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
     square = plan.omega**2

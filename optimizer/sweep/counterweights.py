@@ -56,7 +56,7 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
 
 def given(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
     """Total mass, and the unbalance of the counterweights (count, webs) kg m."""
-    mass, angle = as_given(request)
+    mass, angle = as_given(request.machine, request.counterweights)
     radius = stacked([web.counterweight_radius_m for web in request.machine.webs])
     shape = (count, radius.shape[-1])
     columns: Columns = {

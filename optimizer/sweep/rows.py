@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
+from optimizer.given import on_webs
 from optimizer.outputs import columns, input_rules
 from optimizer.program.reference.solver import Solver
 from optimizer.required import missing
@@ -111,7 +112,7 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         return
     request = group.of(designs)
     if isinstance(request, AnalyzeRequest):
-        found, unbalance = given(request, designs.size)
+        found, unbalance = given(on_webs(request), designs.size)
         table.put(designs, found)
         _fill_outputs(table, group, designs, unbalance)
         return
@@ -148,6 +149,7 @@ def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Comple
         block = designs[first : first + size]
         part = group.of(block)
         always = ("residual", *group.always) if isinstance(part, OptimizeRequest) else ()
+        part = on_webs(part) if isinstance(part, AnalyzeRequest) else part
         table.put(block, columns(part, fitted[first : first + size], always))
 
 
