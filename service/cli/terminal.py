@@ -78,7 +78,7 @@ def show(chapters: "Iterable[Chapter]", name: str | None = None, status: str | N
     from rich.console import Console, Group
     from rich.text import Text
 
-    from service.report.plain import plain
+    from service.plain import plain
     from service.report.terminal import terminal
 
     ending = (f": {status}", _STYLES.get(status, "bold yellow")) if status else ""

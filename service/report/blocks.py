@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from operator import itemgetter
 from typing import Literal, NamedTuple
 
-from service.report.drawing import Drawing
+from service.drawings.svg import Drawing
 
 
 class Run(NamedTuple):

@@ -4,8 +4,7 @@ import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from service.report.blocks import digits, turns_of
-from service.report.drawing import (
+from service.drawings.svg import (
     AFTER,
     BEFORE,
     DASHES,
@@ -18,6 +17,7 @@ from service.report.drawing import (
     Point,
     shortened,
 )
+from service.report.blocks import digits, turns_of
 
 #: more lines than this cannot be told apart
 MAX_LINES = len(SERIES)

@@ -8,8 +8,8 @@ from typing import NamedTuple, TypeVar
 from schemas.counterweights import Counterweight
 from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
 from schemas.webs import Web
+from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
 from service.report.blocks import digits
-from service.report.drawing import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
 
 Each = TypeVar("Each", bound=tuple[float, str, object])
 

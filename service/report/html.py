@@ -5,9 +5,9 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
+from service.drawings.svg import Drawing
+from service.plain import plain
 from service.report.blocks import Block, Document, Number
-from service.report.drawing import Drawing
-from service.report.plain import plain
 
 
 def html(document: Document) -> bytes:

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from service.drawings.svg import FAINT, INK, MUTED, PAGE_WIDTH, Drawing
 from service.report.blocks import digits
 from service.report.charts import axis, prefix, tick
-from service.report.drawing import FAINT, INK, MUTED, PAGE_WIDTH, Drawing
 
 
 class Curve(NamedTuple):

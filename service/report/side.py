@@ -6,8 +6,8 @@ from typing import NamedTuple
 
 from schemas.counterweights import Counterweight
 from schemas.machine import Machine, ReciprocatingMachine
+from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
 from service.report.blocks import digits
-from service.report.drawing import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
 
 _LEFT, _RIGHT = 44.0, PAGE_WIDTH - 30.0
 _MIDDLE = 150.0

@@ -7,6 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table as Grid
 from rich.text import Text
 
+from service.plain import plain
 from service.report.blocks import (
     Block,
     Cell,
@@ -23,7 +24,6 @@ from service.report.blocks import (
     table,
     turns_of,
 )
-from service.report.plain import plain
 
 _TONES = {"plain": "", "key": "bold", "warning": "bold yellow"}
 _MARKS = {"base": "", "sup": "^", "sub": "_"}

@@ -9,8 +9,8 @@ import pytest
 
 from optimizer.optimize import optimize
 from schemas.counterweights import Counterweight
+from service.drawings.svg import AFTER, PAGE_WIDTH, Drawing
 from service.report import charts
-from service.report.drawing import AFTER, PAGE_WIDTH, Drawing
 from service.report.front import front
 from service.report.side import side
 from tests.report_document.conftest import asked

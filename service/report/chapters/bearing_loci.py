@@ -6,8 +6,8 @@ from collections.abc import Iterator, Sequence
 
 from schemas.dynamics import BearingLoad, MainBearing, MainBearings
 from schemas.machine import Machine
+from service.drawings.svg import AFTER, BEFORE, Drawing
 from service.report.blocks import Figure
-from service.report.drawing import AFTER, BEFORE, Drawing
 from service.report.loci import Curve, locus
 
 #: bearings that are drawn; of more those with the largest loads

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 from xml.etree import ElementTree
 
-from service.report.plain import plain
+from service.plain import plain
 
 Point = tuple[float, float]
 Anchor = Literal["start", "middle", "end"]
