@@ -232,12 +232,13 @@ class Coordinator:
             self._fail(chunk.job, f"{what} cannot be written: {error.strerror}")
             return
         if chunk.rows:
+            # another service may have been first, with a file of another content
             counts = self._leases.finish(chunk, piece.failed, str(record.digest), record.bytes)
+            needless = None if counts else record
         else:
-            counts = self._leases.finish_selection(chunk, covers, piece.kept, str(record.digest), record.bytes)
-        if not counts or not chunk.rows:
-            # another service was first, with a file of another content; or this one replaces an older selection
-            self._housekeeping.remove_others(chunk.job, chunk.start, chunk.stop)
+            needless = self._leases.finish_selection(chunk, covers, piece.kept, record)
+        if needless is not None:
+            self._housekeeping.remove(chunk.job, needless)
 
     def _refuse(self, chunk: Chunk, reason: str) -> None:
         if chunk.rows:

@@ -20,7 +20,8 @@ class Housekeeping:
 
     def __init__(self, store: Store, retention: Retention, files: JobFiles) -> None:
         self._store, self._retention, self._files = store, retention, files
-        self._tidy_jobs: set[str] = set()
+        #: version that a job had when its folder was tidy
+        self._tidy_jobs: dict[str, int] = {}
 
     def tidy(self) -> None:
         """Remove what can be removed now; called again and again.
@@ -54,19 +55,19 @@ class Housekeeping:
 
     def _tidy_ended(self) -> None:
         ended = self._retention.ended()
-        self._tidy_jobs &= set(ended)
+        self._tidy_jobs = {job: version for job, version in self._tidy_jobs.items() if ended.get(job) == version}
         for job in [job for job in ended if job not in self._tidy_jobs][:_AT_A_TIME]:
             with suppress(UnknownJob):
-                found = self._files.names(job)
-                if not self._store.get(job).active:
-                    self._files.tidy(job, found, self._records(job))
-                    self._tidy_jobs.add(job)
+                # listed before the records are, which are known before a job ends
+                names, found = self._files.names(job), self._store.get(job)
+                if not found.active:
+                    self._files.tidy(job, names, self._records(job))
+                    self._tidy_jobs[job] = found.version
 
-    def remove_others(self, job: str, start: int, stop: int) -> None:
-        """Remove the files of a chunk that the database does not know."""
-        name = f"{start:09d}-{stop:09d}"
-        found = [one for one in self._files.names(job) if one.startswith(name)]
-        self._files.tidy(job, found, self._records(job))
+    def remove(self, job: str, record: Record) -> None:
+        """Remove a file unless the database knows it. Others are left alone: another service may be about to tell it
+        of one."""
+        self._files.tidy(job, [self._files.piece(job, record).name], self._records(job))
 
     def _records(self, job: str) -> list[Record]:
         selection = self._store.selection(job)

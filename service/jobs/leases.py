@@ -119,8 +119,9 @@ class Leases:
             error = f"the {quota / 1e6:.1f} MB of its owner on disk are used up; remove sweeps, then resume this one"
             rows.end(connection, found, "failed", error, self._clock(), self._limits.keep_s)
 
-    def finish_selection(self, chunk: Chunk, covered: int, kept: int, digest: str, size: int) -> bool:
-        """The file of the rows that were selected is on disk.
+    def finish_selection(self, chunk: Chunk, covered: int, kept: int, file: Record) -> Record | None:
+        """The file of the rows that were selected is on disk. It does not count if the job has ended, or another
+        selection looked at as many.
 
         Parameters
         ----------
@@ -128,20 +129,20 @@ class Leases:
 
         Returns
         -------
-        whether it counts: it does not if the job has ended, or another selection looked at as many.
+        the file that is not needed any more: that of the selection before, or this one if it does not count.
         """
         with self._database.write() as connection:
             found = rows.find(connection, chunk.job, lock=True)
             if found is None or not found.active or covered <= found.selected:
-                return False
-            before = connection.scalar(select(chunks.c.bytes).where(_this(chunk))) or 0
-            about = {"digest": digest, "bytes": on_disk(size), "attempts": 0, "lease_owner": None}
+                return file
+            before = connection.execute(select(chunks.c.digest, chunks.c.bytes).where(_this(chunk))).one()
+            about = {"digest": file.digest, "bytes": on_disk(file.bytes), "attempts": 0, "lease_owner": None}
             state = "done" if covered == found.total else "waiting"
             connection.execute(update(chunks).where(_this(chunk)).values(state=state, **about))
-            size_now = jobs.c.bytes + on_disk(size) - before
+            size_now = jobs.c.bytes + on_disk(file.bytes) - before.bytes
             rows.change(connection, chunk.job, selected=covered, kept=kept, bytes=size_now)
             self._settle(connection, found)
-            return True
+            return None if before.digest is None else Record(chunk.start, chunk.stop, before.digest, before.bytes)
 
     def refuse_selection(self, chunk: Chunk, reason: str) -> None:
         """There will be no selection; the job goes on without."""
@@ -154,10 +155,13 @@ class Leases:
                 self._settle(connection, found)
 
     def postpone(self, chunk: Chunk) -> None:
-        """Select rows later, when those that are computed anew are there."""
+        """Select rows later: when those that are computed anew are there, which they may be by now."""
         with self._database.write() as connection:
+            found = rows.find(connection, chunk.job, lock=True)
             mine = and_(_this(chunk), chunks.c.state == "leased")
             connection.execute(update(chunks).where(mine).values(state="waiting", lease_owner=None))
+            if found is not None:
+                self._settle(connection, found)
 
     def give_back(self, chunk: Chunk, attempts: int) -> None:
         """A chunk went wrong ``attempts`` times by now and shall be tried again."""
@@ -216,6 +220,8 @@ class Leases:
     def adopt(self, job: str, record: Record, digest: str, size: int) -> None:
         """A file that was written before there were digests has one now."""
         with self._database.write() as connection:
+            # the job before its chunks, as everywhere: the other way round two transactions wait for each other
+            rows.find(connection, job, lock=True)
             this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
             old = and_(this, chunks.c.digest.is_(None), chunks.c.state == "done")
             if connection.execute(update(chunks).where(old).values(digest=digest, bytes=on_disk(size))).rowcount:

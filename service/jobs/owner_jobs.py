@@ -254,9 +254,14 @@ class OwnerJobs:
         ------
         RowsDamaged
             if files are missing; or while the rows are read.
+        UnknownJob
+            if it has been removed; or while the rows are read.
         FilesUnavailable, DatabaseUnavailable
         """
         pieces = self._parts.store.pieces(job.id)
+        if not pieces:
+            # it may have been removed meanwhile
+            self._parts.store.get(job.id)
         wanted = results.within(pieces, first, last)
         self._require(job, wanted)
         complete = job.state == "done" and sum(piece.rows for piece in pieces) == job.total
@@ -273,18 +278,33 @@ class OwnerJobs:
         """
         record = self._parts.store.selection(job.id)
         if record is None:
-            if job.selected == job.total:
+            if job.selected == job.total and job.error is not None:
                 raise NotFinished(f"There is no selection: {job.error}.", retry=False)
             return Rows(iter(()), 0, complete=False)
         complete = job.state == "done" and job.selected == job.total
-        return Rows(results.rows_of(partial(self._opener(job), record), schema, first, last), job.kept, complete)
+        return Rows(results.rows_of(partial(self._latest, job, record), schema, first, last), job.kept, complete)
+
+    def _latest(self, job: Job, record: Record) -> BinaryIO:
+        """The file of a selection, or of the one that has replaced it since."""
+        try:
+            return self._opener(job)(record)
+        except RowsDamaged:
+            now = self._parts.store.selection(job.id)
+            if now is None or now.digest == record.digest:
+                raise
+            return self._latest(job, now)
 
     def _require(self, job: Job, pieces: list[Record]) -> None:
         absent = self._parts.files.absent(job.id, pieces)
         for record in absent:
-            self._parts.coordinator.repair(job.id, Damaged(record, "missing"))
+            self._repair(job, Damaged(record, "missing"))
         if absent:
             raise RowsDamaged(_said(absent[0], "missing"))
+
+    def _repair(self, job: Job, damage: Damaged) -> None:
+        self._parts.coordinator.repair(job.id, damage)
+        # nothing is made again of a job that was removed while it was read: it is unknown
+        self._parts.store.get(job.id)
 
     def _opener(self, job: Job) -> Callable[[Record], BinaryIO]:
         def opened(record: Record) -> BinaryIO:
@@ -293,7 +313,7 @@ class OwnerJobs:
                     record = self._adopted(job, record)
                 return self._parts.files.opened(job.id, record)
             except Damaged as damage:
-                self._parts.coordinator.repair(job.id, damage)
+                self._repair(job, damage)
                 raise RowsDamaged(_said(damage.record, damage.reason)) from damage
 
         return opened

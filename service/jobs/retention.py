@@ -69,11 +69,12 @@ class Retention:
         with self._database.read() as connection:
             return set(connection.scalars(select(jobs.c.id)))
 
-    def ended(self) -> list[str]:
-        """The jobs that have ended, by id."""
+    def ended(self) -> dict[str, int]:
+        """The versions of the jobs that have ended, by id."""
         with self._database.read() as connection:
             over = jobs.c.state.not_in([*ACTIVE, REMOVED])
-            return list(connection.scalars(select(jobs.c.id).where(over).order_by(jobs.c.id)))
+            wanted = select(jobs.c.id, jobs.c.version).where(over).order_by(jobs.c.id)
+            return {row.id: row.version for row in connection.execute(wanted)}
 
     def identity(self) -> str:
         """Of the database: the same for all services that share it."""
