@@ -83,7 +83,7 @@ class House:
 
     def wait_until_tidy(self, job: str) -> None:
         """Until the folder of a job holds its files and nothing else."""
-        deadline = time.monotonic() + 120
+        deadline = time.monotonic() + 180
         while set(self.files.names(job)) != {self.files.piece(job, piece).name for piece in self.store.pieces(job)}:
             assert time.monotonic() < deadline, self.files.names(job)
             time.sleep(0.02)

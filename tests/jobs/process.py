@@ -55,7 +55,7 @@ class Service:
         return self
 
     def send(self, method: str, path: str, body: object = None, **headers: str) -> tuple[int, dict[str, str], bytes]:
-        with closing(http.client.HTTPConnection(*self.where, timeout=120)) as connection:
+        with closing(http.client.HTTPConnection(*self.where, timeout=300)) as connection:
             content = None if body is None else json.dumps(body)
             connection.request(method, path, content, {"Content-Type": "application/json", **headers})
             answer = connection.getresponse()
@@ -64,7 +64,7 @@ class Service:
     def read(self, path: str) -> Any:
         return json.loads(self.send("GET", path)[2])
 
-    def ended(self, path: str, timeout: float = 120) -> Any:
+    def ended(self, path: str, timeout: float = 300) -> Any:
         """The state of a sweep that has ended."""
         deadline = time.monotonic() + timeout
         while (state := self.read(path))["state"] in ("queued", "running"):
@@ -73,14 +73,15 @@ class Service:
         return state
 
     def rows(self, path: str) -> pa.Table:
-        return pq.read_table(io.BytesIO(self.send("GET", f"{path}/results?format=parquet")[2]))
+        # no threads of Arrow: see House.rows
+        return pq.ParquetFile(io.BytesIO(self.send("GET", f"{path}/results?format=parquet")[2])).read(use_threads=False)
 
     def kill(self) -> None:
         self.process.kill()
         self.close()
 
     def close(self) -> None:
-        self.process.wait(30)
+        self.process.wait(180)
         if self.process.stdout is not None:
             self.process.stdout.close()
 

@@ -28,10 +28,11 @@ def rows(start: int, stop: int, failed: tuple[int, ...] = ()) -> pa.Table:
 
 
 def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
-    """What a request may ask for: sleep_s, kill_at and raise_at a row, kill_once and raise_once (paths)."""
+    """What a request may ask for: sleep_s, kill_at and raise_at a row, kill_once and raise_once (paths); held_from a
+    row on, until there is a file at held_until."""
     asked: dict[str, Any] = json.loads(request)
-    until = time.monotonic() + asked.get("sleep_s", 0)
-    while time.monotonic() < until:
+    until, held = time.monotonic() + asked.get("sleep_s", 0), start >= asked.get("held_from", stop)
+    while time.monotonic() < until or (held and not Path(asked["held_until"]).exists()):
         if Path(flag).exists():
             raise Stopped
         time.sleep(0.01)

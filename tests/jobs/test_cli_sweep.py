@@ -36,7 +36,7 @@ def written(folder: Path, body: dict[str, Any]) -> str:
 
 def run(*arguments: str) -> "subprocess.CompletedProcess[str]":
     env = {**os.environ, "COUNTERWEIGHT_DATABASE_URL": "postgresql://nobody@127.0.0.1:1/of-the-service"}
-    done = subprocess.run([*COMMAND, *arguments], cwd=ROOT, env=env, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*COMMAND, *arguments], cwd=ROOT, env=env, capture_output=True, text=True, timeout=300)
     assert "Traceback" not in done.stderr
     return done
 

@@ -31,13 +31,13 @@ def spool() -> Iterator[Spool]:
 
 @pytest.mark.parametrize("size", [10, 1_000_000])
 def test_what_a_worker_gives_back_arrives_whole_and_leaves_no_file(spool: Spool, size: int) -> None:
-    assert spool.submit(piece, size).result(10) == piece(size)
+    assert spool.submit(piece, size).result(180) == piece(size)
     assert [path.name for path in Path(spool._folder).iterdir()] == ["lock"]
 
 
 def test_a_failure_arrives(spool: Spool) -> None:
     with pytest.raises(ArithmeticError, match="broken"):
-        spool.submit(broken).result(10)
+        spool.submit(broken).result(180)
 
 
 def test_an_answer_is_gone_when_nobody_holds_it(spool: Spool) -> None:
@@ -45,10 +45,10 @@ def test_an_answer_is_gone_when_nobody_holds_it(spool: Spool) -> None:
     gc.disable()
     try:
         future = spool.submit(piece, 1_000_000)
-        future.result(10)
+        future.result(180)
         held = weakref.ref(future)
         del future
-        deadline = time.monotonic() + 10
+        deadline = time.monotonic() + 180
         while held() is not None and time.monotonic() < deadline:
             # the executor lets go a moment after the result is there
             time.sleep(0.01)

@@ -24,7 +24,7 @@ from tests.jobs.sweeps import MACHINE, MASS, analyses, optimisations
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     folder: Path = tmp_path_factory.mktemp("data")
     with TestClient(create_app(Settings(data_dir=folder, sweep_workers=2), warm=False)) as client:
-        deadline = time.monotonic() + 30
+        deadline = time.monotonic() + 180
         while client.get("/readyz").status_code != 200:
             assert time.monotonic() < deadline
         yield client
@@ -306,7 +306,7 @@ def test_a_database_that_cannot_be_reached(tmp_path: Path) -> None:
     settings = Settings(data_dir=tmp_path, database_url="postgresql://nobody@127.0.0.1:1/x")
     with TestClient(create_app(settings, warm=False)) as client:
         # warm, though not ready: that the database is needed is known to readiness too
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 180
         while "database of the jobs" not in client.get("/readyz").json().get("detail", ""):
             assert time.monotonic() < deadline
             time.sleep(0.01)
