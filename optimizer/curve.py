@@ -64,6 +64,8 @@ class TurnResponse:
     curves, number : the curve without counterweights, over omega^2: one of several that are evaluated together.
     turning : (K,) how often what each web adds turns, as the shaft sees it, while the shaft turns once: the influence
         is then H_k e^{j n_k theta}. None where all of it stands still.
+    scalar : the curve is real, and of what counterweights add the real part counts: no vector across the shaft, but
+        one number at every angle. Something of it turns.
     """
 
     name: str
@@ -72,6 +74,7 @@ class TurnResponse:
     curves: Curves
     number: int
     turning: Real | None = None
+    scalar: bool = False
 
     @property
     def period_deg(self) -> float:
@@ -92,7 +95,7 @@ class TurnResponse:
 
     def harmonics(self, unbalance: Complex) -> Harmonics | None:
         """What counterweights (K,) kg m add to the curve, where some of it turns; None where it stands still."""
-        return None if self.turning is None else Harmonics(self.turning, self.influence * unbalance)
+        return None if self.turning is None else Harmonics(self.turning, self.influence * unbalance, self.scalar)
 
     def at(self, angle: Real) -> Complex:
         """The curve without counterweights at angles (n,) rad."""

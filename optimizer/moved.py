@@ -15,16 +15,17 @@ from optimizer.pieces import Index, Pieces, Source
 
 @dataclass(frozen=True)
 class Harmonics:
-    """sum_i size_i e^{j times_i theta}."""
+    """sum_i size_i e^{j times_i theta}, or the real part of it."""
 
     times: Real  # (m,)
     size: Complex  # (m,)
+    scalar: bool = False  # only the real part counts
 
     def cubics(self, centre: Real, half: Real) -> Complex:
         """Taylor polynomials (..., 4) about centres (...) rad, in units of half widths (...)."""
         there = self.size * np.exp(1j * centre[..., None] * self.times)
         parts = [np.sum(there * (1j * self.times) ** k, axis=-1) * half**k / factorial(k) for k in range(4)]
-        return np.stack(parts, axis=-1)
+        return self._counting(np.stack(parts, axis=-1))
 
     def rests(self, half: Real) -> Real:
         """What these leave out within half widths (...)."""
@@ -34,7 +35,10 @@ class Harmonics:
     def at(self, angle: Real) -> Complex:
         """Values (...) at angles (...) rad."""
         values: Complex = np.sum(self.size * np.exp(1j * angle[..., None] * self.times), axis=-1)
-        return values
+        return self._counting(values)
+
+    def _counting(self, values: Complex) -> Complex:
+        return values.real.astype(complex) if self.scalar else values
 
 
 def moved(pieces: Pieces, number: int, by: Harmonics) -> Pieces:

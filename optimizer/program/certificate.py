@@ -62,12 +62,16 @@ class Multipliers:
         return np.sum(self.row[..., statement.group == 0], axis=-1)
 
     def admissible(self, statement: Statement) -> "Multipliers":
-        """The same multipliers with lam >= 0 of one sum in every group and |y| <= 1, or they prove nothing."""
+        """The same multipliers with lam >= 0 of one sum in every group, |y| <= 1, and y real of a scalar.
+
+        Others prove nothing.
+        """
         row = _alike(statement, np.maximum(self.row, 0.0))
         allowed = row[..., statement.row]
         size = np.abs(self.term)
         shrink = np.where(size > allowed, allowed / np.where(size > 0, size, 1.0), 1.0)
-        return Multipliers(self.term * shrink, row, self.ceiling)
+        term = statement.norms.counting(self.term * shrink)
+        return Multipliers(term, row, statement.ceilings.norms.counting(self.ceiling))
 
 
 def _alike(statement: Statement, row: Real) -> Real:

@@ -40,16 +40,18 @@ EXACT = Scatter()
 
 
 class Cut(NamedTuple):
-    """floor + |constant + influence @ u|, which the quantity is never below."""
+    """floor + |constant + influence @ u|, which the quantity is never below; of a scalar the real part inside."""
 
     constant: complex
     influence: Real | Complex  # (K,)
     floor: float = 0.0
     angle_deg: float | None = None  # of the shaft, where the cut belongs to one
+    scalar: bool = False
 
     def at(self, u: Complex, scatter: Scatter) -> float:
         """What it comes to with an unbalance (K,)."""
-        return self.floor + float(abs(self.constant + np.sum(self.influence * u))) + scatter.of(self.influence, u)
+        vector = self.constant + np.sum(self.influence * u)
+        return self.floor + float(abs(vector.real if self.scalar else vector)) + scatter.of(self.influence, u)
 
 
 class Reached(NamedTuple):
@@ -79,7 +81,31 @@ class Quantity:
 
     def cut(self, angle: float, value: complex) -> Cut:
         """The cut of the peak at an angle [rad], where the curve has a value."""
-        return Cut(value, self.response.influence_at(angle), angle_deg=float(np.rad2deg(angle)))
+        influence = self.response.influence_at(angle)
+        return Cut(value, influence, angle_deg=float(np.rad2deg(angle)), scalar=self.response.scalar)
+
+    def harmonics(self, largest: float) -> tuple[Cut, ...]:
+        """Cuts that tell together all that counterweights add to a peak, at any angle: each speed at which they turn.
+
+        The mean of d + sum_n c_n e^{j n theta}, turned back by n, is no longer than the peak, so that this is at least
+        |c_n| less the largest |d|; of a scalar |c_n + conj(c_-n)| / 2, in its two parts.
+
+        Parameters
+        ----------
+        largest : of the curve without counterweights, or more.
+        """
+        influence, turning = self.response.influence, self.response.turning
+        if turning is None or self.measure == "rms":
+            return ()
+        if not self.response.scalar:
+            return tuple(Cut(0j, np.where(turning == n, influence, 0.0), -largest) for n in np.unique(turning))
+        found = []
+        for n in np.unique(np.abs(turning)):
+            share = np.where(turning == n, 0.5, 0.0) + np.where(turning == -n, 0.5, 0.0)
+            for quarter in (1.0, 1.0j) if n else (1.0,):
+                turned = np.where(turning < 0, np.conj(quarter), quarter)
+                found.append(Cut(0j, share * turned * influence, -largest, scalar=True))
+        return tuple(found)
 
     def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Reached:
         """The peak where counterweights scatter, from what it is where they do not."""
@@ -143,7 +169,8 @@ class Samples:
             if quantity.measure == "rms":
                 found.append(quantity.rms(u, scatter))
                 continue
-            size = np.abs(value + quantity.response.added(u, angle))
+            moved = value + quantity.response.added(u, angle)
+            size = np.abs(moved.real if quantity.response.scalar else moved)
             k = int(np.argmax(size))
             cut = quantity.cut(float(angle[k]), complex(value[k]))
             found.append(quantity.peak(u, scatter, float(size[k]), float(size[k]), cut))

@@ -241,7 +241,7 @@ def _again(program: OverTurn, point: Point) -> Point:
 
 def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
     """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
-    statement = times(program.statement(program.first), 1.0 / program.units[program.goal_of])
+    statement = times(program.statement(program.telling), 1.0 / program.units[program.goal_of])
     if not np.any(far_limits(statement)):
         return program
     levels = np.append(most, inside.values.goals[most.size]) / program.units

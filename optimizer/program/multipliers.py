@@ -9,9 +9,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Complex
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, spread
-from optimizer.program.statement import Statement
+from optimizer.program.statement import Statement, scalars
 
 #: a limit is touched when it is nearer than this share of itself
 TOUCHED = 1e-6
@@ -40,24 +40,52 @@ def objective_multipliers(statement: Statement, u: Complex, solver: Multipliers)
         [statement.norms.influence[:, interior], statement.ceilings.norms.influence[:, interior]]
     )
     stacked = np.concatenate([usable.term, usable.ceiling])
-    scale = np.max(np.abs(influence), axis=1, keepdims=True)
-    scale = np.where(scale > 0, scale, 1.0)
-    basis, size, across = np.linalg.svd(influence / scale, full_matrices=False)
-    known = size > 1e-12 * size[0]
-    basis = basis[:, known]
-    weighted = stacked * scale[:, 0]
-    stacked = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
-    more = spread(statement, usable)
+    more, worth = spread(statement, usable), np.zeros(int(np.sum(interior)), complex)
     if np.any(more):
         # where counterweights scatter, a kilogram metre gains what it costs: conj(H) y = -spread u/|u|
         towards = u[interior] / np.where(u[interior] != 0, np.abs(u[interior]), 1.0)
         worth = -np.broadcast_to(more, u.shape)[interior] * towards
-        stacked = stacked + (basis @ ((across[known] @ worth) / size[known])) / scale[:, 0]
+    norms, limited = statement.norms, statement.ceilings.norms
+    if any(norms.scalar) or any(limited.scalar):
+        free = ~np.array([*scalars(norms), *scalars(limited)])
+        stacked = _nearest_of_scalars(influence, stacked, worth, free)
+    else:
+        stacked = _nearest(influence, stacked, worth)
     terms = usable.term.size
     # a row whose terms have grown grows with them: what is left of rows that hardly count is no reason to shrink all
     row = usable.row.copy()
     np.maximum.at(row, statement.row, np.abs(stacked[:terms]))
     yield replace(usable, row=row, term=stacked[:terms], ceiling=stacked[terms:])
+
+
+def _nearest(influence: Real | Complex, multipliers: Complex | Real, worth: Complex | Real) -> Complex:
+    """The nearest multipliers (n,) with sum_j conj(H_jk) y_j = worth_k for all webs.
+
+    Parameters
+    ----------
+    influence : (n, K).
+    worth : (K,) that is 0, or so small that some multipliers are worth it.
+    """
+    scale = np.max(np.abs(influence), axis=1, keepdims=True)
+    scale = np.where(scale > 0, scale, 1.0)
+    basis, size, across = np.linalg.svd(influence / scale, full_matrices=False)
+    known = size > 1e-12 * size[0]
+    basis = basis[:, known]
+    weighted = multipliers * scale[:, 0]
+    found: Complex = (weighted - basis @ (np.conj(basis).T @ weighted)) / scale[:, 0]
+    if np.any(worth):
+        found = found + (basis @ ((across[known] @ worth) / size[known])) / scale[:, 0]
+    return found
+
+
+def _nearest_of_scalars(influence: Real | Complex, multipliers: Complex, worth: Complex, free: np.ndarray) -> Complex:
+    """The same where multipliers are real: in their real parts and, of those that are ``free`` (n,), the imaginary."""
+    turned = np.concatenate([influence, -1j * influence[free]])
+    parts = np.concatenate([multipliers.real, multipliers.imag[free]])
+    found = _nearest(np.hstack([turned.real, -turned.imag]), parts, np.concatenate([worth.real, worth.imag]))
+    whole: Complex = found[: free.size].astype(complex)
+    whole[free] += 1j * found[free.size :]
+    return whole
 
 
 def mass_multipliers(statement: Statement, u: Complex, solver: Multipliers) -> Iterator[Multipliers]:

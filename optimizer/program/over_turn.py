@@ -120,6 +120,12 @@ class OverTurn:
         return self.samples.first()
 
     @cached_property
+    def telling(self) -> Cuts:
+        """The same, and what tells all that counterweights change: no two of them alike in these are told apart."""
+        resting = zip(self.quantities, self.first, self._resting, strict=True)
+        return tuple((*first, *quantity.harmonics(rest.upper)) for quantity, first, rest in resting)
+
+    @cached_property
     def at_rest(self) -> Values:
         """Without counterweights."""
         still = np.zeros(self.limits.radius.shape, complex)
@@ -187,6 +193,7 @@ class OverTurn:
             np.append(exact.norms.constant, [cut.constant for _, _, cut in chosen]),
             np.concatenate([exact.norms.influence, *(cut.influence[None] for _, _, cut in chosen)]),
             self.scatter.share,
+            (*(False for _ in exact.names), *(cut.scalar for _, _, cut in chosen)),
         )
         # an excess is a share of the quantity's size, not of its cuts'
         size = dict(zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True))
@@ -212,7 +219,7 @@ class OverTurn:
         influence: Real | Complex = np.stack(terms.influence)  # type: ignore[assignment]  # real or complex
         # what is too small to divide by has no influence
         influence = np.where(np.abs(influence) > SMALLEST, influence, 0.0)
-        norms = Norms(np.array(terms.constant, dtype=complex), influence, self.scatter.share)
+        norms = Norms(np.array(terms.constant, dtype=complex), influence, self.scatter.share, tuple(terms.scalar))
         none = limited((), norms, self.limits.radius.size)
         owner, group_of = np.array(terms.row), np.array(terms.group)
         floor = np.array(terms.floor) + np.bincount(owner, self._astray(norms)).astype(float)
@@ -226,7 +233,7 @@ class OverTurn:
         width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
         about = np.array([max(each.lower, _TINY) for each in self.samples.reached(u, self.scatter)])
-        tolerance = np.maximum(width * self._shares / about, 1e-15)
+        tolerance = np.clip(width * self._shares / about, 1e-15, 1e300)
         found = reached(self.quantities, u, tolerance, self.samples.cancelled, self.scatter)
         return self._values(u, found, self.sizes)
 
@@ -289,6 +296,7 @@ class _Terms:
         self.floor: list[float] = []
         self.group: list[int] = []
         self.rows: list[str] = []
+        self.scalar: list[bool] = []
 
     def add(self, group: int, row: Row) -> None:
         for peak in row.peaks:
@@ -296,6 +304,7 @@ class _Terms:
             self.constant += peak.norms.constant.tolist()
             self.influence += list(peak.norms.influence)
             self.row += [len(self.rows)] * count
+            self.scalar += [False] * count
             self.names += [Term(peak.name, part, None, peak.scenario) for part in PARTS[:count]]
         self._end(group, row.name, float(sum(peak.floor for peak in row.peaks)))
 
@@ -303,6 +312,7 @@ class _Terms:
         name = quantity.name
         self.constant.append(weighed.weight * cut.constant)
         self.influence.append(weighed.weight * cut.influence)
+        self.scalar.append(cut.scalar)
         self.row.append(len(self.rows))
         self.names.append(Term(name, "co", cut.angle_deg, quantity.scenario))
         # of a root mean square the cuts have no angle

@@ -14,7 +14,7 @@ from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.scaling import natural_reach, single_reach
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import CEILING_TOLERANCE, Statement, scalars
 
 #: a limit this many times the unbalance that cancels everything is as far away as none
 _FAR = 1e3
@@ -102,12 +102,12 @@ def _mass(statement: Statement, far: np.ndarray, level: float) -> float:
     scattered = _scattered(statement, far, level)
     if scattered is not None:
         return scattered
-    rows, most = _responses(statement, far, level)
+    rows, most, scalar = _responses(statement, far, level)
     if not np.any(most):
         return 0.0
     influence = rows * limits.radius
-    plain = np.all(limits.free) and len(most) <= 2
-    mass = _MARGIN * (_in_planes(influence, most) if plain else _in_sectors(influence, limits, most))
+    plain = np.all(limits.free) and len(most) <= 2 and not np.any(scalar)
+    mass = _MARGIN * (_in_planes(influence, most) if plain else _in_sectors(influence, limits, most, scalar))
     return mass if np.isfinite(mass) else LARGEST
 
 
@@ -132,8 +132,11 @@ def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | N
     return min(mass, LARGEST)
 
 
-def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real]:
-    """What the far webs can change: rows of influence (s, far) of size 1, and the most that each may change (s,)."""
+def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real, np.ndarray]:
+    """What the far webs can change: rows of influence (s, far) of size 1, the most that each may change (s,).
+
+    And whether only its real part counts (s,).
+    """
     norms, ceilings, highest = statement.norms, statement.ceilings, statement.largest(statement.floor)
     # a term is no larger than what the objective leaves it, a limited response no larger than its cap
     others = np.sum(highest) - highest
@@ -143,20 +146,25 @@ def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Rea
     influence = np.concatenate([norms.influence, ceilings.norms.influence])
     near = np.where(far, 0.0, statement.limits.reach)
     allowed = np.abs(constant) + np.maximum(within, 0.0) + np.sum(np.abs(influence) * near, axis=-1)
+    every = np.array([*scalars(norms), *scalars(ceilings.norms)])
     rows: list[Real] = []
     most: list[float] = []
-    for row, limit in zip(influence[:, far], allowed, strict=True):
+    kinds: list[bool] = []
+    for row, limit, scalar in zip(influence[:, far], allowed, every, strict=True):
         largest = row[np.argmax(np.abs(row))]
         if largest == 0.0:
             continue
-        row, limit = row / largest, limit / abs(largest)
-        same = [n for n, other in enumerate(rows) if np.all(np.abs(row - other) <= _SAME)]
+        # a scalar in another direction is another one
+        row, limit = row / (abs(largest) if scalar else largest), limit / abs(largest)
+        alike = ((n, other) for n, other in enumerate(rows) if kinds[n] == scalar)
+        same = [n for n, other in alike if np.all(np.abs(row - other) <= _SAME)]
         if same:
             most[same[0]] = min(most[same[0]], limit)
         else:
             rows.append(row)
             most.append(limit)
-    return np.array(rows), np.array(most) * _MARGIN
+            kinds.append(bool(scalar))
+    return np.array(rows), np.array(most) * _MARGIN, np.array(kinds)
 
 
 def _in_planes(influence: Real, most: Real) -> float:
@@ -176,10 +184,11 @@ def _in_planes(influence: Real, most: Real) -> float:
     return float(np.min(np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)))
 
 
-def _in_sectors(influence: Real, limits: Limits, most: Real) -> float:
+def _in_sectors(influence: Real, limits: Limits, most: Real, scalar: np.ndarray) -> float:
     """Mass that carries every c with |c_s| <= most_s that the sectors can carry at all, kg; inf where that fails.
 
-    A sector is the cone of its edges and its middle, so what can be carried is the cone of these rays r_i in R^2s.
+    A sector is the cone of its edges and its middle, so what can be carried is the cone of these rays r_i in R^2s;
+    of a scalar only the real part counts.
     Rays whose opposites it holds too span its lineality space; a vector y is 0 on that and at least delta on all the
     others, so that those carry sum lam <= c.y/delta. What they leave lies in the lineality space, each direction of
     which is carried by the rays in it. Both come from linear programs, whose numbers are used as they turn out.
@@ -191,7 +200,7 @@ def _in_sectors(influence: Real, limits: Limits, most: Real) -> float:
     turns = [np.where(limits.free, step, turn) for step, turn in ((1, 1), (1j, edge), (-1j, np.conj(edge)), (-1, 1))]
     unit = np.concatenate([limits.centre * turn for turn in turns])
     rays = np.tile(influence / np.maximum(most, 1e-9 * np.max(most))[:, None], len(turns)) * unit
-    rays = np.concatenate([rays.real, rays.imag]).T
+    rays = np.concatenate([rays.real, rays.imag[~scalar]]).T
     size = np.sqrt(np.sum(rays**2, axis=-1))
     rays, size = rays[size > 0] / size[size > 0, None], size[size > 0]
     reach = np.sqrt(len(most))  # of c, in these units

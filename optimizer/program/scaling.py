@@ -6,7 +6,7 @@ counterweights (lopsided weights, nearly balanced machines), columns in units of
 sectors as cuts in sine and cosine (half-angles near 90 degrees and near 0).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -137,12 +137,12 @@ def scale(
         shape=Shape(
             stage, reach.size, tuple(statement.row.tolist()), tuple(statement.group.tolist()), count, sectors, budget
         ),
-        constant=_parts(norms.constant / unit),
-        matrix=_matrix(Norms(norms.constant, norms.influence / unit), statement, reach),
+        constant=_parts(norms.counting(norms.constant / unit)),
+        matrix=_matrix(replace(norms, influence=norms.influence / unit), statement, reach),
         floor=(statement.floor - highest[statement.group]) / unit,
-        ceiling_constant=_parts(ceilings.norms.constant / ceilings.size),
+        ceiling_constant=_parts(ceilings.norms.counting(ceilings.norms.constant / ceilings.size)),
         ceiling_matrix=_matrix(
-            Norms(ceilings.norms.constant, ceilings.norms.influence / ceilings.size[:, None]), statement, reach
+            replace(ceilings.norms, influence=ceilings.norms.influence / ceilings.size[:, None]), statement, reach
         ),
         ceiling_cap=cap - np.clip(cap, 0.0, margin),
         sine=limits.half_angle_sin,
@@ -162,7 +162,8 @@ def _parts(vectors: Complex) -> Real:
 
 
 def _matrix(norms: Norms, statement: Statement, reach: Real) -> Real:
-    """(2 J, 2 K) matrix from (x, y) to the real and then the imaginary parts of H u."""
+    """(2 J, 2 K) matrix from (x, y) to the real and then the imaginary parts of H u, which scalars have none of."""
     along = norms.influence * reach * statement.limits.centre
     across = 1j * along * statement.limits.half_angle_sin
-    return np.block([[along.real, across.real], [along.imag, across.imag]])
+    counts = ~np.array(norms.scalar, dtype=bool)[:, None] if any(norms.scalar) else 1.0
+    return np.block([[along.real, across.real], [along.imag * counts, across.imag * counts]])

@@ -27,15 +27,24 @@ PARTS: tuple[Part, ...] = ("co", "counter")
 
 @dataclass(frozen=True)
 class Norms:
-    """Terms |c_j + H_j u|; where counterweights scatter, each the largest of all that they may come to."""
+    """Terms |c_j + H_j u|; where counterweights scatter, each the largest of all that they may come to.
+
+    Of a quantity that is no vector, such as a moment about the crankshaft, a term is |Re(c_j + H_j u)|: a norm whose
+    multiplier y_j is real, with which all that is proven by Re(conj(y_j) (c_j + H_j u)) stands as it is.
+    """
 
     constant: Complex  # (..., J)
     influence: Real | Complex  # (..., J, K)
     scatter: float = 0.0  # share of its unbalance that every counterweight may be off by, in any direction
+    scalar: tuple[bool, ...] = ()  # (J,) terms of which only the real part counts; () is none
 
     def at(self, u: Complex) -> Complex:
-        """Vectors c_j + H_j u, (..., J)."""
-        return self.constant + np.sum(self.influence * u[..., None, :], axis=-1)
+        """Vectors c_j + H_j u, (..., J); of scalars the real part."""
+        return self.counting(self.constant + np.sum(self.influence * u[..., None, :], axis=-1))
+
+    def counting(self, vectors: Complex) -> Complex:
+        """What counts of vectors (..., J), or of their multipliers."""
+        return np.where(self.scalar, np.real(vectors), vectors) if any(self.scalar) else vectors
 
     def sizes(self, u: Complex) -> Real:
         """Sizes of the terms (..., J), all counterweights off in the direction in which the term grows."""
@@ -53,6 +62,11 @@ class Norms:
     def only(self, webs: np.ndarray) -> "Norms":
         # in the usual order in memory, in which sums are the same to the last bit
         return replace(self, influence=self.influence[..., webs].copy())
+
+
+def scalars(norms: Norms) -> tuple[bool, ...]:
+    """Whether each term of one program is a scalar (J,)."""
+    return norms.scalar or (False,) * norms.constant.size
 
 
 @dataclass(frozen=True)
@@ -176,7 +190,9 @@ class Statement:
     def excess(self) -> "Statement":
         """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
         size, constant = self.ceilings.size, self.ceilings.norms.constant
-        norms = Norms(constant / size, self.ceilings.norms.influence / size[..., None], self.ceilings.norms.scatter)
+        norms = replace(
+            self.ceilings.norms, constant=constant / size, influence=self.ceilings.norms.influence / size[..., None]
+        )
         none = Ceilings((), Norms(constant[..., :0], norms.influence[..., :0, :]), size[..., :0], size[..., :0])
         called = self.ceilings.names
         names = Names(tuple(Term(name, "co") for name in called), called)
