@@ -16,6 +16,7 @@ from optimizer.arrays import Complex, Real
 from optimizer.certified import Certified, certified, judged
 from optimizer.formulate import formulate
 from optimizer.mechanics.envelope import Envelope
+from optimizer.program.certificate import mass_lower_bound
 from optimizer.program.limits import Limits
 from optimizer.program.optima import Optima, optima
 from optimizer.program.reach import within_reach
@@ -86,22 +87,36 @@ def _round(
     whole = within_reach(formulate(closed.machine, goal, responses, square), solver)
     owner = np.repeat(np.array(webs), [nodes[k].size - 1 if k in plates else 1 for k in webs])
 
-    def optimum(laid: Callable[[Envelope, Real], _Webs]) -> tuple[Optima, Complex]:
+    def optimum(laid: Callable[[Envelope, Real], _Webs]) -> tuple[Statement, Optima, Complex]:
         program = _pieces(whole, owner, {k: laid(plate, nodes[k]) for k, plate in plates.items()})
         found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
         carried = np.zeros(len(webs), complex)
         np.add.at(carried, owner, found.unbalance[0])
-        return found, carried
+        return program, found, carried
 
-    (feasible, u), (proven, called_for) = optimum(_chords), optimum(_tangents)
+    (_, feasible, u), (tangents, proven, called_for) = optimum(_chords), optimum(_tangents)
     if proven.unreachable[0]:
         u = called_for
+    else:
+        proven = _up_to(tangents, proven, whole.objective(u) + whole.rounding(u))
     asked = request.model_copy(update={"machine": fitted(request.machine, _opened(plates, u))})
     program = formulate(asked.machine, goal, responses, square)
     program = replace(program, limits=_limits(program.limits, whole.limits, plates))
     spent = feasible.certify_s + proven.certify_s
     found = judged(asked, program, replace(proven, unbalance=u[None], certify_s=spent), square)
     return asked, found, _opened(plates, called_for)
+
+
+def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:
+    """What is proven of the mass of all up to an objective (1,): under a budget chords may reach no smaller one.
+
+    Any target proves a bound with the same multipliers; a larger one a smaller bound.
+    """
+    if np.all(objective <= proven.mass_target):
+        return proven
+    target = np.maximum(proven.mass_target, objective)
+    bound = np.minimum(mass_lower_bound(program, proven.mass_multipliers, target), proven.mass_lower_bound)
+    return replace(proven, mass_target=target, mass_lower_bound=bound)
 
 
 def _opened(plates: Mapping[int, Envelope], u: Complex) -> dict[int, float]:

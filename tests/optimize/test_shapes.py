@@ -156,6 +156,23 @@ def test_a_budget_counts_what_is_cut(shape: str) -> None:
     assert found.certificate.objective > free.certificate.objective * 1.01
 
 
+@pytest.mark.parametrize("share", [0.1, 0.4, 0.8])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_the_mass_is_proven_for_what_a_budget_lets_chords_reach(
+    shape: str, share: float, caplog: pytest.LogCaptureFixture
+) -> None:
+    # chords are heavier than the plate: with one budget they reach a larger objective than tangents are proven for
+    body = asked(shape, inner_radius_m=0.0)
+    body["machine"]["max_total_mass_kg"] = 100.0 * share
+    found = answered(body)
+    assert found.status == "optimal"
+    assert not caplog.records
+    proof = found.certificate
+    assert proof is not None
+    assert proof.mass_objective_limit is not None
+    assert proof.objective <= proof.mass_objective_limit
+
+
 @pytest.mark.parametrize("shape", SHAPES)
 def test_what_a_thicker_plate_would_gain(shape: str) -> None:
     # analytic: the unbalance that a plate holds grows with its thickness; central differences of certified objectives
