@@ -12,14 +12,12 @@ from optimizer.figures.balance_rate import own_throws
 from optimizer.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
 from schemas.base import FieldProblem
-from schemas.catalogue import Catalogue
+from schemas.catalogue import Catalogue, in_sector
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.webs import Web
 
 #: masses that agree this closely, relative, are one part number
 _SAME = 1e-9
-#: by which an angle may be outside of its sector, degrees
-_ANGLE = 1e-9
 
 
 class Stock(NamedTuple):
@@ -55,8 +53,7 @@ def stock(machine: Machine) -> Stock:
                 continue
             steps = np.arange(round(360.0 / (catalogue.angle_step_deg or 360.0)))
             angles = np.mod(crank + steps * (catalogue.angle_step_deg or 360.0), 360.0)
-            off = np.abs(np.mod(angles - centre[k] + 180.0, 360.0) - 180.0)
-            angles = angles[free[k] | (off <= half_angle[k] + _ANGLE)]
+            angles = angles[free[k] | in_sector(angles, centre[k], half_angle[k])]
             if not angles.size:
                 problems.append(FieldProblem((*path, "sector"), "no step of the angle falls into the sector"))
                 continue

@@ -1,7 +1,7 @@
 """What there is to fit: masses, angles, how many counterweights and of how many part numbers."""
 
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field
 
@@ -18,8 +18,8 @@ MAX_MASSES, MAX_HOLES = 1_000, 720
 MAX_OPTIONS, MAX_OPTIONS_TOGETHER = 20_000, 200_000
 #: certified gap that discrete choices are asked for where nothing is said
 DISCRETE_GAP = 1e-3
-#: by which an angle may be outside of its sector, degrees
-_ANGLE = 1e-9
+#: by which an angle may be outside of its sector, degrees: the rounding of angles of a turn, which bounds allow for
+_ANGLE = 2e-13
 
 Masses = Annotated[tuple[Mass, ...], Field(max_length=MAX_MASSES)]
 Holes = Annotated[tuple[Angle, ...], Field(max_length=MAX_HOLES)]
@@ -101,6 +101,12 @@ def catalogue_rules(machine: "Rotor") -> Iterator[Rule]:
     yield Rule(together > MAX_OPTIONS_TOGETHER, ("webs",), message)
 
 
+def in_sector(angle_deg: Any, centre_deg: float, half_angle_deg: float) -> Any:
+    """Whether an angle, or each of an array, is in a sector, but for rounding."""
+    off = abs((angle_deg % 360.0 - centre_deg % 360.0 + 180.0) % 360.0 - 180.0)
+    return off <= half_angle_deg + _ANGLE
+
+
 def _masses_rules(path: Path, masses: Sequence[float] | None) -> Iterator[Rule]:
     if masses is None:
         return
@@ -120,5 +126,5 @@ def _hole_rules(path: Path, web: "Web") -> Iterator[Rule]:
         yield Rule(angle % 360.0 in seen, (*path, n), "this hole is in the list already")
         seen.add(angle % 360.0)
         if web.sector is not None:
-            off = abs((angle - web.sector.centre_deg + 180.0) % 360.0 - 180.0)
-            yield Rule(off > web.sector.half_angle_deg + _ANGLE, (*path, n), "this hole is outside the sector")
+            inside = in_sector(angle, web.sector.centre_deg, web.sector.half_angle_deg)
+            yield Rule(not inside, (*path, n), "this hole is outside the sector")

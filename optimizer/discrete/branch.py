@@ -111,7 +111,7 @@ class _Work:
     def settled(self, left: np.ndarray, parts: frozenset[int]) -> _Node | None:
         """A node with all that counts and budget rule out taken away (K, O); None where nothing is left."""
         options, left = self.options, left.copy()
-        budget = float(self.incumbent.statement.limits.max_total_mass) * (1.0 + 1e-12)
+        budget = options.budget(self.incumbent.statement)
         slots = np.arange(options.slots)
         while True:
             before = int(np.sum(left))
@@ -272,7 +272,7 @@ def _bound(statement: Statement, options: Options, left: np.ndarray, multipliers
     size = np.abs(options.unbalance)
     each = (np.conj(slope)[..., None] * options.unbalance).real - rounding[..., None] * size
     each = np.where(left, each, np.inf)
-    budget = float(statement.limits.max_total_mass) * (1.0 + 1e-12)
+    budget = options.budget(statement)
     charged = budget if np.isfinite(budget) else 0.0
 
     def least(price: Real) -> tuple[Real, Real]:

@@ -66,7 +66,7 @@ def exhaust(
         return False
     lever, basis = _lever(statement)
     effect = options.unbalance[..., None] * basis.T[:, None, :]
-    fixed = np.array([some[0] for some in which])
+    fixed = np.array([some[0] for some in which], dtype=int)
     single = np.ones(options.slots, bool)
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)

@@ -9,8 +9,7 @@ from optimizer.program.statement import Statement
 
 #: objectives nearer than this share of the yardstick are equal
 EQUAL = 1e-9
-#: of a sum of masses, relative
-_ROUNDING = 1e-12
+_EPS = float(np.finfo(float).eps)
 
 
 @dataclass(frozen=True)
@@ -38,6 +37,10 @@ class Options:
         """Whether the number of part numbers is limited to fewer than there are."""
         return self.most_parts is not None and self.most_parts < int(np.max(self.part, initial=-1)) + 1
 
+    def budget(self, statement: Statement) -> float:
+        """Largest total mass, kg, and what the rounding of as many masses adds to it, which bounds allow for."""
+        return float(statement.limits.max_total_mass) * (1.0 + _EPS * (1 + self.slots))
+
     def of(self, array: np.ndarray, chosen: np.ndarray) -> np.ndarray:
         """What an array (K, O) holds for the options chosen (..., K)."""
         found: np.ndarray = array[np.arange(self.slots), chosen]
@@ -46,7 +49,7 @@ class Options:
     def counts(self, statement: Statement, chosen: np.ndarray) -> np.ndarray:
         """Whether sets (..., K) keep budget and counts."""
         mass = self.of(self.mass, chosen)
-        kept = np.sum(mass, axis=-1) <= statement.limits.max_total_mass * (1.0 + _ROUNDING)
+        kept = np.sum(mass, axis=-1) <= self.budget(statement)
         if self.limits_fitted:
             kept &= np.sum(chosen > 0, axis=-1) <= self.most_fitted
         if self.limits_parts:
@@ -79,7 +82,7 @@ class Incumbent:
         """Take the best of sets (M, K), or stay."""
         statement, options = self.statement, self.options
         chosen = chosen[options.counts(statement, chosen)]
-        if not chosen.size:
+        if not len(chosen):
             return
         u = options.of(options.unbalance, chosen)
         kept = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)

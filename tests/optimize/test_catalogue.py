@@ -266,3 +266,38 @@ def test_sweeps_refuse_a_catalogue() -> None:
     axis = {"path": "/machine/speed_rpm", "values": [500, 600]}
     with pytest.raises(ValidationError, match="not a sweep"):
         SweepRequest.model_validate({"base": {"machine": twin()}, "axes": [axis]})
+
+
+def test_nothing_to_choose_for() -> None:
+    found = answer(machine(twin()["throws"], [], catalogue={"masses_kg": [3], "angle_step_deg": 60}))
+    assert (found.status, found.counterweights, found.total_mass_kg) == ("optimal", (), 0.0)
+
+
+@pytest.mark.parametrize("over", [0.0, 2e-16])
+def test_a_budget_is_kept_to_the_rounding_of_the_masses(over: float) -> None:
+    web_a = web("a", 0.0, 60.0, 0.12, hole_angles_deg=[40.0])
+    body = machine(
+        [throw(0.0, 220.0, [], rotating=10.0)],
+        [web_a],
+        catalogue={"masses_kg": [0.5, 1.0 + over]},
+        max_total_mass_kg=1.0,
+    )
+    assert answer(body).total_mass_kg == 1.0 + over
+    # more than that is above the budget, and what it reaches below what any counterweights within it can
+    body["catalogue"]["masses_kg"] = [0.5, 1.0 + 5e-13]
+    assert answer(body).total_mass_kg == 0.5
+
+
+@pytest.mark.parametrize("centre", [0.0, 33.3, 271.7, -725.1])
+def test_a_hole_at_the_edge_of_its_sector(centre: float) -> None:
+    held = {"sector": {"centre_deg": centre, "half_angle_deg": 30.1}}
+    crank = [throw(0.0, centre + 220.0, [], rotating=10.0)]
+    for turns in (0.0, 360.0, -1080.0):
+        hole = web("a", 0.0, 5.0, 0.12, hole_angles_deg=[centre + 30.1 + turns], **held)
+        found = answer(machine(crank, [hole], catalogue={"masses_kg": [5.0]}))
+        # analytic: it is where counterweights of any angle would be, so that the bound is what is reached
+        assert found.status == "optimal"
+        assert found.certificate.continuous_lower_bound == pytest.approx(found.certificate.objective, rel=1e-6)
+    beyond = web("a", 0.0, 5.0, 0.12, hole_angles_deg=[centre + 30.1 + 1e-9], **held)
+    with pytest.raises(ValidationError, match="outside the sector"):
+        answer(machine(crank, [beyond], catalogue={"masses_kg": [5.0]}))
