@@ -1,201 +1,109 @@
 """Random bodies that the schema accepts, in process: whatever they hold, nothing may raise.
 
-``python -m tests.hard.bodies --count 100000`` is the long run; a few hundred belong to the test suite.
+``python -m tests.hard.bodies --count 100000`` is the long run; a few hundred belong to the test suite. Every body is
+tried as it is drawn, and once more with a feature (``tests.hard.random_features``); the answer to that goes through
+the independent checker.
 """
 
 import argparse
 import collections
 import contextlib
+import itertools
 import json
 import math
 import random
 import time
 import traceback
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Any
 
 from optimizer.analyze import analyze
-from optimizer.errors import MissingInput
+from optimizer.errors import MissingInput, OutOfRange
+from optimizer.matching.match import match
 from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
-from optimizer.program.verdict import CONTRADICTED
 from optimizer.sweep import run_chunk
+from schemas.match import MatchRequest
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
+from service import faults
 from service.validation import InvalidRequest, check
+from tests.hard.random_bodies import Body, Draw, body
+from tests.hard.random_features import FEATURES, with_feature
+from tests.verification.checking import broken
 
-Body = dict[str, Any]
 #: of every 20 bodies so many are asked as a front, as a sweep and as an analysis; the others are optimised
 _PARETO, _SWEEP, _ANALYZE = 1, 3, 2
+_RAISED = "raised"
 
 
-class Draw:
-    """Numbers of every size that the schema allows, ordinary ones more often."""
-
-    def __init__(self, rng: random.Random) -> None:
-        self.rng = rng
-        self.wild = rng.random()  # how much of this body is out of the ordinary
-
-    def size(self, low: float, high: float, ordinary: tuple[float, float], zero: bool = False) -> float:
-        """A number between 10^low and 10^high, or one of ordinary size, or 0."""
-        if self.rng.random() > self.wild:
-            return self.rng.uniform(*ordinary)
-        if zero and self.rng.random() < 0.2:
-            return 0.0
-        return self.rng.choice([1.0, self.rng.uniform(1.0, 10.0)]) * 10.0 ** self.rng.randint(
-            round(low), round(high) - 1
-        )
-
-    def place(self) -> float:
-        if self.rng.random() > self.wild:
-            return self.rng.uniform(-1.0, 1.0)
-        near = self.rng.choice([0.0, 0.0, 0.1, 1e-15, 0.1 + 1e-12, -0.5])
-        return self.rng.choice([near, self.rng.choice([-1, 1]) * self.size(-20, 9, (0.0, 1.0))])
-
-    def angle(self) -> float:
-        return self.rng.choice([0.0, 90.0, 180.0, 120.0, self.rng.uniform(-400.0, 400.0), 1e6 * self.rng.random()])
-
-    def one_of(self, *values: Any) -> Any:
-        return self.rng.choice(values)
-
-
-def body(rng: random.Random) -> Body:
-    """A request to optimise that the schema accepts, of any size in any field."""
-    draw = Draw(rng)
-    machine = _scroll(draw) if rng.random() < 0.15 else _reciprocating(draw)
-    machine |= {
-        "speed_rpm": draw.size(-9, 9, (100, 3000)),
-        "rotation": draw.one_of("ccw", "cw"),
-        "reference_plane_m": draw.one_of(None, None, draw.place()),
-        "webs": [_web(draw, k) for k in range(rng.choice([0, 1, 1, 2, 2, 3, 4, 6, 9]))],
-        "max_total_mass_kg": draw.one_of(None, None, draw.size(-12, 15, (1, 50), zero=True)),
-    }
-    return {
-        "machine": machine,
-        "objective": _objective(draw),
-        "accuracy": {"relative_gap": draw.size(-12, 0, (1e-7, 1e-6))},
-    }
-
-
-def _reciprocating(draw: Draw) -> Body:
-    return {"kind": "reciprocating", "throws": [_throw(draw) for _ in range(draw.rng.randint(1, 4))]}
-
-
-def _throw(draw: Draw) -> Body:
-    radius = draw.size(-12, 9, (0.05, 0.2))
-    rows = [
-        {
-            "axis_deg": draw.angle(),
-            "offset_m": draw.one_of(0.0, draw.place()),
-            "reciprocating_mass_kg": draw.size(-15, 15, (1, 100), zero=True),
-            "connecting_rod": draw.one_of(
-                None, {"length_m": None}, {"length_m": min(5 * radius, 1e9), "mass_kg": draw.size(-15, 15, (1, 20))}
-            )
-            if radius < 1e8
-            else None,
-        }
-        for _ in range(draw.rng.randint(0, 3))
-    ]
-    return {
-        "position_m": draw.place(),
-        "crank_radius_m": radius,
-        "crank_angle_deg": draw.angle(),
-        "rotating_mass_kg": draw.size(-15, 15, (1, 50), zero=True),
-        "rows": rows,
-    }
-
-
-def _scroll(draw: Draw) -> Body:
-    ring = {"type": "oldham", "mass_kg": draw.size(-15, 15, (0.1, 1.0), zero=True), "axis_deg": draw.angle()}
-    pins = {
-        "type": "crank_pins",
-        "count": draw.rng.randint(1, 12),
-        "pin_circle_radius_m": draw.size(-6, 3, (0.03, 0.1)),
-        "eccentric_mass_kg": draw.size(-15, 15, (0.01, 0.1), zero=True),
-    }
-    return {
-        "kind": "scroll",
-        "orbit_radius_m": draw.size(-12, 9, (0.003, 0.01)),
-        "orbiting_mass_kg": draw.size(-15, 15, (0.5, 5.0), zero=True),
-        "orbiting_position_m": draw.place(),
-        "anti_rotation": draw.one_of(ring, pins) | {"position_m": draw.place()},
-    }
-
-
-def _web(draw: Draw, number: int) -> Body:
-    half = draw.one_of(1e-9, 1e-3, 30.0, 60.0, 89.999999, 90.0, draw.rng.uniform(1, 90))
-    return {
-        "name": str(number),
-        "position_m": draw.place(),
-        "counterweight_radius_m": draw.size(-12, 9, (0.1, 0.4)),
-        "max_mass_kg": draw.one_of(*NO_LIMIT, draw.size(-12, 15, (1, 60), zero=True), draw.size(-12, 15, (1, 60))),
-        "sector": draw.one_of(None, None, {"centre_deg": draw.angle(), "half_angle_deg": half}),
-    }
-
-
-#: what stands for no limit
-NO_LIMIT: tuple[float | None, ...] = (None, 1e15, 1e30, 1e300)
-
-
-def _objective(draw: Draw) -> Body:
-    across = draw.one_of(None, None, (draw.size(-12, 12, (0, 2)), 1.0), (1.0, 0.0), (0.0, draw.size(-12, 12, (0, 2))))
-    weights = [draw.size(-30, 30, (0.1, 3.0), zero=True), draw.one_of(None, draw.size(-30, 30, (0.1, 3.0), zero=True))]
-    weights = draw.one_of([1.0, None], weights, [0.0, 1.0], [1.0, 0.0])
-    if weights == [0.0, 0.0]:
-        weights = [0.0, 1.0]
-    ceiling = [draw.one_of(None, None, draw.size(-12, 30, (1e2, 1e5), zero=True)) for _ in range(2)]
-    found: Body = {
-        "combine": draw.one_of("sum", "sum", "max"),
-        "force_weight": weights[0],
-        "moment_weight": weights[1],
-        "force_ceiling_N": ceiling[0],
-        "moment_ceiling_Nm": ceiling[1],
-        "least_mass": draw.rng.random() < 0.8,
-    }
-    if across is not None:
-        found["direction_weights"] = {"x": across[0], "y": across[1]}
-    return found
-
-
-def tried(number: int, seed: int = 0) -> str:
-    """Compute one body; what became of it, one word.
+def tried(number: int, seed: int = 0, feature: str | None = None) -> str:
+    """Compute one body, as it is drawn or with a feature; what became of it, one word.
 
     Raises
     ------
     Exception
-        whatever the computation raises, and every warning.
+        as :func:`strictly`, and AssertionError for a claim that the independent checker refutes.
     """
+    if feature is not None:
+        return strictly(lambda: checked(drawn(number, seed, feature)))
     rng = random.Random(f"{seed}/{number}")
     asked = body(rng)
-    with warnings.catch_warnings():
+    return strictly(lambda: _computed(asked, number % 20, rng))
+
+
+def drawn(number: int, seed: int, feature: str) -> Body:
+    """A body with a feature."""
+    plain = body(random.Random(f"{seed}/{number}"))
+    return with_feature(Draw(random.Random(f"{seed}/{number}/{feature}")), plain, feature)
+
+
+def strictly(compute: Callable[[], str]) -> str:
+    """What became of a computation; that it was refused counts as well.
+
+    Raises
+    ------
+    Exception
+        whatever it raises, and every warning; AssertionError for a fault that the optimiser logs.
+    """
+    with warnings.catch_warnings(), faults.kept() as found:
         warnings.simplefilter("error")
         try:
-            return _computed(asked, number % 20, rng)
-        except (InvalidRequest, MissingInput) as refused:
-            return f"refused: {type(refused).__name__}"
+            became = compute()
+        except (InvalidRequest, MissingInput, OutOfRange) as refused:
+            became = f"refused: {type(refused).__name__}"
+    assert not found, found
+    return became
+
+
+def checked(asked: Body) -> str:
+    """Status of the answer to a body; no claim of it is refuted."""
+    if "parts" in asked:
+        return _finite(match(check(MatchRequest, asked)))
+    answer = optimize(check(OptimizeRequest, asked))
+    became, refuted = _finite(answer), broken(asked, json.loads(answer.model_dump_json()))
+    assert not refuted, refuted
+    return became
 
 
 def _computed(asked: Body, kind: int, rng: random.Random) -> str:
     if kind < _PARETO:
-        return _checked(pareto(check(ParetoRequest, asked | {"points": 3})))
+        return _finite(pareto(check(ParetoRequest, asked | {"points": 3})))
     if kind < _PARETO + _SWEEP:
         axis = {"path": "/machine/speed_rpm", "values": [rng.uniform(1, 1e4) for _ in range(rng.randint(1, 3))]}
         request = check(SweepRequest, {"base": asked, "axes": [axis]})
         rows = run_chunk(request.model_dump_json().encode(), 0, request.total).to_pylist()
-        assert all(row["message"] != CONTRADICTED for row in rows), "a bound contradicts an answer"
         return "sweep " + " ".join(sorted({row["status"] for row in rows}))
     if kind < _PARETO + _SWEEP + _ANALYZE:
         analyze(check(AnalyzeRequest, {"machine": asked["machine"]}))
         return "analyzed"
-    return _checked(optimize(check(OptimizeRequest, asked)))
+    return _finite(optimize(check(OptimizeRequest, asked)))
 
 
-def _checked(answer: Any) -> str:
-    text = answer.model_dump_json()
-    assert CONTRADICTED not in text, "a bound contradicts an answer"
-    for path, value in _numbers(json.loads(text), ""):
+def _finite(answer: Any) -> str:
+    for path, value in _numbers(json.loads(answer.model_dump_json()), ""):
         assert math.isfinite(value), f"{path} is {value}"
     return str(answer.status)
 
@@ -213,24 +121,36 @@ def _numbers(value: Any, path: str) -> Iterator[tuple[str, float]]:
 
 def main() -> int:
     """Try many bodies, print every one that raises; exit code 1 if any did."""
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--count", type=int, default=1000)
+    parser = argparse.ArgumentParser(prog="python -m tests.hard.bodies", description=__doc__)
+    parser.add_argument("--count", type=int, default=1000, help="bodies as they are drawn, and as many with a feature")
     parser.add_argument("--start", type=int, default=0)
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--only", choices=["plain", *FEATURES], help="no others")
     given = parser.parse_args()
     became: collections.Counter[str] = collections.Counter()
-    slowest = (0.0, -1)
-    for number in range(given.start, given.start + given.count):
+    slowest = (0.0, "")
+    for number, feature in itertools.chain.from_iterable(map(_asked, range(given.start, given.start + given.count))):
+        if given.only not in (None, feature or "plain"):
+            continue
+        name = f"{feature or 'plain'} body {number} of seed {given.seed}"
         began = time.process_time()
         try:
-            became[tried(number, given.seed)] += 1
+            became[f"{feature or 'plain'}: {tried(number, given.seed, feature)}"] += 1
         except Exception:
-            became["raised"] += 1
-            print(f"body {number} of seed {given.seed}:")
+            became[_RAISED] += 1
+            print(f"{name}:")
             traceback.print_exc(limit=-4)
-        slowest = max(slowest, (time.process_time() - began, number))
-    print(dict(became), f"slowest {slowest[0]:.2f} s of CPU, body {slowest[1]}")
-    return min(became["raised"], 1)
+        slowest = max(slowest, (time.process_time() - began, name))
+    for name in sorted(became):
+        print(f"{became[name]:7}  {name}")
+    print(f"slowest {slowest[0]:.2f} s of CPU, {slowest[1]}")
+    return min(became[_RAISED], 1)
+
+
+def _asked(number: int) -> Iterator[tuple[int, str | None]]:
+    """A body as it is drawn, and the same with one feature after the other."""
+    yield number, None
+    yield number, list(FEATURES)[number % len(FEATURES)]
 
 
 if __name__ == "__main__":

@@ -1,14 +1,17 @@
 """Requests at the edges of what the schema accepts are answered like any other."""
 
 import random
+from itertools import product
 
 import pytest
 
 from optimizer.pareto.pareto import pareto
 from optimizer.sweep import run_chunk
 from schemas.pareto import ParetoRequest
-from tests.hard.bodies import body, tried
+from tests.hard.bodies import checked, drawn, strictly, tried
 from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
+from tests.hard.random_bodies import body
+from tests.hard.random_features import FEATURES
 from tests.sweep.single import sweep
 from tests.verification.checking import optimized
 
@@ -41,6 +44,18 @@ def test_weights_of_every_size(weights: tuple[float, float], combine: str) -> No
 @pytest.mark.parametrize("number", range(200))
 def test_random_bodies_raise_nothing(number: int) -> None:
     tried(number)
+
+
+#: small enough to be answered long before the time is over; no webs to choose for, plates without a least mass
+_SMALL = [*product(FEATURES, (5, 6, 8, 9, 12)), ("catalogue", 21), ("plates", 232)]
+
+
+@pytest.mark.parametrize(("feature", "number"), _SMALL)
+def test_random_bodies_with_a_feature_raise_nothing(feature: str, number: int) -> None:
+    asked = drawn(number, 0, feature)
+    if "parts" not in asked:
+        asked["accuracy"]["time_limit_s"] = 30.0
+    strictly(lambda: checked(asked))
 
 
 @pytest.mark.parametrize("number", [228, 345, 610, 1124, 1840, 3366])
