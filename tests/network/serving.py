@@ -62,11 +62,11 @@ class Service:
         return own / _MB, largest / _MB
 
     async def ask(
-        self, method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None, timeout: float = 60
+        self, method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None, timeout: float = 180
     ) -> Reply:
         return await self.send(request(method, path, body, headers), timeout)
 
-    async def send(self, raw: bytes | AsyncIterable[bytes], timeout: float = 60) -> Reply:
+    async def send(self, raw: bytes | AsyncIterable[bytes], timeout: float = 180) -> Reply:
         """The answer to some bytes, on a connection of their own."""
         async with asyncio.timeout(timeout), self.connection() as (reader, writer):
             sending = asyncio.create_task(_write(writer, raw))
@@ -151,7 +151,7 @@ def service(**settings: str | int) -> Iterator[Service]:
         finally:
             process.terminate()
             try:
-                process.wait(30)
+                process.wait(180)
             finally:
                 process.kill()
                 process.wait()
@@ -160,7 +160,7 @@ def service(**settings: str | int) -> Iterator[Service]:
 
 
 def _wait(made: Service) -> None:
-    deadline = time.monotonic() + 120
+    deadline = time.monotonic() + 300
     while asyncio.run(made.ask("GET", "/readyz")).status != 200:
         assert time.monotonic() < deadline, made.log()
         time.sleep(0.1)

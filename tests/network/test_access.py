@@ -268,16 +268,15 @@ def test_a_wrong_key_takes_as_long_as_a_right_one(made: tuple[Path, dict[str, st
     known = keys.Keys(made[0])
 
     def seconds(key: str) -> float:
-        best = float("inf")
-        for _ in range(200):
-            begun = time.perf_counter()
-            known.caller(key)
-            best = min(best, time.perf_counter() - begun)
-        return best
+        begun = time.perf_counter()
+        known.caller(key)
+        return time.perf_counter() - begun
 
     right = made[1]["alice"]
-    times = [seconds(key) for key in (right, right[:-1] + "~", right[:-4] + "AAAA", "cw_0123456789ab_" + "x" * 43)]
-    assert max(times) < 3 * min(times)
+    asked = (right, right[:-1] + "~", right[:-4] + "AAAA", "cw_0123456789ab_" + "x" * 43)
+    # the best of each, in turns: what else the machine does slows all of them
+    best = [min(times) for times in zip(*([seconds(key) for key in asked] for _ in range(500)), strict=True)]
+    assert max(best) < 3 * min(best)
 
 
 def test_records_hold_what_they_say() -> None:

@@ -19,17 +19,24 @@ async def _many(port: int, count: int) -> tuple[int, Reply]:
     held = []
     for _ in range(count):
         try:
-            held.append(await asyncio.wait_for(asyncio.open_connection("127.0.0.1", port), 5))
+            held.append(await asyncio.wait_for(asyncio.open_connection("127.0.0.1", port), 30))
         except OSError:
             break
     await asyncio.sleep(3)
     for _, writer in held:
         writer.transport.abort()
-    await asyncio.sleep(2)
+    async with asyncio.timeout(180):
+        # when it has seen that they are closed
+        while (reply := await _ask(port)).status != 200:
+            await asyncio.sleep(0.1)
+    return len(held), reply
+
+
+async def _ask(port: int) -> Reply:
     reader, writer = await asyncio.open_connection("127.0.0.1", port)
     writer.write(request("GET", "/v1/examples"))
     try:
-        return len(held), await asyncio.wait_for(read(reader), 20)
+        return await read(reader)
     finally:
         writer.close()
 
@@ -51,7 +58,7 @@ def test_a_service_without_files_says_so_once_and_goes_on(files: int) -> None:
                 assert reply.status == 200
             finally:
                 process.terminate()
-                process.wait(30)
+                process.wait(180)
         log.seek(0)
         said = log.read().splitlines()
         assert len(said) < 40

@@ -47,7 +47,7 @@ def said_about_requests(target: Service) -> str:
 
     asyncio.run(ask())
     # a line is written when the answer is already on its way
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 180
     while not requests(target.log()[before:], INJECTION):
         assert time.monotonic() < deadline
         time.sleep(0.02)
@@ -99,7 +99,7 @@ def test_nobody_begins_a_line_of_text() -> None:
         before = len(target.log())
         for path in (b"/%0a2026-01-01 00:00:00,000 ERROR   forged", b"/%0d%1b[2J%c2%85%e2%80%a8x", b'/"%20status=200'):
             asyncio.run(target.send(b"GET " + path.replace(b" ", b"%20") + b" HTTP/1.0\r\n\r\n"))
-        deadline = time.monotonic() + 60
+        deadline = time.monotonic() + 180
         while (said := target.log()[before:]).count("unmatched 404") < 3:
             assert time.monotonic() < deadline
             time.sleep(0.02)

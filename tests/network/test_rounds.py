@@ -87,7 +87,7 @@ async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loo
     config.load()
     assert Waiting.rounds.ask("other", lambda: None)
     listening = await asyncio.get_running_loop().create_server(accepted, "127.0.0.1", 0)
-    async with listening, asyncio.timeout(60):
+    async with listening, asyncio.timeout(180):
         reader, writer = await asyncio.open_connection(*listening.sockets[0].getsockname())
         writer.write(request("GET", "/healthz"))
         while not Waiting.rounds._waiting:

@@ -111,7 +111,7 @@ def test_streams_over_the_share_of_a_client_are_refused_until_one_has_ended() ->
             assert refused.headers["retry-after"] == "1"
             found.append(refused.status)
         while True:
-            async with asyncio.timeout(60), target.connection() as (reader, writer):
+            async with asyncio.timeout(180), target.connection() as (reader, writer):
                 writer.write(request("HEAD", path))
                 head = await reader.readuntil(b"\r\n\r\n")
             found.append(int(head.split()[1]))

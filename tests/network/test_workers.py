@@ -20,7 +20,7 @@ from tests.network.tasks import task
 
 @pytest.fixture
 def pool() -> Iterator[Pool]:
-    made = Pool(size=2, waiting=2, each=2, timeout_s=30, memory_mb=2000)
+    made = Pool(size=2, waiting=2, each=2, timeout_s=180, memory_mb=2000)
     yield made
     made.close()
 
@@ -56,14 +56,12 @@ def test_a_task_that_takes_too_long_is_ended_with_its_worker(pool: Pool) -> None
     run(pool, task(tasks.quick))
     before = pool.pids
     pool.timeout_s = 0.5
-    begun = time.monotonic()
     found = run(pool, task(tasks.endless), task(tasks.endless), task(tasks.endless))
     assert [isinstance(each, TooSlow) for each in found] == [True] * 3
     assert sorted(each.computing for each in found if isinstance(each, TooSlow)) == [False, True, True]
-    assert time.monotonic() - begun < 5
     assert not set(before) & set(pool.pids)
     assert pool.counts.ended_late == 3
-    pool.timeout_s = 30
+    pool.timeout_s = 180
     assert isinstance(run(pool, task(tasks.quick))[0], Answer)
 
 
@@ -79,19 +77,17 @@ def test_more_than_may_wait_are_refused_at_once(pool: Pool) -> None:
 
 def test_long_tasks_leave_a_worker_to_the_others(pool: Pool) -> None:
     run(pool, task(tasks.quick), task(tasks.quick))
-    found: list[float] = []
 
     async def three_at_once() -> None:
         async with anyio.create_task_group() as group:
             for _ in range(2):
-                group.start_soon(pool.run, task(tasks.slow, long=True), "one")
-            await anyio.sleep(0.1)
-            begun = time.monotonic()
+                group.start_soon(pool.run, task(tasks.endless, long=True), "one")
+            await anyio.wait_all_tasks_blocked()
+            assert (pool.running, pool.queued) == (1, 1)
             assert isinstance(await pool.run(task(tasks.quick), "one"), Answer)
-            found.append(time.monotonic() - begun)
+            group.cancel_scope.cancel()
 
     anyio.run(three_at_once)
-    assert found[0] < 0.8
 
 
 def test_a_task_that_takes_too_much_memory_is_refused_alone(pool: Pool) -> None:
@@ -134,9 +130,7 @@ def test_a_task_whose_caller_is_gone_is_ended(pool: Pool) -> None:
         assert pool.running == 0
         assert isinstance(await pool.run(task(tasks.quick), "one"), Answer)
 
-    begun = time.monotonic()
     anyio.run(leave)
-    assert time.monotonic() - begun < 5
     assert pool.counts.ended_gone == 1
 
 
@@ -175,28 +169,29 @@ def test_a_worker_that_has_stopped_is_given_up_at_the_time_limit(pool: Pool) -> 
     run(pool, task(tasks.quick))
     pool.timeout_s = 1
     stopped(*pool.pids)
-    begun = time.monotonic()
     assert isinstance(run(pool, task(tasks.quick))[0], TooSlow)
-    assert time.monotonic() - begun < 10
-    pool.timeout_s = 60
+    pool.timeout_s = 180
     assert isinstance(run(pool, task(tasks.quick))[0], Answer)
 
 
 def test_a_process_to_fork_from_that_has_stopped_is_given_up_and_replaced(
     pool: Pool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("service.workers.process._START_S", 3.0)
+    # longer than the test takes: the time limit does not wait for it
+    monkeypatch.setattr("service.workers.process._START_S", 3600.0)
     run(pool, task(tasks.quick))
     pool.close()
     pool._closed = False
     stopped(fork_server())
     pool.timeout_s = 1
-    begun = time.monotonic()
     assert isinstance(run(pool, task(tasks.quick))[0], TooSlow)
-    assert time.monotonic() - begun < 2.9
+    # the next one finds out, and has it replaced
+    monkeypatch.setattr("service.workers.process._START_S", 0.5)
     pool.timeout_s = 60
-    monkeypatch.setattr("service.workers.process._START_S", 60.0)
-    deadline = time.monotonic() + 60
+    assert not isinstance(run(pool, task(tasks.quick))[0], Answer)
+    # and no start that is only slow is ended
+    monkeypatch.setattr("service.workers.process._START_S", 3600.0)
+    deadline = time.monotonic() + 180
     while not isinstance(run(pool, task(tasks.quick))[0], Answer):
         assert time.monotonic() < deadline
 

@@ -16,7 +16,7 @@ from service.workers.pool import Pool
 
 
 def wait_until(condition: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 60
+    deadline = time.monotonic() + 180
     while not condition():
         assert time.monotonic() < deadline
         time.sleep(0.01)
@@ -24,7 +24,7 @@ def wait_until(condition: Callable[[], bool]) -> None:
 
 def test_warming_then_ready(monkeypatch: pytest.MonkeyPatch) -> None:
     go = Event()
-    monkeypatch.setattr(Pool, "open", lambda _: go.wait(60))
+    monkeypatch.setattr(Pool, "open", lambda _: go.wait(180))
     with TestClient(create_app(Settings())) as client:
         assert client.get("/healthz").json() == {"status": "alive"}
         answer = client.get("/readyz")
@@ -66,7 +66,7 @@ def test_ready_means_database_and_disk_and_threads_too(tmp_path: Path, monkeypat
 
     def check() -> None:
         if trouble == ["no thread"]:
-            go.wait(10)
+            go.wait(180)
         elif trouble:
             raise NotReady(trouble[0], retry_after_s=5)
 
@@ -77,9 +77,10 @@ def test_ready_means_database_and_disk_and_threads_too(tmp_path: Path, monkeypat
             wait_until(lambda: client.get("/readyz").status_code == 200)
             go.clear()
             trouble[:] = [said]
-            wait_until(lambda: client.get("/readyz").status_code == 503)
+            # on a busy machine no thread may have answered first
+            wait_until(lambda expected=expected: client.get("/readyz").json().get("detail") == expected)  # type: ignore[misc]
             answer = client.get("/readyz")
-            assert (answer.json()["detail"], answer.headers["retry-after"]) == (expected, "5")
+            assert (answer.status_code, answer.headers["retry-after"]) == (503, "5")
             # what needs no more than the solver goes on
             assert client.post("/v1/optimize", json={}).status_code == 422
             assert client.get("/healthz").status_code == 200
@@ -101,7 +102,7 @@ def test_a_shutdown_does_not_wait_for_the_warm_up(monkeypatch: pytest.MonkeyPatc
     go, ended = Event(), Event()
 
     def warm_up(_: Pool) -> None:
-        go.wait(60)
+        go.wait(180)
         ended.set()
 
     monkeypatch.setattr(Pool, "open", warm_up)
@@ -109,4 +110,4 @@ def test_a_shutdown_does_not_wait_for_the_warm_up(monkeypatch: pytest.MonkeyPatc
         assert client.get("/healthz").status_code == 200
     assert not ended.is_set()
     go.set()
-    assert ended.wait(10)
+    assert ended.wait(180)

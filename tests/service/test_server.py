@@ -49,14 +49,14 @@ def server() -> Iterator[tuple[str, int]]:
         assert process.stderr is not None
         try:
             where = address(process)
-            deadline = time.monotonic() + 60
+            deadline = time.monotonic() + 180
             while status(where, "GET", "/readyz") != 200:
                 assert time.monotonic() < deadline
                 time.sleep(0.05)
             yield where
         finally:
             process.terminate()
-            process.wait(30)
+            process.wait(180)
         said = process.stderr.read()
     assert "Traceback" not in said
 
