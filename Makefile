@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test quick chromium lint bench hard nightly lock settings image image-check smoke sbom licences audit clean
+.PHONY: install run test quick chromium lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -56,6 +56,10 @@ bench: .venv/development $(kernels)
 hard: .venv/development $(kernels)
 	failed=0; $(bin)/python -m tests.hard || failed=1; $(bin)/python -m tests.hard_effects || failed=1; \
 	$(bin)/python -m tests.hard_turn || failed=1; exit $$failed
+
+# docs/validation.md, computed now: published figures, crank arrangements, and rigid bodies in a multibody program
+validate: .venv/development $(kernels)
+	$(bin)/python -m tests.validation
 
 # hours: the references against references of their own, and what the tests do a few times, thousands of times; the image needs root
 long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \

@@ -1,0 +1,71 @@
+"""docs/validation.md shows what the pack finds; one machine of the three goes through the multibody program here."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from optimizer.outputs import OUTPUTS
+from service.documents.examples import bodies as examples
+from tests.validation import bodies, pack
+from tests.validation.comparison import Comparison
+from tests.validation.document import DOCUMENT, MISPRINTS, shown
+
+ROOT = Path(__file__).parents[2]
+
+
+@pytest.mark.parametrize("title", pack.AT_ONCE)
+def test_all_agree_as_the_document_says(title: str) -> None:
+    found = list(pack.CHAPTERS[title]())
+    assert [one for one in found if not one.agrees] == []
+    rows = shown(title)
+    assert [row[:4] for row in rows] == [list(one.cells[:4]) for one in found]
+    for row, one in zip(rows, found, strict=True):
+        assert float(row[4]) == pytest.approx(one.ours, rel=1e-5, abs=max(1e-9, 1e-5 * one.allowed))
+
+
+def test_misprints_are_as_the_document_says() -> None:
+    found = list(pack.misprints())
+    assert [one for one in found if not one.right.agrees] == []
+    # a misprint that is right would be none
+    assert [one for one in found if abs(one.printed - one.right.expected) <= one.right.allowed] == []
+    rows = shown(MISPRINTS)
+    assert [row[0] for row in rows] == [f"{one.source}: {one.place}" for one in found]
+    for row, one in zip(rows, found, strict=True):
+        assert float(row[3]) == pytest.approx(one.right.ours, rel=1e-5, abs=1e-9)
+
+
+def test_rigid_bodies_independent() -> None:
+    pytest.importorskip("exudyn", reason="a development extra, not made for every platform")
+    found = list(bodies.comparisons(("v90-equal",)))
+    assert len(found) == 8
+    assert [one for one in found if not one.agrees] == []
+
+
+def test_the_document_has_every_machine_of_the_multibody_program() -> None:
+    rows = shown("Rigid bodies in EXUDYN")
+    assert list(dict.fromkeys(row[0] for row in rows)) == list(bodies.MACHINES)
+    for row in rows:
+        theirs, ours, allowed = float(row[3]), float(row[4]), float(row[6])
+        # six figures of each are shown
+        assert abs(ours - theirs) <= allowed + 1e-5 * abs(theirs)
+
+
+def test_the_contents_name_what_there_is() -> None:
+    (contents,) = re.findall(r"\n## Where each part.*", DOCUMENT.read_text(), re.DOTALL)
+    rows = re.findall(r"^\| (?!source|---)(.+?) \| (.+?) \|$", contents, re.MULTILINE)
+    assert len(rows) > 40
+    for _, place in rows:
+        for name in re.findall(r"`([\w/]+\.(?:py|md))`", place):
+            assert (ROOT / name).exists(), name
+        for names in re.findall(r"outputs? ((?:`\w+`(?:, )?)+)", place):
+            assert set(re.findall(r"`(\w+)`", names)) <= set(OUTPUTS), names
+        for names in re.findall(r"examples? ((?:`[\w-]+`(?:, )?)+)", place):
+            assert set(re.findall(r"`([\w-]+)`", names)) <= set(examples("")), names
+
+
+def test_a_figure_that_is_none_agrees_with_nothing() -> None:
+    made = Comparison("m", "q", "analytic", 1.0, float("nan"), 1.0, "-")
+    assert not made.agrees
+    assert not Comparison("m", "q", "analytic", 1.0, 1.3, 0.2, "-").agrees
+    assert Comparison("m", "q", "analytic", 1.0, 1.1, 0.2, "-").agrees
