@@ -1,6 +1,5 @@
 """From request to answer: machine -> responses -> program -> counterweights -> report."""
 
-import logging
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -42,7 +41,6 @@ from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as PrintedMultipliers
 from schemas.requests import OptimizeRequest
 
-_LOG = logging.getLogger(__name__)
 #: outputs that every answer holds, and what it holds too where bearings or bending count
 _ALWAYS = ("residual",)
 _OF_THE_SHAFT = "main_bearings"
@@ -189,26 +187,25 @@ def finite_or_null(value: Real | float) -> float | None:
 
 
 def _conflict(
-    request: OptimizeRequest, best: Certified, most: Real, alone: Mapping[str, Multipliers], solver: Solver
-) -> tuple[Statement, Optima]:
+    request: OptimizeRequest, best: Certified, most: Real, alone: Mapping[str, Optima], solver: Solver
+) -> tuple[Statement, Optima] | None:
     """The program and the proof that its ceilings conflict, whatever the limits ``most`` (1, K) let the webs carry.
+
+    None where that is proven for less only.
 
     Parameters
     ----------
-    alone : what proves the smallest peak of each response by itself under these limits. Where a ceiling is below it,
-        that is the proof of the conflict as well.
+    alone : the smallest peak of each response by itself under these limits. Where a ceiling is below it, what proves it
+        proves the conflict as well.
     """
     program = replace(best.program, limits=replace(best.program.limits, max_mass=most))
     excess = program.excess()
-    by_one = (_of_one_ceiling(excess, n, alone[name]) for n, name in enumerate(program.ceilings.names))
+    by_one = (_of_one_ceiling(excess, n, alone[name].multipliers) for n, name in enumerate(program.ceilings.names))
     for proof in (best.found.conflict, *by_one):
         if np.all(objective_lower_bound(excess, proof) > CEILING_ROUNDING):
             return program, replace(best.found, conflict=proof)
     found = optima(program, request.accuracy.relative_gap, False, solver)
-    if np.all(found.unreachable):
-        return program, found
-    _LOG.error("a conflict of ceilings is proven for less than the reach that its answer names")
-    return best.program, best.found
+    return (program, found) if np.all(found.unreachable) else None
 
 
 def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
@@ -225,22 +222,32 @@ def _infeasible(
     components = {ceiling.name for ceiling, _ in given} - {each.name for each in scene.responses}
     alone_too = [each for each, _ in limited(scene.responses, request.objective) if each.name in components]
     peaks = {each.name: smallest_peak(each.spread(square.shape), machine) for each in (*scene.responses, *alone_too)}
+
+    def by_itself(most: Real) -> dict[str, tuple[Statement, Optima]]:
+        within = {
+            name: replace(each, limits=replace(best.program.limits, max_mass=most)) for name, each in peaks.items()
+        }
+        return {name: (each, optima(each, 1e-9, False, solver)) for name, each in within.items()}
+
     # one reach for all that is proven here
     reached = (best.program, *(within_reach(peak, solver) for peak in peaks.values()))
     most = np.max([each.limits.max_mass for each in reached], axis=0)
-    smallest, bound, multipliers, proofs = {}, {}, {}, {}
-    for name, each in peaks.items():
-        peak = replace(each, limits=replace(best.program.limits, max_mass=most))
-        alone = optima(peak, 1e-9, False, solver)
-        multipliers[name] = alone.multipliers
-        proofs[name] = named(peak, physical(peak, alone.multipliers, "objective", square).chosen(0))
-        smallest[name], bound[name] = (float(of[0]) for of in (alone.objective * square, alone.lower_bound * square))
-    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
-    against = None
+    alone, against = by_itself(most), None
     if best.found.unreachable[0]:
-        of_excess = _conflict(request, best, most, multipliers, solver)
+        of_excess = _conflict(request, best, most, {name: found for name, (_, found) in alone.items()}, solver)
+        if of_excess is None:
+            # of the reach that the conflict is proven for, if peaks by themselves could need a larger one
+            most, of_excess = best.program.limits.max_mass, (best.program, best.found)
+            alone = by_itself(most)
         (proof,) = named_proofs(*of_excess, square, request.objective.least_mass)
         against = proof.conflict
+    proofs = {
+        name: named(peak, physical(peak, found.multipliers, "objective", square).chosen(0))
+        for name, (peak, found) in alone.items()
+    }
+    smallest = {name: float(found.objective[0] * square[0]) for name, (_, found) in alone.items()}
+    bound = {name: float(found.lower_bound[0] * square[0]) for name, (_, found) in alone.items()}
+    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
     return {
         "counterweights": (),
         "total_mass_kg": None,
