@@ -17,6 +17,7 @@ from optimizer.formulate import formulate, limited, weights
 from optimizer.outputs import prepare
 from optimizer.program.edge import Unreachable
 from optimizer.program.optima import optima
+from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.scene import Prepared
@@ -35,7 +36,8 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     start = time.perf_counter()
     # outputs play no part: what they would miss must not refuse the ladder
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
-    whole = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    solver = Solver()
+    whole = within_reach(formulate(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
     task = Task(statement, _turn(request, scene).only(usable))
@@ -44,7 +46,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
-    best = optima(statement.alone(), _SHARPEST, False, Solver()).one()
+    best = optima(statement.alone(), _SHARPEST, False, solver).one()
     if isinstance(best, Unreachable):
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):

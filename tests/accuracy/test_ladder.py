@@ -11,7 +11,9 @@ from optimizer.accuracy import ladder
 from optimizer.accuracy.ladder import Clock, frontier, survey, time_rounds
 from optimizer.accuracy.measure import _judged, accuracy
 from optimizer.accuracy.methods import GAPS, POSITIONS, Found, Method, Run, Task, methods
+from optimizer.optimize import optimize
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
+from schemas.requests import OptimizeRequest
 from tests.accuracy.problems import body, random_task, request, single
 
 NAMES = ("single-horizontal", "2d12", "v8-cross-plane", "m-type-four")
@@ -207,3 +209,19 @@ def test_no_ladder_where_there_is_nothing_to_choose_or_nothing_feasible() -> Non
     assert impossible.reference is None
     # effects need no counterweights
     assert impossible.effects_ladder
+
+
+@pytest.mark.parametrize("limit", [None, 1e300])
+def test_a_web_without_a_limit_is_measured(limit: float | None) -> None:
+    free = body("single-horizontal")
+    for web in free["machine"]["webs"]:
+        web["max_mass_kg"] = limit
+    found = accuracy(AccuracyRequest.model_validate({**free, "repeats": 1}))
+    assert found.status == "measured"
+    assert found.reference is not None
+    # independent: what the service answers, which is within a millionth for the least mass
+    answer = optimize(OptimizeRequest.model_validate(free))
+    assert answer.certificate is not None
+    certificate = answer.certificate
+    assert found.reference.objective == pytest.approx(certificate.objective, rel=0, abs=2e-6 * certificate.yardstick)
+    assert all(row.skipped is not None or row.relative_error is not None for row in found.ladder)
