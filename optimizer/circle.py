@@ -37,45 +37,55 @@ def smallest_circle(points: Complex) -> Circle:
     # about their own middle, so that a common offset costs no digits
     middle = 0.5 * (np.min(points.real) + np.max(points.real) + 1j * (np.min(points.imag) + np.max(points.imag)))
     places = points - middle
-    slack = _ON * float(np.max(np.abs(places)))
-    support = np.array([int(np.argmax(np.abs(places)))], dtype=np.intp)
-    circle = _around(places[support])
+    far = np.abs(places)
+    first = int(np.argmax(far))
+    slack = _ON * float(far[first])
+    support, circle = [first], _Held(complex(places[first]), 0.0, (0,), (1.0,))
     while True:
         distance = np.abs(places - circle.centre)
         farthest = int(np.argmax(distance))
         if distance[farthest] <= circle.radius + slack:
             break
-        candidates = np.append(support, farthest)
-        larger = _around(places[candidates])
+        candidates = [*support, farthest]
+        larger = _around(places[candidates].tolist())
         if larger.radius <= circle.radius:
             # what is left is rounding
             break
-        support, circle = candidates[larger.support], larger
-    return Circle(complex(circle.centre + middle), circle.radius, support, circle.weights)
+        support, circle = [candidates[k] for k in larger.points], larger
+    centre = complex(circle.centre + middle)
+    return Circle(centre, circle.radius, np.array(support, dtype=np.intp), np.array(circle.weights))
 
 
-def _around(points: Complex) -> Circle:
-    """The smallest circle around at most four points, by trying each few of them."""
-    count = len(points)
-    groups = [group for size in (1, 2, 3) for group in combinations(range(count), size)]
+class _Held(NamedTuple):
+    """A circle held by some of a few points; in plain numbers, which cost a tenth of arrays."""
+
+    centre: complex
+    radius: float
+    points: tuple[int, ...]
+    weights: tuple[float, ...]
+
+
+def _around(points: list[complex]) -> _Held:
+    """The smallest circle around two to four points of which the last is on it, by trying each few with that one."""
+    last = len(points) - 1
+    groups = [(*others, last) for size in (0, 1, 2) for others in combinations(range(last), size)]
     found = [_through(points, group) for group in groups]
     # the largest circle that is held by its own points: every one is a floor of the smallest around all
     return max((circle for circle in found if circle is not None), key=lambda circle: circle.radius)
 
 
-def _through(points: Complex, group: tuple[int, ...]) -> Circle | None:
+def _through(points: list[complex], group: tuple[int, ...]) -> _Held | None:
     """The circle that some points hold; None where one of three holds nothing."""
-    on = points[list(group)]
-    if len(group) == 1:
-        centre, weights = on[0], np.ones(1)
-    elif len(group) == 2:
-        centre, weights = 0.5 * (on[0] + on[1]), np.array([0.5, 0.5])
-    else:
+    on = [points[k] for k in group]
+    weights: tuple[float, ...] = (1.0,)
+    if len(on) == 2:
+        weights = (0.5, 0.5)
+    elif len(on) == 3:
         # barycentric weights of the circumcentre: sin 2A : sin 2B : sin 2C, positive for an acute triangle
-        side = np.abs(on[[1, 2, 0]] - on[[2, 0, 1]]) ** 2
-        share = side * (np.sum(side) - 2.0 * side)
-        if not np.all(share > 0.0):
+        a, b, c = (abs(on[1] - on[2]) ** 2, abs(on[2] - on[0]) ** 2, abs(on[0] - on[1]) ** 2)
+        share = (a * (b + c - a), b * (c + a - b), c * (a + b - c))
+        if not min(share) > 0.0:
             return None
-        weights = share / np.sum(share)
-        centre = weights @ on
-    return Circle(complex(centre), float(np.max(np.abs(on - centre))), np.array(group, dtype=np.intp), weights)
+        weights = tuple(each / sum(share) for each in share)
+    centre = sum((weight * point for weight, point in zip(weights, on, strict=True)), 0j)
+    return _Held(centre, max(abs(point - centre) for point in on), group, weights)

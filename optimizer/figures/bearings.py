@@ -14,6 +14,8 @@ from optimizer.figures.peaks import (
     bearing_influence,
     bracket,
     of_shaft,
+    of_shaft_each,
+    one_by_one,
 )
 from optimizer.mechanics.angles import turned
 from optimizer.mechanics.shaft_curves import ShaftCurves, stations
@@ -32,13 +34,14 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     planes = stations(scene.layout, bearing_places(machine))
     found = bearing_and_bending_curves(scene, planes)
-    circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE)]
-    floor = np.array([circle.radius for circle in circles]) * scene.omega_squared
-    before = of_shaft(scene, found, None)
-    after = None if unbalance is None else of_shaft(scene, found, unbalance)
-    loads = _loads(scene, found, before, circles, None)
-    fitted = None if after is None else _loads(scene, found, after, circles, unbalance)
     count = len(machine.bearings)
+    # every bearing's, and the largest of all bending moments
+    circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE, None, one_by_one(count, planes.size))]
+    before, *fitted_too = of_shaft_each(scene, found, [None] if unbalance is None else [None, unbalance])
+    after = fitted_too[0] if fitted_too else None
+    alone = found.first(count)
+    loads = _loads(scene, alone, before, circles, None)
+    fitted = None if after is None else _loads(scene, alone, after, circles, unbalance)
     shown = before if after is None else after
     worst = int(np.argmax(shown.lower[count:]))
     return MainBearings(
@@ -60,7 +63,7 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
             peak_Nm=float(shown.lower[count + worst]),
             peak_bracket_Nm=(float(shown.lower[count + worst]), float(np.max(shown.upper[count:]))),
             peak_position_m=float(planes[worst]),
-            floor_Nm=float(np.max(floor[count:])),
+            floor_Nm=max(circle.radius for circle in circles[count:]) * scene.omega_squared,
         ),
     )
 
@@ -68,17 +71,17 @@ def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
 def _loads(
     scene: Prepared, found: ShaftCurves, peak: Bracket, circles: Sequence[Circle], unbalance: Complex | None
 ) -> tuple[BearingLoad, ...]:
-    """Loads of the bearings of one machine without or with counterweights (webs,) kg m."""
+    """Loads of the bearings of one machine, by their curves, without or with counterweights (webs,) kg m."""
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     bearings = machine.bearings
     square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
-    offset = np.zeros(len(circles), dtype=complex) if unbalance is None else found.offsets(unbalance)
+    offset = found.offsets(unbalance)
     _, loads = scene.results["shaft_loads"]
     # the webs come last
     samples = bearing_influence(scene)[:, : len(loads)] @ loads
-    samples = samples + offset[: len(samples), None] * turned(scene.layout.sense, turn) * square
-    centre = (np.array([circle.centre for circle in circles]) + offset) * square
+    samples = samples + offset[:, None] * turned(scene.layout.sense, turn) * square
+    centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
     rms = np.sqrt(found.curves.variance + np.abs(found.curves.mean + offset) ** 2) * square
     return tuple(
         BearingLoad(
@@ -109,8 +112,8 @@ def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
     curves = bearing_and_bending_curves(scene, stations(scene.layout, bearing_places(machine)))
     # the largest bending moment alone; the bearings one by one
-    count, number = len(machine.bearings), np.arange(curves.webs.shape[-2])
-    peak = of_shaft(scene, curves, unbalance, np.minimum(number, count)).lower
+    count = len(machine.bearings)
+    peak = of_shaft(scene, curves, unbalance, one_by_one(count, curves.webs.shape[-2] - count)).lower
     names = labels([bearing.name for bearing in machine.bearings])
     return {
         "peak_bearing_load_N": np.max(peak[..., :count], axis=-1),

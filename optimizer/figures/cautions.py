@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.figures.balance_rate import cranks
-from optimizer.figures.peaks import bearing_and_bending_curves, of_shaft
+from optimizer.figures.peaks import at_least, bearing_and_bending_curves, of_shaft
 from optimizer.formulate import span
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.scene import Prepared
@@ -188,16 +188,19 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
         return
     stations, count = np.array(shown.bending.position_m), len(machine.bearings)
     curves = bearing_and_bending_curves(scene, stations)
-    usual = of_shaft(scene, curves, cranks(machine).customary).lower
+    customary = cranks(machine).customary
     before = np.array([*(one.before.peak_N for one in shown.bearings), *shown.bending.before_Nm])
     after = np.array([*(one.after.peak_N for one in shown.bearings if one.after), *(shown.bending.after_Nm or ())])
     kinds: tuple[tuple[CautionCode, str, str, slice], ...] = (
         ("bearing_load_grows", "bearing load", "N", slice(0, count)),
         ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
     )
-    for code, what, unit, some in kinds:
-        now, bare, customary = (float(np.max(each[some])) for each in (after, before, usual))
-        for than, of in ((bare, "without counterweights"), (customary, "of a crank balanced throw by throw")):
+    largest = [tuple(float(np.max(each[some])) for *_, some in kinds) for each in (after, before)]
+    usual = np.array([np.max(at_least(scene, curves, customary)[some]) for *_, some in kinds])
+    if np.any(usual < largest[0]):
+        usual = of_shaft(scene, curves, customary, np.minimum(np.arange(after.size) // count, 1)).lower
+    for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual.tolist(), strict=True):
+        for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
             if now > than * (1.0 + _ALIKE):
                 yield Caution(
                     code=code,

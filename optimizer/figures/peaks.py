@@ -1,5 +1,6 @@
 """Peaks over the whole turn: bracketed whatever the samples, of one machine and of many designs."""
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -89,13 +90,39 @@ def of_shaft(scene: Prepared, found: ShaftCurves, unbalance: Complex | None, gro
     group : (C,) from 0, where only the largest of each group is asked for: (..., groups).
     """
     pieces = found.curves.pieces
-    offset = np.zeros(len(pieces.half), dtype=complex) if unbalance is None else found.offsets(unbalance)
     if group is not None:
         designs = np.arange(len(pieces.half) // group.size)
         group = (designs[:, None] * (np.max(group) + 1) + group).reshape(-1)
-    over_square = _reshaped(scene, pieces.peaks(offset, TOLERANCE, None, group))
+    return _times_square(scene, pieces.peaks(found.offsets(unbalance), TOLERANCE, None, group))
+
+
+def of_shaft_each(scene: Prepared, found: ShaftCurves, unbalances: Sequence[Complex | None]) -> tuple[Bracket, ...]:
+    """The same with several sets of counterweights, all peaks searched together."""
+    pieces = found.curves.pieces
+    count, sets = len(pieces.half), len(unbalances)
+    offset = np.concatenate([found.offsets(each) for each in unbalances])
+    every = pieces.peaks(offset, TOLERANCE, np.tile(np.arange(count), sets))
+    each = zip(*(np.split(part, sets) for part in every), strict=True)
+    return tuple(_times_square(scene, Bracket(*parts)) for parts in each)
+
+
+def at_least(scene: Prepared, found: ShaftCurves, unbalance: Complex | None) -> Real:
+    """What the same peaks of one machine are not below (C,): the largest at the middles of the pieces."""
+    pieces = found.curves.pieces
+    size = np.abs(pieces.cubic[..., 0] + found.offsets(unbalance)[:, None])
+    largest: Real = np.max(np.where(pieces.half > 0.0, size, 0.0), axis=-1) * scene.omega_squared
+    return largest
+
+
+def one_by_one(alone: int, together: int) -> Index:
+    """Groups of curves of which some stand alone, and of the others only the largest counts."""
+    return np.minimum(np.arange(alone + together), alone)
+
+
+def _times_square(scene: Prepared, found: Bracket) -> Bracket:
+    """Times omega^2, with the leading axes of the scene."""
+    angle, value, lower, upper = _reshaped(scene, found)
     square = scene.layout.omega[..., None] ** 2
-    angle, value, lower, upper = over_square
     return Bracket(angle, value * square, lower * square, upper * square)
 
 

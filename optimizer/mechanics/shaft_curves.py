@@ -9,7 +9,7 @@ finitely many responses, and no error. Everything is over omega^2.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -35,9 +35,17 @@ class ShaftCurves:
     curves: TurnCurves
     webs: Real
 
-    def offsets(self, unbalance: Complex) -> Complex:
-        """What counterweights (..., K) kg m add to the curves, (N C,)."""
+    def offsets(self, unbalance: Complex | None) -> Complex:
+        """What counterweights (..., K) kg m, or none, add to the curves, (N C,)."""
+        if unbalance is None:
+            return np.zeros(self.webs.shape[:-1], dtype=complex).reshape(-1)
         return np.sum(self.webs * unbalance[..., None, :], axis=-1).reshape(-1)
+
+    def first(self, count: int) -> "ShaftCurves":
+        """The first curves of each design alone."""
+        curves = self.curves
+        some = replace(curves, weights=curves.weights[:, :count], constant=curves.constant[:, :count])
+        return ShaftCurves(some, self.webs[..., :count, :])
 
     def responses(self, names: Sequence[str], unit: str) -> tuple[TurnResponse, ...]:
         """The curves of one machine as responses."""

@@ -72,28 +72,34 @@ class Taylor:
         """f^a for f > 0 and constants a (...): k f_0 p_k = sum_{i=1..k} (a i - (k - i)) f_i p_{k-i}."""
         shape = np.broadcast_shapes(self.middle.shape[1:], np.shape(exponent))
         middle = np.empty((len(self.middle), *shape))
+        axes = (1,) * len(shape)
         if self.radius is None:
             middle[0] = _raised(self.middle[0], exponent)
             for k in range(1, len(middle)):
-                terms = [(exponent * i - (k - i)) * self.middle[i] * middle[k - i] for i in range(1, k + 1)]
-                middle[k] = sum(terms) / (k * self.middle[0])
+                terms = _factors(exponent, k, axes) * self.middle[1 : k + 1] * middle[k - 1 :: -1]
+                middle[k] = np.sum(terms, axis=0) / (k * self.middle[0])
             return Taylor(middle)
         radius = np.empty_like(middle)
         low, high = self.middle[0] - self.radius[0], self.middle[0] + self.radius[0]
         ends = _raised(low, exponent), _raised(high, exponent)
         middle[0], radius[0] = 0.5 * (ends[0] + ends[1]), 0.5 * np.abs(ends[1] - ends[0])
         inverse, spread = 0.5 * (1.0 / low + 1.0 / high), 0.5 * (1.0 / low - 1.0 / high)
+        size = np.abs(self.middle)
         for k in range(1, len(middle)):
-            value, error = np.zeros(shape), np.zeros(shape)
-            for i in range(1, k + 1):
-                factor = exponent * i - (k - i)
-                value += factor * self.middle[i] * middle[k - i]
-                error += np.abs(factor) * (
-                    np.abs(self.middle[i]) * radius[k - i] + self.radius[i] * (np.abs(middle[k - i]) + radius[k - i])
-                )
+            some, off, factors = slice(1, k + 1), radius[k - 1 :: -1], _factors(exponent, k, axes)
+            value = np.sum(factors * self.middle[some] * middle[k - 1 :: -1], axis=0)
+            error = size[some] * off + self.radius[some] * (np.abs(middle[k - 1 :: -1]) + off)
+            error = np.sum(np.abs(factors) * error, axis=0)
             middle[k] = value * inverse / k
             radius[k] = (np.abs(value) * spread + error * (inverse + spread)) / k
         return Taylor(middle, radius)
+
+
+def _factors(exponent: Real | float, k: int, axes: tuple[int, ...]) -> Real:
+    """a i - (k - i) for i = 1..k on the first axis, before some axes of length 1 that are those of a."""
+    i = np.arange(1.0, k + 1.0).reshape(-1, *axes)
+    factors: Real = exponent * i - (k - i)
+    return factors
 
 
 def _raised(base: Real, exponent: Real | float) -> Real:

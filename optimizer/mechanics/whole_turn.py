@@ -7,12 +7,14 @@ the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from operator import attrgetter
 from typing import Literal
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from optimizer.arrays import Complex, Real
+from optimizer.mechanics.expansions import Expansions
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
@@ -23,9 +25,9 @@ from optimizer.pieces import Index, Pieces
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)
-#: nodes of the quadrature in each part of a piece: exact for the square of a cubic
-_GAUSS = 4
-#: what a cubic leaves out of a part, as a share of the size of the curve, and the parts of a piece at most
+#: nodes of the quadrature in each part of a piece: exact for the square of a polynomial of one degree less
+_GAUSS = 8
+#: what such a polynomial leaves out of a part, as a share of the size of the curve, and the parts of a piece at most
 _LEFT_OUT, _MOST_PARTS = 1e-11, 512
 #: of a mean square, in units of the magnitudes of the terms that are added up in the curve
 _ROUNDING = 16 * np.finfo(float).eps
@@ -100,8 +102,26 @@ class WholeTurn:
     @cached_property
     def bounds(self) -> RowSeries:
         """Series bounded over the pieces."""
+        return self._bounded(4)
+
+    @cached_property
+    def higher_bounds(self) -> RowSeries:
+        """The same up to the order that quadratures leave out."""
+        return self._bounded(_GAUSS)
+
+    def _bounded(self, order: int) -> RowSeries:
         centre, half = self._cut
-        return RowSeries(self.rows, centre, half, centre, 4)
+        return RowSeries(self.rows, centre, half, centre, order)
+
+    def expansions(self, reading: Reading) -> Expansions:
+        """Series of a force about angles within pieces."""
+        if reading not in self._expansions:
+            self._expansions[reading] = Expansions(self.rows, self.centre, attrgetter(reading))
+        return self._expansions[reading]
+
+    @cached_property
+    def _expansions(self) -> dict[Reading, Expansions]:
+        return {}
 
     @cached_property
     def _cut(self) -> tuple[Real, Real]:
@@ -148,7 +168,7 @@ class TurnCurves:
         half = whole.half[:, None, :]
         cubic = _sums(points, self.weights, self.constant) * half[..., None] ** np.arange(4)
         centre, width = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
-        rest = (_fourth(bounds, self.weights) * half**4).reshape(centre.shape)
+        rest = (_largest(bounds, self.weights) * half**4).reshape(centre.shape)
         terms = np.abs(self.weights) @ np.abs(points.middle[0])
         size = np.max(terms, axis=-1) + np.abs(self.constant)
         return Pieces(centre, width, cubic.reshape(*centre.shape, 4), rest, size.reshape(-1), source=self)
@@ -170,25 +190,31 @@ class TurnCurves:
     def rms_error(self) -> Real:
         """What sqrt(variance + |mean + constant|^2) may be off by (N C,), for any constant.
 
-        Both the root mean square and its quadrature are seminorms, alike for what is a cubic on every part. So they
-        differ by no more than both of what the cubics leave out, which is at most the rest of the parts.
+        Both the root mean square and its quadrature are seminorms, alike for what is a polynomial on every part. So
+        they differ by no more than both of what the polynomials leave out, which is at most the rest of the parts.
         """
         pieces = self.pieces
-        share, rest = pieces.half / (np.pi * self.whole.turns), pieces.rest / self._parts**4.0
+        share, rest = pieces.half / (np.pi * self.whole.turns), self._left_out / self._parts**_GAUSS
         return 2.0 * np.sqrt(np.sum(share * rest**2, axis=-1)) + _ROUNDING * pieces.size
 
     @cached_property
-    def _parts(self) -> Index:
-        """Number of equal parts of every piece (P,) in the quadrature: the more, the more a cubic leaves out there."""
-        pieces = self.pieces
-        size = np.where(pieces.size > 0.0, pieces.size, 1.0)
-        out = np.max(pieces.rest / size[:, None], axis=0)
-        return np.clip(np.ceil((out / _LEFT_OUT) ** 0.25), 1, _MOST_PARTS).astype(np.intp)
+    def _left_out(self) -> Real:
+        """What polynomials of the quadrature's degree leave out of the pieces at most (N C, P)."""
+        bounds = getattr(self.whole.higher_bounds, self.reading)
+        left = _largest(bounds, self.weights) * self.whole.half[:, None] ** _GAUSS
+        return left.reshape(self.pieces.half.shape)
+
+    @cached_property
+    def _parts(self) -> Real:
+        """Number of equal parts of every piece (P,) in the quadrature: the more, the more is left out there."""
+        size = np.where(self.pieces.size > 0.0, self.pieces.size, 1.0)
+        out = np.max(self._left_out / size[:, None], axis=0)
+        return np.clip(np.ceil((out / _LEFT_OUT) ** (1.0 / _GAUSS)), 1, _MOST_PARTS)
 
     @cached_property
     def _quadrature(self) -> tuple[Complex, Real]:
         """Values (N, C, n) at the Gauss nodes of all parts, and the share of the turn for which each stands."""
-        whole, parts, (nodes, weights) = self.whole, self._parts, leggauss(_GAUSS)
+        whole, parts, (nodes, weights) = self.whole, self._parts.astype(np.intp), leggauss(_GAUSS)
         piece = np.repeat(np.arange(parts.size), parts)
         number = np.arange(piece.size) - np.repeat(np.cumsum(parts) - parts, parts)
         wide, centre = whole.half[:, piece], whole.centre[:, piece]
@@ -215,32 +241,32 @@ class TurnCurves:
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
         """Series about other centres (m,) within pieces; the process that counts is that of the piece."""
-        return self._within(curve, piece, centre, 3) * half[:, None] ** np.arange(4)
+        design, weights, constant = self._of(curve)
+        found = np.einsum("mr,kmr->mk", weights, self._expansions.cubics(design, piece, centre))
+        found[:, 0] += constant
+        return found * half[:, None] ** np.arange(4)
 
     def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
         """Bounds within half widths (m,) rad about other centres."""
-        series, weights, _ = self._series(curve, piece, centre, 4, half)
-        bounds: Taylor = getattr(series, self.reading)
-        return (_fourth(bounds, weights) * half[:, None, None] ** 4)[:, 0, 0]
+        design, weights, _ = self._of(curve)
+        middle, radius = self._expansions.fourths(design, piece, centre, half)
+        largest: Real = np.abs(np.sum(weights * middle, axis=-1)) + np.sum(np.abs(weights) * radius.real, axis=-1)
+        return largest * half**4
 
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         """The curves at angles (m,) within pieces, ends included."""
-        return self._within(curve, piece, angle, 0)[:, 0]
+        design, weights, constant = self._of(curve)
+        values: Complex = np.sum(weights * self._expansions.values(design, piece, angle), axis=-1)
+        return values + constant
 
-    def _within(self, curve: Index, piece: Index, angle: Real, order: int) -> Complex:
-        """Coefficients (m, order + 1) of the curves about angles (m,)."""
-        series, weights, constant = self._series(curve, piece, angle, order, None)
-        return _sums(getattr(series, self.reading), weights, constant)[:, 0, 0]
+    @property
+    def _expansions(self) -> Expansions:
+        return self.whole.expansions(self.reading)
 
-    def _series(
-        self, curve: Index, piece: Index, angle: Real, order: int, half: Real | None
-    ) -> tuple[RowSeries, Complex | Real, Complex | Real]:
-        """Series of the rows about one angle for each of (m,) curves, with the curve's weights and constant."""
+    def _of(self, curve: Index) -> tuple[Index, Complex | Real, Complex | Real]:
+        """Design, weights (m, R) and constant of each of (m,) curves."""
         design, number = np.divmod(curve, self.weights.shape[1])
-        within = self.whole.centre[design, piece][:, None]
-        width = None if half is None else half[:, None]
-        rows = RowSeries(self.whole.rows.chosen(design), angle[:, None], width, within, order)
-        return rows, self.weights[design, number][:, None], self.constant[design, number][:, None]
+        return design, self.weights[design, number], self.constant[design, number]
 
 
 def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> Complex:
@@ -251,8 +277,8 @@ def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> 
     return found
 
 
-def _fourth(bounds: Taylor, weights: Complex | Real) -> Real:
-    """Largest magnitude of the coefficient of order 4 of the curves, (N, C, P), from enclosures of the rows."""
+def _largest(bounds: Taylor, weights: Complex | Real) -> Real:
+    """Largest magnitude of the last coefficient of the curves, (N, C, P), from enclosures of the rows."""
     assert bounds.radius is not None  # enclosures have one
-    found: Real = np.abs(weights @ bounds.middle[4]) + np.abs(weights) @ bounds.radius[4]
+    found: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius[-1]
     return found

@@ -1,0 +1,90 @@
+"""Series of the rows about angles within pieces of the turn, each worked out once however many curves ask for it."""
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.arrays import Real
+from optimizer.mechanics.row_series import RowData, RowSeries
+from optimizer.mechanics.taylor import Taylor
+from optimizer.pieces import Index
+
+#: which force of the rows
+Read = Callable[[RowSeries], Taylor]
+#: design, piece, angle and perhaps half width of places, (m,) each
+Places = tuple[NDArray[Any], ...]
+
+
+class Expansions:
+    """One force of the rows of N designs about angles within pieces."""
+
+    def __init__(self, rows: RowData, middle: Real, read: Read) -> None:
+        """Prepare.
+
+        Parameters
+        ----------
+        middle : (N, P) rad, an angle within each piece, which says what process counts.
+        """
+        self._rows, self._middle, self._read = rows, middle, read
+        self._values, self._cubics, self._fourths = _Known(), _Known(), _Known()
+
+    def values(self, design: Index, piece: Index, angle: Real) -> Real:
+        """Values (m, R) at angles (m,) rad."""
+        return self._values.found((design, piece, angle), lambda some: self._series(some, 0).middle[0])
+
+    def cubics(self, design: Index, piece: Index, angle: Real) -> Real:
+        """Coefficients (4, m, R) about angles (m,) rad."""
+        return self._cubics.found((design, piece, angle), lambda some: self._series(some, 3).middle)
+
+    def fourths(self, design: Index, piece: Index, angle: Real, half: Real) -> Real:
+        """Middle and radius (2, m, R) of the coefficients of order 4 within half widths (m,) rad of angles."""
+
+        def bounds(some: Places) -> Real:
+            series = self._series(some, 4)
+            assert series.radius is not None  # enclosures have one
+            return np.stack([series.middle[4], series.radius[4]])
+
+        return self._fourths.found((design, piece, angle, half), bounds)
+
+    def _series(self, places: Places, order: int) -> Taylor:
+        """About places (m,): coefficients (order + 1, m, R)."""
+        design, piece, angle, *half = places
+        within = self._middle[design, piece]
+        # places of one design side by side, those of many as so many designs
+        one = self._rows.designs == 1
+        rows, axis = (self._rows, 0) if one else (self._rows.chosen(design), 1)
+        angle, within, *half = (np.expand_dims(each, axis) for each in (angle, within, *half))
+        found = self._read(RowSeries(rows, angle, half[0] if half else None, within, order))
+
+        def of_places(values: Real) -> Real:
+            return np.swapaxes(values[:, 0], 1, 2) if one else values[..., 0]
+
+        return Taylor(of_places(found.middle), None if found.radius is None else of_places(found.radius))
+
+
+class _Known:
+    """Arrays (..., n, R) of n places, each place a few numbers."""
+
+    def __init__(self) -> None:
+        self._places: Places = ()
+        self._arrays: NDArray[Any] = np.zeros(0)
+
+    def found(self, asked: Places, make: Callable[[Places], NDArray[Any]]) -> NDArray[Any]:
+        """Arrays (..., m, R) of places (m,) each, made where they are not known."""
+        count = len(self._places[0]) if self._places else 0
+        every = tuple(map(np.concatenate, zip(self._places, asked, strict=True))) if count else asked
+        # what is known comes first among equals
+        order = np.lexsort(every)
+        other = np.ones(order.size, dtype=bool)
+        other[1:] = np.any([place[order[1:]] != place[order[:-1]] for place in every], axis=0)
+        first = np.empty_like(order)
+        first[order] = order[other][np.cumsum(other) - 1]
+        kept = np.flatnonzero(first == np.arange(first.size))
+        new = kept[kept >= count]
+        if new.size:
+            made = make(tuple(place[new] for place in every))
+            self._arrays = np.concatenate([self._arrays, made], axis=-2) if count else made
+            self._places = tuple(place[kept] for place in every)
+        return self._arrays[..., np.searchsorted(kept, first[count:]), :]
