@@ -12,8 +12,6 @@ from optimizer.discrete.options import Incumbent, Options
 _SUMS, _PAIRS = 900, 20_000
 #: slots that change together, one after the other
 _SIZES = (2, 4, 6)
-#: neighbourhoods in a row, for every slot, without a better set, after which the search ends
-_PATIENCE = 6
 _SEED = 20_240_229
 
 
@@ -29,17 +27,20 @@ def start(incumbent: Incumbent, u: Complex) -> None:
         incumbent.offer(np.where(rank[None] < np.arange(1, options.slots)[:, None], near[every], 0))
 
 
-def neighbourhoods(incumbent: Incumbent, u: Complex, enough: Callable[[], bool], spent: Callable[[], bool]) -> None:
+def neighbourhoods(
+    incumbent: Incumbent, u: Complex, patience: int, enough: Callable[[], bool], spent: Callable[[], bool]
+) -> None:
     """Make the set better, a few slots at a time, until nothing is found for a while.
 
     Parameters
     ----------
     u : (K,) kg m, what the options that are tried are near to, beside what is on the slots.
+    patience : neighbourhoods in a row, for every slot, without a better set, after which it ends.
     enough : whether it is as good as asked.
     """
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     useful = np.flatnonzero(np.sum(options.exists, axis=-1) > 1)
-    left = _PATIENCE * useful.size
+    left = patience * useful.size
     while left > 0 and incumbent.chosen is not None and not enough() and not spent():
         size = min(int(chance.choice(_SIZES)), useful.size)
         some = chance.choice(useful, size, replace=False)
@@ -50,7 +51,7 @@ def neighbourhoods(incumbent: Incumbent, u: Complex, enough: Callable[[], bool],
             about = options.unbalance[k, incumbent.chosen[k]] if target is None else target[k]
             which[k] = _about(options, k, about, int(incumbent.chosen[k]), most)
         exhaust(options, which, incumbent, _SUMS, _PAIRS, spent)
-        left = left - 1 if (incumbent.least, tuple(incumbent.chosen)) == before else _PATIENCE * useful.size
+        left = left - 1 if (incumbent.least, tuple(incumbent.chosen)) == before else patience * useful.size
 
 
 def _about(options: Options, slot: int, about: complex, taken: int, most: int) -> np.ndarray:

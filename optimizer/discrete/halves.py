@@ -64,8 +64,7 @@ def exhaust(
         return False
     if options.limits_parts and np.max(options.part) > _BITS:
         return False
-    lever, basis = _lever(statement)
-    effect = options.unbalance[..., None] * basis.T[:, None, :]
+    lever, effect = incumbent.coordinates
     fixed = np.array([some[0] for some in which], dtype=int)
     single = np.ones(options.slots, bool)
     single[many] = False
@@ -83,24 +82,12 @@ def exhaust(
                 sets[:, k] = which[k][digit]
         incumbent.offer(sets)
 
-    norms = statement.norms
-    terms = norms.constant + lever[: norms.constant.size] @ rest
-    lever = lever[: norms.constant.size]
+    terms = statement.norms.constant + lever @ rest
     pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
     if not np.isfinite(incumbent.level) or pairs.count <= _FEW:
         return pairs.count <= most_pairs and pairs.all(spent)
     pairs.nearest()
     return pairs.near(most_pairs, spent)
-
-
-def _lever(statement: Statement) -> tuple[Real, Real]:
-    """Influences of terms and ceilings (J + I, K) as a product (J + I, s) of few columns and orthonormal rows."""
-    influence = np.concatenate([statement.norms.influence, statement.ceilings.norms.influence], axis=-2)
-    size = np.max(np.abs(influence), axis=-1, keepdims=True, initial=0.0)
-    scaled = influence / np.where(size > 0, size, 1.0)
-    _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
-    basis = basis[singular > 1e-14 * singular[0]] if singular.size else basis
-    return influence @ np.conj(basis.T), basis
 
 
 def _sums(options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int]) -> _Sums:

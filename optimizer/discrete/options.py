@@ -1,6 +1,7 @@
 """Slots and their options, and the best set of them that was come upon."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -72,6 +73,21 @@ class Incumbent:
         self.statement, self.options, self.resolution = statement, options, resolution
         self.least = np.inf  # smallest objective of a set within all limits
         self.chosen: np.ndarray | None = None  # (K,)
+
+    @cached_property
+    def coordinates(self) -> tuple[Real, Complex]:
+        """Influences of the terms in few coordinates (J, s), and what the options do to these (K, O, s).
+
+        Influences of terms and ceilings are a product of few columns and orthonormal rows.
+        """
+        norms, ceilings = self.statement.norms, self.statement.ceilings.norms
+        influence = np.concatenate([norms.influence, ceilings.influence], axis=-2)
+        size = np.max(np.abs(influence), axis=-1, keepdims=True, initial=0.0)
+        scaled = influence / np.where(size > 0, size, 1.0)
+        _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
+        basis = basis[singular > 1e-14 * singular[0]] if singular.size else basis
+        lever = (influence @ np.conj(basis.T))[: norms.constant.size]
+        return lever, self.options.unbalance[..., None] * basis.T[:, None, :]
 
     @property
     def level(self) -> float:

@@ -17,6 +17,8 @@ EXHAUSTED = "exhaustion in halves"
 TREE = "branch and bound"
 #: sums of a half, and pairs of them, that are searched outright
 _SUMS, _PAIRS = 300_000, 3_000_000
+#: how long neighbourhoods are tried before a tree, and the nodes of that: what it does not close is searched better
+_SEARCHES = ((1, 1_200.0), (6, np.inf))
 
 
 @dataclass(frozen=True)
@@ -73,12 +75,21 @@ def search(
     if exhaust(options, every, incumbent, _SUMS, _PAIRS, spent):
         return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
-    neighbourhoods(incumbent, relaxed, lambda: incumbent.least - at_least <= gap, halfway)
-    tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent)
-    bound = min(tree.lower_bound, incumbent.least)
-    closed = incumbent.least - bound <= max(gap, 0.0)
+    nodes = 0
+
+    def enough() -> bool:
+        return incumbent.least - at_least <= gap
+
+    for patience, most_nodes in _SEARCHES:
+        neighbourhoods(incumbent, relaxed, patience, enough, halfway)
+        tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent, most_nodes)
+        nodes, at_least = nodes + tree.nodes, max(at_least, tree.lower_bound)
+        bound = min(at_least, incumbent.least)
+        closed = incumbent.least - bound <= max(gap, 0.0)
+        if closed or spent():
+            break
     ended = None if closed else "size" if tree.full else "time"
-    return _found(incumbent, bound, tree.nodes, TREE, closed and gap < 0, ended)
+    return _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
 
 
 def _found(
@@ -103,7 +114,7 @@ def _within(
         return incumbent.least <= CEILING_TOLERANCE
 
     start(incumbent, relaxed[None])
-    neighbourhoods(incumbent, relaxed, kept, spent)
+    neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], kept, spent)
     bound, nodes, method, ended = -np.inf, 0, EXHAUSTED, None
     if not kept():
         if exhaust(options, every, incumbent, _SUMS, _PAIRS, spent):

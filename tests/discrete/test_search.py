@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.discrete import branch, exchange, search
+from optimizer.discrete import branch, search
 from optimizer.discrete.options import EQUAL, Options
 from optimizer.discrete.search import EXHAUSTED, TREE, Found
 from optimizer.program.limits import Limits
@@ -31,8 +31,8 @@ def found_of(problem: Statement, options: Options, relative_gap: float = 1e-12, 
 def method(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> str:
     if request.param == "tree":
         monkeypatch.setattr(search, "_SUMS", 0)
-        monkeypatch.setattr(branch, "_SUMS", 1)
-        monkeypatch.setattr(exchange, "_PATIENCE", 0)
+        monkeypatch.setattr(branch, "_SETS", 1)
+        monkeypatch.setattr(search, "_SEARCHES", ((0, np.inf),))
     return str(request.param)
 
 
@@ -138,7 +138,7 @@ def test_the_asked_gap_ends_the_search() -> None:
     best, size = float(np.min(every_set(problem, options)[1])), float(yardstick(problem.alone())[0])
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(search, "_SUMS", 0)
-        patch.setattr(branch, "_SUMS", 1)
+        patch.setattr(branch, "_SETS", 1)
         found = found_of(problem, options, 0.02)
     value = float(problem.objective(options.of(options.unbalance, found.chosen)))
     assert found.ended is None
