@@ -172,7 +172,7 @@ class Pool:
                 await self._in_thread(worker.send, task)
             await worker.answered()
             answering = True
-            return await self._in_thread(worker.receive)
+            return await worker.receive()
         except get_cancelled_exc_class():
             with CancelScope(shield=True):
                 await self._abandon(worker, 0.0 if answering else _GRACE_S)
@@ -181,7 +181,7 @@ class Pool:
     async def _abandon(self, worker: Worker, grace_s: float) -> None:
         with suppress(Dead, OSError), move_on_after(grace_s):
             await worker.answered()
-            left = await self._in_thread(worker.receive)
+            left = await worker.receive()
             if isinstance(left, Answer) and left.file is not None:
                 left.file.close()
             self._idle.append(worker)

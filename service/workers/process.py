@@ -3,19 +3,21 @@
 import logging
 import multiprocessing
 import os
+import pickle
 import signal
+import socket
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager, nullcontext, suppress
+from dataclasses import replace
 from multiprocessing import forkserver
-from multiprocessing.connection import Connection
 from multiprocessing.process import BaseProcess
 from pathlib import Path
 from threading import Lock, Timer
-from typing import Any
 
 from anyio import wait_readable as readable
 
-from service.workers.worker import Task, receive, serve
+from service.workers.messages import heard
+from service.workers.worker import Outcome, Task, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -45,15 +47,15 @@ class Worker:
 
     def __init__(self, memory_bytes: int, folder: Path | None) -> None:
         context = multiprocessing.get_context("forkserver")
-        ours, theirs = context.Pipe()
-        self._connection: Connection = ours
+        self._connection, theirs = socket.socketpair()
         self._process: BaseProcess = context.Process(
             target=serve, args=(theirs, memory_bytes, folder), name="solver", daemon=True
         )
         try:
-            self._process.start()
-            theirs.close()
-            failure = self.receive()
+            with theirs:
+                self._process.start()
+            with self._connection.makefile("rb") as said:
+                failure = pickle.load(said)
         except (Dead, OSError, EOFError):
             self.end()
             raise WorkersFailed("a worker died at its start") from None
@@ -70,18 +72,19 @@ class Worker:
 
     def send(self, task: Task) -> None:
         try:
-            self._connection.send(task)
+            self._connection.sendall(pickle.dumps(task))
         except OSError as error:
             raise Dead from error
 
     async def answered(self) -> None:
         await readable(self._connection)
 
-    def receive(self) -> Any:
+    async def receive(self) -> Outcome:
         try:
-            return receive(self._connection)
+            outcome, file = await heard(self._connection)
         except (EOFError, OSError) as error:
             raise Dead from error
+        return outcome if file is None else replace(outcome, file=file)
 
     def kill(self) -> None:
         """Kill it; who waits for its answer is told that it is dead."""

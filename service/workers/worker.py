@@ -4,15 +4,15 @@ import errno
 import gc
 import math
 import os
+import pickle
 import resource
 import signal
+import socket
 import sys
 import time
 import traceback
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from multiprocessing import reduction
-from multiprocessing.connection import Connection
 from pathlib import Path
 from pkgutil import resolve_name
 from tempfile import TemporaryFile
@@ -24,6 +24,7 @@ from service.computations import Computation, Form
 from service.faults import kept
 from service.guard.sizes import SizeLimits
 from service.validation import InvalidRequest, UnreadableJson, check, read_json
+from service.workers.messages import say
 
 #: below the event loop, above the workers of sweeps
 _NICENESS = 5
@@ -114,8 +115,11 @@ class Crashed:
 Outcome = Answer | Refused | Crashed
 
 
-def serve(connection: Connection, memory_bytes: int, folder: Path | None) -> None:
-    """Answer tasks until the service ends; large answers go into files of a folder."""
+def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> None:
+    """Answer tasks until the service ends; large answers go into files of a folder.
+
+    What went wrong at the start, if anything did, is said before the first answer.
+    """
     signal.signal(signal.SIGTERM, signal.SIG_IGN)
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(_NICENESS)
@@ -126,19 +130,20 @@ def serve(connection: Connection, memory_bytes: int, folder: Path | None) -> Non
     gc.freeze()
     preload = sys.modules.get("service.workers.preload")
     try:
-        connection.send(getattr(preload, "failure", None))
-        while True:
-            task: Task = connection.recv()
-            _send(connection, perform(task), folder)
-            del task
+        connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
+        with connection.makefile("rb") as asked:
+            while True:
+                task: Task = pickle.load(asked)
+                _send(connection, perform(task), folder)
+                del task
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
 
 
-def _send(connection: Connection, outcome: Outcome, folder: Path | None) -> None:
+def _send(connection: socket.socket, outcome: Outcome, folder: Path | None) -> None:
     """Hand over an outcome; of a large answer an open file, which the service need not hold in memory."""
-    if not (isinstance(outcome, Answer) and outcome.size > LARGE_BYTES):
-        connection.send(outcome)
+    if not (isinstance(outcome, Answer) and len(outcome.content) > LARGE_BYTES):
+        say(connection, outcome)
         return
     try:
         if folder is not None:
@@ -146,20 +151,11 @@ def _send(connection: Connection, outcome: Outcome, folder: Path | None) -> None
         with TemporaryFile(dir=folder) as file:
             file.write(outcome.content)
             file.seek(0)
-            connection.send(replace(outcome, content=b""))
-            reduction.send_handle(connection, file.fileno(), os.getppid())
+            say(connection, replace(outcome, content=b""), file)
     except OSError as error:
         if error.errno not in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EROFS, errno.ENOTDIR, errno.EACCES):
             raise
-        connection.send(Refused.because(NoRoom("There is no room on disk for so large an answer; try again later.")))
-
-
-def receive(connection: Connection) -> Outcome | str | None:
-    """What a worker has sent: an outcome, and before the first one what went wrong at its start."""
-    found: Outcome | str | None = connection.recv()
-    if isinstance(found, Answer) and found.size > LARGE_BYTES:
-        return replace(found, file=os.fdopen(reduction.recv_handle(connection), "rb"))
-    return found
+        say(connection, Refused.because(NoRoom("There is no room on disk for so large an answer; try again later.")))
 
 
 def perform(task: Task) -> Outcome:
