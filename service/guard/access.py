@@ -20,14 +20,24 @@ from service.guard.shares import Holding, Shares
 Refused = Callable[[Exception, str], ASGIApp]
 
 
+def require(request: Request, *scopes: KeyScope) -> None:
+    """Go on only if the key of a request allows it, by one of some scopes.
+
+    Raises
+    ------
+    Forbidden
+    """
+    if not caller_of(request).may(*scopes):
+        raise Forbidden(scopes)
+
+
 def needs(*scopes: KeyScope) -> Any:
     """What stands at a route that a key must allow, by one of some scopes; for other routes any key will do."""
 
-    async def require(request: Request) -> None:
-        if not caller_of(request).may(*scopes):
-            raise Forbidden(scopes)
+    async def at_route(request: Request) -> None:
+        require(request, *scopes)
 
-    return Depends(require)
+    return Depends(at_route)
 
 
 class Access:

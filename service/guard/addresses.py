@@ -2,9 +2,12 @@
 
 import ipaddress
 from collections.abc import Iterable
+from functools import lru_cache
 
 #: one client has as many addresses of IPv6 as it likes, below one prefix of this length
 _PREFIX = 64
+#: whose addresses are not read anew with every request
+_CLIENTS = 4096
 
 
 def is_loopback(host: str) -> bool:
@@ -17,6 +20,7 @@ def is_loopback(host: str) -> bool:
         return False
 
 
+@lru_cache(_CLIENTS)
 def client_network(address: str) -> str:
     """Which client an address belongs to: itself, or its network of IPv6; what is no address is itself."""
     try:

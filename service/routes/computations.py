@@ -1,21 +1,30 @@
 """The computing routes, one for each entry of the table of computations."""
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable, Coroutine
 from typing import Any
 
 from fastapi import APIRouter
+from fastapi.routing import APIRoute
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from service.computations import COMPUTATIONS, Computation
-from service.guard.access import needs
-from service.http.computing import Computes
+from service.guard.access import require
+from service.http.computing import computing_of
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
+
+
+class BytesRoute(APIRoute):
+    """Bytes in, bytes out: there is nothing in path, query and body that the framework should look for and convert."""
+
+    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+        found: Callable[[Request], Coroutine[Any, Any, Response]] = self.endpoint
+        return found
 
 
 def router() -> APIRouter:
     """The routes of all computations."""
-    made = APIRouter()
+    made = APIRouter(route_class=BytesRoute)
     for one in COMPUTATIONS.values():
         made.add_api_route(
             one.path,
@@ -25,7 +34,6 @@ def router() -> APIRouter:
             summary=one.summary,
             description=one.remark,
             tags=[one.tag],
-            dependencies=[needs(one.scope)],
             response_model=one.answers,
             response_class=Response if one.answers is None else JSONResponse,
             responses=_responses(one),
@@ -34,9 +42,10 @@ def router() -> APIRouter:
     return made
 
 
-def _endpoint(one: Computation) -> Callable[[Request, Computes], Awaitable[Response]]:
-    async def endpoint(request: Request, computing: Computes) -> Response:
-        return await computing.answer(request, one)
+def _endpoint(one: Computation) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+    async def endpoint(request: Request) -> Response:
+        require(request, one.scope)
+        return await computing_of(request).answer(request, one)
 
     return endpoint
 
