@@ -17,6 +17,7 @@ from optimizer.formulate import RESPONSES, ceilings, weights
 from optimizer.formulate import limited as limited_responses
 from optimizer.limits import limits
 from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.roll import mirrored, roll
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.cut import EXACT, Quantity, Scatter
@@ -150,7 +151,17 @@ class _Asked:
         return self.case.turn
 
     def external(self, apart: bool) -> tuple[Group, ...]:
-        """Force and moment, as they are weighed and combined: of the first order in closed form, of all by cuts."""
+        """Force and moment, as they are weighed and combined: of the first order in closed form, of all by cuts.
+
+        The roll moment beside them always has all orders.
+        """
+        groups = self._of_frame(apart)
+        if self.objective.roll_weight > 0:
+            weight = self.objective.roll_weight * self._factor
+            groups = (*groups, Group(weighed=tuple(Weighed(q, weight) for q in self._of_roll())))
+        return (_merged(groups),) if self.objective.combine == "max" and len(groups) > 1 else groups
+
+    def _of_frame(self, apart: bool) -> tuple[Group, ...]:
         wanted, across = self._wanted, self.objective.direction_weights
         if self.objective.orders == "all":
             places = zip(RESPONSES, self._of_shaking(), strict=True)
@@ -170,8 +181,6 @@ class _Asked:
             tuple(_called(Row(peak.name, (peak,)), self.case.scenario, n) for n, peak in enumerate(of_response))
             for of_response in zip(*variants, strict=True)
         ]
-        if self.objective.combine == "max":
-            return (Group(rows=tuple(row for rows in found for row in rows)),)
         return tuple(Group(rows=rows) for rows in found)
 
     def weighed_bearings(self) -> Group:
@@ -205,6 +214,15 @@ class _Asked:
     def _of_shaking(self) -> range:
         """Force and moment of all orders."""
         return self._placed("shaking", lambda: [self._quantity(each) for each in shaking(self.turn, self.layout)])
+
+    def _of_roll(self) -> range:
+        def moment() -> list[Quantity]:
+            response, shafts = roll(self.turn, self.layout), self.layout.balance
+            if shafts is not None and self.objective.orders == "first":
+                response = mirrored(response, shafts)
+            return [self._quantity(response)]
+
+        return self._placed("roll", moment)
 
     def _of_bearings(self, measure: Literal["peak", "rms"]) -> range:
         def loads() -> list[Quantity]:

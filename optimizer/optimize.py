@@ -41,9 +41,9 @@ from schemas.proof import InfeasibilityMultipliers
 from schemas.proof import Multipliers as PrintedMultipliers
 from schemas.requests import OptimizeRequest
 
-#: outputs that every answer holds, and what it holds too where bearings or bending count
+#: outputs that every answer holds, and what it holds too where bearings or bending count, or the roll moment
 _ALWAYS = ("residual",)
-_OF_THE_SHAFT = "main_bearings"
+_OF_THE_SHAFT, _ROLL = "main_bearings", "roll"
 
 
 def optimize(request: OptimizeRequest, solver: Solver | None = None) -> OptimizeAnswer:
@@ -98,7 +98,8 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
 
 def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
     """The same where bearings, bending or all orders count, or the worst of several cases."""
-    always = (*_ALWAYS, _OF_THE_SHAFT) if request.objective.of_the_shaft else _ALWAYS
+    counted = ((_OF_THE_SHAFT, request.objective.of_the_shaft), (_ROLL, request.objective.roll_weight > 0))
+    always = (*_ALWAYS, *(name for name, counts in counted if counts))
     lacking = list(missing(request))
     if lacking:
         raise MissingInput(lacking)

@@ -17,6 +17,7 @@ from optimizer.figures.internal_moment import INTERNAL_MOMENT
 from optimizer.figures.orders import ORDERS
 from optimizer.figures.output import Output
 from optimizer.figures.pins import PIN_LOADS
+from optimizer.figures.roll import ROLL
 from optimizer.figures.stages import STAGES
 from optimizer.scene import Prepared, simulated, turns_over
 from schemas.base import FieldProblem
@@ -35,6 +36,7 @@ OUTPUTS: dict[str, Output] = {
         STAGES,
         INTERNAL_MOMENT,
         *OVER_THE_TURN,
+        ROLL,
         MAIN_BEARINGS,
         PIN_LOADS,
     )

@@ -25,8 +25,8 @@ class Priority(Model):
     """One of several goals that are met one after the other."""
 
     goal: Literal["external", "bearings", "bending", "mass"] = Field(
-        description="external: force and moment as they are weighed and combined; bearings, bending: the largest of"
-        " their kind; mass: the least total mass, always the last",
+        description="external: force, moment and roll as they are weighed and combined; bearings, bending: the largest"
+        " of their kind; mass: the least total mass, always the last",
         examples=["external"],
     )
     allowance: Fraction = Field(
@@ -44,6 +44,7 @@ OVER_THE_TURN: dict[str, Any] = {
     "specific_load_ceiling_Pa": None,
     "bending_weight": 0.0,
     "bending_ceiling_Nm": None,
+    "roll_weight": 0.0,
     "orders": "first",
     "priorities": (),
 }
@@ -122,6 +123,12 @@ class Objective(Ruled):
     bending_ceiling_Nm: Annotated[Moment | None, Unit("N m")] = Field(
         None, description="hard limit on the bending moment everywhere inside the shaft", examples=[9000.0]
     )
+    roll_weight: Weight = Field(
+        0.0,
+        description="weight of the peak of the roll moment about the crankshaft, its mean apart [1/(N m)]; all orders,"
+        " gas and friction count, and balance shafts alone change it",
+        examples=[1.0],
+    )
     priorities: tuple[Priority, ...] = Field(
         (),
         max_length=4,
@@ -144,7 +151,7 @@ class Objective(Ruled):
         return tuple(name for name, nothing in OVER_THE_TURN.items() if getattr(self, name) != nothing)
 
     def rules(self) -> Iterator[Rule]:
-        external = (self.force_weight != 0) | (self.moment_weight != 0)
+        external = (self.force_weight != 0) | (self.moment_weight != 0) | (self.roll_weight != 0)
         some = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
         yield Rule(some == 0, ("moment_weight",), "one of the weights must be above 0")
         across = self.direction_weights

@@ -17,6 +17,7 @@ from schemas.dynamics import (
     Torque,
 )
 from schemas.quantities import Degrees, NewtonMetres, Newtons
+from schemas.roll import Roll
 from schemas.scroll import PinLoads
 
 
@@ -163,6 +164,7 @@ class OutputFields(Model):
     torque: Torque | None = Field(None, description="torque, if asked for", examples=[None])
     flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
     overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
+    roll: Roll | None = Field(None, description="roll moment, if asked for or weighed", examples=[None])
     main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
     pin_loads: PinLoads | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
 
@@ -240,6 +242,7 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
     "overturning": (
         Column("peak_overturning_Nm", "number", "N m", "largest overturning couple over the turn, magnitude"),
     ),
+    "roll": (Column("peak_roll_Nm", "number", "N m", "largest roll moment over the turn without its mean, magnitude"),),
     "main_bearings": (
         Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),
         Column("peak_bending_Nm", "number", "N m", "largest bending moment inside the shaft, with the counterweights"),

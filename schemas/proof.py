@@ -7,11 +7,11 @@ from pydantic import Field, StringConstraints
 from schemas.base import Model
 from schemas.quantities import Degrees, Kilograms, Name
 
-#: force, moment, a component of them as force:x, bearing:name, bending:plane
+#: force, moment, a component of them as force:x, roll, bearing:name, bending:plane
 ResponseName = Annotated[
     str,
     StringConstraints(
-        max_length=80, pattern=r"^((force|moment)(:[xy])?|bearing:[^\x00-\x1f\x7f]+|bending:[-+.e0-9]+)$"
+        max_length=80, pattern=r"^((force|moment)(:[xy])?|roll|bearing:[^\x00-\x1f\x7f]+|bending:[-+.e0-9]+)$"
     ),
 ]
 #: a row of the objective: of a cut the response and the angle

@@ -163,6 +163,9 @@ class OptimizeRequest(Scene, Ruled):
         shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
         if shafts:
             yield from self.worst_case_rules("does not go with balance shafts")
+        else:
+            message = "balance shafts alone change the roll moment, and the machine has none"
+            yield Rule(goal.roll_weight != 0, ("objective", "roll_weight"), message)
         if any(shaft.speed_ratio == -1 for shaft in shafts):
             for name in ("force_ceiling_N", "moment_ceiling_Nm"):
                 whole = (getattr(goal, name) is not None) & (goal.orders == "first")

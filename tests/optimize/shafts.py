@@ -71,3 +71,31 @@ def at(body: dict[str, Any], answer: dict[str, Any], theta_deg: float, first: bo
             size = found["mass_kg"] * place["counterweight_radius_m"] * (ratio * omega) ** 2
             pushed.append((size * cmath.exp(1j * angle), place["position_m"]))
     return sum(force for force, _ in pushed), sum((z - middle) * force for force, z in pushed)
+
+
+def rolled(body: dict[str, Any], answer: dict[str, Any], theta_deg: float) -> float:
+    """Moment about the crankshaft on the frame [N m], counter-clockwise, from the definitions alone; without gas.
+
+    The pistons take the power that their kinetic energy rises by from the crankshaft, and the frame holds against the
+    torque of that; a shaft beside the crankshaft pushes with the lever of its place.
+    """
+    s = 1.0 if body.get("rotation", "ccw") == "ccw" else -1.0
+    omega, theta = body["speed_rpm"] * math.pi / 30.0, math.radians(theta_deg)
+    found = 0.0
+    for one in body["throws"]:
+        radius, turn = one["crank_radius_m"], cmath.exp(1j * (math.radians(one["crank_angle_deg"]) + s * theta))
+        for each in one["rows"]:
+            own = turn * cmath.exp(-1j * math.radians(each["axis_deg"]))
+            cosine, sine, lam = own.real, s * own.imag, radius / each["connecting_rod"]["length_m"]
+            w = 1.0 - (lam * sine) ** 2
+            speed = -radius * omega * (sine + lam * sine * cosine / math.sqrt(w))
+            outward = cosine + lam * (cosine**2 - sine**2) / math.sqrt(w) + lam**3 * (cosine * sine) ** 2 / w**1.5
+            power = each["reciprocating_mass_kg"] * speed * -radius * omega**2 * outward
+            found += s * power / omega
+    for one, of_shaft in zip(body["balance_shafts"], answer["balance_shafts"], strict=True):
+        for place, fitted in zip(one["webs"], of_shaft["counterweights"], strict=True):
+            angle = math.radians(fitted["angle_deg"]) + s * one["speed_ratio"] * theta
+            size = fitted["mass_kg"] * place["counterweight_radius_m"] * (one["speed_ratio"] * omega) ** 2
+            x, y = one.get("x_m", 0.0), one.get("y_m", 0.0)
+            found += size * (x * math.sin(angle) - y * math.cos(angle))
+    return found

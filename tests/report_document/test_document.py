@@ -140,6 +140,7 @@ def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
         ("torque", "Torque", 1),
         ("flywheel", "Flywheel", 0),
         ("overturning", "Overturning couple", 1),
+        ("roll", "Roll moment", 1),
         ("main_bearings", "Main bearings", 4),
         ("orders", "Orders", 0),
     ],

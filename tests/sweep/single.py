@@ -179,6 +179,8 @@ def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
         yield "inertia_J_kg_m2", answer.flywheel.inertia_J_kg_m2
     if answer.overturning is not None:
         yield "peak_overturning_Nm", answer.overturning.peak_Nm
+    if answer.roll is not None:
+        yield "peak_roll_Nm", answer.roll.before.peak_Nm
     if answer.main_bearings is not None:
         peaks = {one.name: None if one.after is None else one.after.peak_N for one in answer.main_bearings.bearings}
         fitted = None not in peaks.values()

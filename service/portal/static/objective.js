@@ -14,18 +14,19 @@ export const CEILINGS = {
 // the objective of the certificate in words
 export function weighed(objective = {}) {
   const { combine, orders, force_weight: force = 1, moment_weight: moment = null, bearing_measure: measure,
-    bearing_weight: bearing = 0, bending_weight: bending = 0, priorities = [] } = objective;
+    bearing_weight: bearing = 0, bending_weight: bending = 0, roll_weight: roll = 0, priorities = [] } = objective;
   const all = orders === "all" ? " of all orders" : "";
   const bearings = MEASURES[measure] ?? GOALS.bearings;
   const goals = priorities.map(({ goal }) => goal).filter((goal) => goal !== "mass");
   if (goals.length) {
-    const words = goals.map((goal) => (goal === "external" ? `the weighted peaks of force and moment${all}` : goal === "bearings" ? bearings : GOALS[goal]));
+    const words = goals.map((goal) => (goal === "external" ? `the weighted peaks of force${roll ? ", moment and roll" : " and moment"}${all}` : goal === "bearings" ? bearings : GOALS[goal]));
     return words.length > 1 ? `${words.at(-1)}, after ${words.slice(0, -1).join(" and ")},` : words[0];
   }
   const parts = [...(force === 0 ? [] : ["peak force"]), ...(moment === 0 ? [] : ["peak moment"])].map((part) => `${part}${all}`);
+  if (roll) parts.push("the roll moment");
   if (bearing) parts.push(bearings);
   if (bending) parts.push(GOALS.bending);
-  if (!bearing && !bending && parts.length === 2 && !all) {
+  if (!bearing && !bending && !roll && parts.length === 2 && !all) {
     return combine === "max" ? "the larger of the weighted peaks" : "the weighted sum of peak force and peak moment";
   }
   if (parts.length === 1) return parts[0].replace(/^peak/, "the peak");

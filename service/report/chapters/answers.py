@@ -13,6 +13,7 @@ from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
+from service.report.chapters.roll import roll
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 
@@ -33,6 +34,7 @@ CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
         ),
     ),
     **OVER_THE_TURN,
+    "roll": roll,
     "pin_loads": lambda _machine, found: pin_loads(found),
 }
 

@@ -304,6 +304,7 @@ _OVER_THE_TURN = {
     "specific_load_ceiling_Pa": "ceiling of the specific bearing loads, Pa",
     "bending_weight": "weight of the largest bending moment, 1/(N m)",
     "bending_ceiling_Nm": "ceiling of the bending moments, N m",
+    "roll_weight": "weight of the roll moment, 1/(N m)",
     "orders": "orders of force and moment",
     "priorities": "goals in their order",
 }

@@ -1,0 +1,57 @@
+"""Moment about the crankshaft with which the frame rolls: what the rows leave on it, and what balance shafts change.
+
+A piston that presses on its guide, and one that is driven, leave s N h on the frame, which is s times the torque of
+the row; the mean is what the machine takes up or gives, and only the rest shakes. An unbalance v of a shaft at
+p = x + jy that turns rho times puts F = rho^2 v e^{j s rho theta} (over omega^2) on its bearings, and with it
+Im(conj(p) F) about the crankshaft. What turns with the crankshaft has no lever. Counter-clockwise is positive.
+
+Source: H. Nakamura, A low vibration engine with unique counter-balance shafts, SAE 760111 (1976).
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.curve import TurnResponse
+from optimizer.mechanics.layout import BalanceWebs, Layout
+from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
+
+
+def roll(turn: WholeTurn, layout: Layout) -> TurnResponse:
+    """Alternating moment about the crankshaft on the frame of one machine, N m.
+
+    Gas and friction count. Webs of balance shafts stand behind those of the crankshaft, which do nothing.
+    """
+    curves = roll_curves(turn, layout)
+    own = np.zeros(layout.webs.position.shape)
+    shafts = layout.balance
+    if shafts is None:
+        return TurnResponse("roll", "N m", own, curves, 0, own, scalar=True)
+    influence: Complex = np.concatenate([own, -1j * np.conj(shafts.x + 1j * shafts.y) * shafts.ratio**2])
+    turning: Real = np.concatenate([own, layout.sense * shafts.ratio])
+    return TurnResponse("roll", "N m", influence, curves, 0, turning, scalar=True)
+
+
+def roll_curves(turn: WholeTurn, layout: Layout) -> TurnCurves:
+    """What the rows of N designs leave on the frame, without its mean: N curves, kg m^2 (over omega^2)."""
+    each = layout.sense[..., None] * layout.reciprocating.crank_radius / layout.omega[..., None] ** 2
+    weights = np.broadcast_to(each, (*layout.omega.shape, turn.rows.crank_radius.shape[-1]))
+    of_rows = turn.curves("tangential", weights.reshape(len(turn.centre), 1, -1))
+    return replace(of_rows, constant=-of_rows.mean[:, None])
+
+
+def mirrored(response: TurnResponse, shafts: BalanceWebs) -> TurnResponse:
+    """The same scalar where webs of shafts at -1 stand for their mirror image at the x axis, as in the first order.
+
+    Re(h v) is Re(conj(h) conj(v)), so that it is affine in the one as in the other.
+    """
+    assert response.scalar  # of a vector it is not
+    assert response.turning is not None  # something of a scalar turns
+    own = response.influence.size - shafts.ratio.size
+    back = np.concatenate([np.zeros(own, dtype=bool), shafts.ratio == -1.0])
+    return replace(
+        response,
+        influence=np.where(back, np.conj(response.influence), response.influence),
+        turning=np.where(back, -response.turning, response.turning),
+    )
