@@ -237,5 +237,25 @@ COMPUTATIONS: dict[str, Computation] = {
                 _document(".pdf", "application/pdf", "service.report.pdf:pdf", compressed=True),
             ),
         ),
+        Computation(
+            name="drawings",
+            path="/v1/drawings",
+            request="schemas.drawings:DrawingsRequest",
+            answer=None,
+            compute="service.drawings.drawn:drawings",
+            summary="Drawings of the counterweights for a workshop and for other CAD, in one zip file",
+            remark="Of each part an outline (DXF), a sheet with dimensions (SVG) and a solid (STEP), all of them in"
+            " their places, and the bill of material (CSV, xlsx). Webs with an envelope can be drawn.",
+            forms=(
+                Form(
+                    "application/zip",
+                    "service.drawings.archive:zipped",
+                    ".zip",
+                    (("Content-Disposition", 'attachment; filename="counterweights.zip"'),),
+                    compressed=True,
+                ),
+            ),
+            examples="drawings",
+        ),
     )
 }

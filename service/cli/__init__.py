@@ -10,6 +10,7 @@ import typer
 
 from service.cli.catalogue import effects, examples, schema
 from service.cli.compute import command
+from service.cli.draw import draw
 from service.cli.key import key
 from service.cli.report import report
 from service.cli.serve import serve
@@ -46,7 +47,7 @@ def command_line() -> typer.Typer:
     for one in COMPUTATIONS.values():
         if one.chapters is not None:
             made.command(name=one.title)(command(one))
-    for other in (sweep, report, verify, effects, examples, schema, serve):
+    for other in (sweep, report, draw, verify, effects, examples, schema, serve):
         made.command()(other)
     made.add_typer(key, name="key")
     return made

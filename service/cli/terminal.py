@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
 
 import typer
 
@@ -27,20 +27,28 @@ AsJson = Annotated[bool, typer.Option("--json", help="Print the exact answer of 
 
 def question(model: "type[Question]", file: str, given: Mapping[str, object] | None = None) -> "Question":
     """The request in a file, with fields given on the command line in place of those in it."""
-    from service.validation import InvalidRequest, UnreadableJson, check, read_json
+    from service.validation import InvalidRequest, check
+
+    body = content(file)
+    if given and isinstance(body, dict):
+        body = {**body, **given}
+    try:
+        return check(model, body)
+    except InvalidRequest as error:
+        fail_fields(error.problems, error.more)
+
+
+def content(file: str) -> Any:
+    """The JSON in a file."""
+    from service.validation import UnreadableJson, read_json
 
     source = "standard input" if file == "-" else file
     try:
-        body = read_json(_read(file))
-        if given and isinstance(body, dict):
-            body = {**body, **given}
-        return check(model, body)
+        return read_json(_read(file))
     except OSError as error:
         fail(f"cannot read {source}: {error.strerror}")
     except UnreadableJson as error:
         fail(f"{source} is not JSON: {error}")
-    except InvalidRequest as error:
-        fail_fields(error.problems, error.more)
 
 
 def _read(file: str) -> bytes:

@@ -51,7 +51,9 @@ def _endpoint(one: Computation) -> Callable[[Request], Coroutine[Any, Any, Respo
 
 
 def _responses(one: Computation) -> dict[int | str, dict[str, Any]]:
-    if len(one.forms) == 1:
+    if one.answer is not None:
         return problems(*COMPUTE_PROBLEMS)
     content = {form.media_type: {"schema": {"type": "string"}} for form in one.forms}
-    return {200: {"description": "the document", "content": content}, **problems(*COMPUTE_PROBLEMS, 406)}
+    # what there is in one form only is answered in that
+    more = (406,) if len(one.forms) > 1 else ()
+    return {200: {"description": "the document", "content": content}, **problems(*COMPUTE_PROBLEMS, *more)}

@@ -1,8 +1,10 @@
 """The Python client against the real service."""
 
+import json
 from pathlib import Path
 from types import ModuleType
 from typing import Any
+from zipfile import ZipFile
 
 import pyarrow.parquet as pq
 import pytest
@@ -54,6 +56,13 @@ def test_a_report_is_written_as_its_name_says(
 ) -> None:
     written = service.report(request_2d12, tmp_path / name)
     assert written.read_bytes().startswith(begins)
+
+
+def test_drawings_are_written(service: Any, tmp_path: Path) -> None:
+    request = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
+    with ZipFile(service.drawings(request, tmp_path / "drawings.zip")) as archive:
+        assert archive.testzip() is None
+        assert "bill-of-material.csv" in archive.namelist()
 
 
 def test_a_report_of_an_unknown_kind_is_not_asked_for(

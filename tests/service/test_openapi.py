@@ -19,6 +19,7 @@ OPERATIONS = {
     ("post", "/v1/rating"): "rating",
     ("post", "/v1/match"): "match",
     ("post", "/v1/report"): "report",
+    ("post", "/v1/drawings"): "drawings",
     ("post", "/v1/verify"): "verify",
     ("post", "/v1/scroll/pin-loads"): "pin_loads",
     ("post", "/v1/sweeps"): "start_sweep",

@@ -1,0 +1,41 @@
+"""The command that writes the drawings of counterweights to a file."""
+
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import Annotated, Any
+
+import typer
+
+from service.cli.terminal import File, answer, content, fail, question
+from service.computations import COMPUTATIONS
+
+AnswerOption = Annotated[
+    str | None,
+    typer.Option("--answer", metavar="FILE", help="Draw the counterweights of this answer; else the best ones."),
+]
+Target = Annotated[Path, typer.Option("-o", "--to", metavar="FILE.zip", help="File to write.")]
+#: what says which counterweight it is
+_PLACED = ("web", "mass_kg", "angle_deg")
+
+
+def draw(file: File, to: Target, of: AnswerOption = None) -> None:
+    """Draw the counterweights of a machine for a workshop and for other CAD: DXF, SVG, STEP, bill of material."""
+    one = COMPUTATIONS["drawings"]
+    given = {} if of is None else {"counterweights": _fitted(of)}
+    drawn = answer(one.function, question(one.asks, file, given))
+    written = resolve_name(one.forms[0].write)(drawn)
+    try:
+        to.write_bytes(written)
+    except OSError as error:
+        fail(f"cannot write {to}: {error.strerror}")
+    raise typer.Exit(1 if drawn.status == "inaccurate" else 0)
+
+
+def _fitted(file: str) -> list[dict[str, Any]]:
+    """The counterweights of an answer, as a request names them."""
+    body = content(file)
+    try:
+        every = [*body["counterweights"], *(one for shaft in body["balance_shafts"] for one in shaft["counterweights"])]
+        return [{name: one[name] for name in _PLACED} for one in every]
+    except (KeyError, TypeError):
+        fail(f"{file} is not the answer to an optimisation or an analysis")

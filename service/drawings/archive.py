@@ -1,0 +1,55 @@
+"""All drawings of a machine's counterweights in one file."""
+
+import io
+from collections.abc import Iterator
+from math import pi, radians
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from schemas.counterweights import Counterweight
+from service.drawings.bill import as_csv, as_workbook
+from service.drawings.drawn import DrawingSet
+from service.drawings.dxf import dxf
+from service.drawings.outline import turned
+from service.drawings.parts import Part
+from service.drawings.sheet import sheet
+from service.drawings.step import Solid, step
+
+_FONT = "Helvetica, Arial, sans-serif"
+
+
+def zipped(drawn: DrawingSet) -> bytes:
+    """A folder: of each part its outline, its sheet and its solid, all of them in their places, the bill of material.
+
+    The same drawings are the same bytes: files bear no time.
+    """
+    out = io.BytesIO()
+    with ZipFile(out, "w") as archive:
+        for name, content in files(drawn):
+            archive.writestr(ZipInfo(name), content, ZIP_DEFLATED)
+    return out.getvalue()
+
+
+def files(drawn: DrawingSet) -> Iterator[tuple[str, bytes]]:
+    """Names and contents."""
+    for part in drawn.parts:
+        yield f"{part.name}.dxf", dxf(part.outline)
+        yield f"{part.name}.svg", sheet(part).svg(_FONT).encode()
+        half = 0.5 * part.envelope.thickness_m
+        yield f"{part.name}.step", step(part.name, [Solid(part.name, part.outline, -half, half)])
+    yield "counterweights.step", step(drawn.title, list(_placed(drawn)))
+    yield "bill-of-material.csv", as_csv(drawn)
+    yield "bill-of-material.xlsx", as_workbook(drawn)
+
+
+def _placed(drawn: DrawingSet) -> Iterator[Solid]:
+    """Every counterweight where it sits at shaft angle 0, in the coordinates of the machine."""
+    for part in drawn.parts:
+        for one in part.places:
+            yield _solid(part, one)
+
+
+def _solid(part: Part, one: Counterweight) -> Solid:
+    half = 0.5 * part.envelope.thickness_m
+    # drawn upwards, which is at a right angle
+    edges = turned(part.outline, radians(one.angle_deg) - 0.5 * pi)
+    return Solid(f"Counterweight {one.web}", edges, one.position_m - half, one.position_m + half)

@@ -1,0 +1,80 @@
+"""The bill of material: a row for each counterweight, as CSV and as a workbook."""
+
+import csv
+import io
+from collections.abc import Iterator
+
+from schemas.counterweights import Counterweight
+from service.drawings.drawn import DrawingSet
+from service.drawings.parts import Part
+from service.plain import plain
+
+HEADS = (
+    "part", "pieces", "web", "mass, kg", "plane z, mm", "angle as drawn, deg", "angle from its crank, deg",
+    "centre of mass, mm", "mass times radius, kg m", "to hold, N", "outline", "inner radius, mm", "outer radius, mm",
+    "thickness, mm", "half of the opening, deg", "chord from the shaft, mm", "density, kg/m3", "drawing",
+)  # fmt: skip
+
+Cell = str | float | int | None
+#: a spreadsheet takes a text that begins like this for a formula
+_FORMULA = ("=", "+", "-", "@")
+
+
+def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
+    """The counterweights that are drawn, part by part, then those without a plate."""
+    for part in drawn.parts:
+        for one in part.places:
+            yield part.number, len(part.places), *_placed(one), *_made(part, one), part.name
+    drawn_webs = {one.web for part in drawn.parts for one in part.places}
+    for one in drawn.fitted:
+        if one.web not in drawn_webs:
+            yield None, 1, *_placed(one), *(None,) * 7, "none: the web has no envelope"
+
+
+def _placed(one: Counterweight) -> tuple[Cell, ...]:
+    return (
+        plain(one.web), one.mass_kg, 1e3 * one.position_m, one.angle_deg, one.angle_from_crank_deg,
+        1e3 * one.radius_m, one.mass_radius_kg_m, one.centrifugal_force_N,
+    )  # fmt: skip
+
+
+def _made(part: Part, one: Counterweight) -> tuple[Cell, ...]:
+    envelope, shape = part.envelope, one.shape
+    height = None if shape is None or shape.chord_height_m is None else 1e3 * shape.chord_height_m
+    return (
+        envelope.shape, 1e3 * envelope.inner_radius_m, 1e3 * envelope.outer_radius_m, 1e3 * envelope.thickness_m,
+        None if shape is None else shape.half_angle_deg, height, envelope.density_kg_m3,
+    )  # fmt: skip
+
+
+def as_csv(drawn: DrawingSet) -> bytes:
+    """In UTF-8; a text that a spreadsheet would run stays text."""
+    out = io.StringIO(newline="")
+    writer = csv.writer(out, lineterminator="\r\n")
+    writer.writerow(HEADS)
+    for row in rows(drawn):
+        writer.writerow([f"'{cell}" if isinstance(cell, str) and cell.startswith(_FORMULA) else cell for cell in row])
+    return out.getvalue().encode()
+
+
+def as_workbook(drawn: DrawingSet) -> bytes:
+    """As xlsx."""
+    # only who asks for drawings pays for the library
+    from openpyxl import Workbook
+    from openpyxl.cell import WriteOnlyCell
+
+    book = Workbook(write_only=True)
+    sheet = book.create_sheet("bill of material")
+    sheet.append(HEADS)
+    for row in rows(drawn):
+        cells = []
+        for value in row:
+            cell = WriteOnlyCell(sheet, value)
+            if isinstance(value, str):
+                # never a formula
+                cell.data_type = "s"
+            cells.append(cell)
+        sheet.append(cells)
+    out = io.BytesIO()
+    book.save(out)
+    return out.getvalue()

@@ -1,0 +1,63 @@
+"""From a request to its drawings: what is drawn, and where it sits."""
+
+from dataclasses import dataclass
+from itertools import chain
+
+from optimizer.analyze import analyze
+from optimizer.errors import OutOfRange
+from optimizer.optimize import optimize
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.base import FieldProblem
+from schemas.counterweights import Counterweight
+from schemas.drawings import DrawingsRequest
+from schemas.requests import AnalyzeRequest
+from service.drawings.parts import Part, parts
+
+
+@dataclass(frozen=True)
+class DrawingSet:
+    """What there is to be made.
+
+    title : of the machine.
+    status : of the answer; given where the counterweights were.
+    fitted : all counterweights, also those without a plate, which cannot be drawn.
+    """
+
+    title: str
+    status: str
+    parts: tuple[Part, ...]
+    fitted: tuple[Counterweight, ...]
+
+
+def drawings(request: DrawingsRequest) -> DrawingSet:
+    """The parts of the counterweights that are given, or of the best ones.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what the objective needs.
+    OutOfRange
+        if a counterweight is more than its envelope holds, if there is none within the limits, or none to be drawn.
+    """
+    answer = _answer(request)
+    every = chain(answer.counterweights, *(shaft.counterweights for shaft in answer.balance_shafts))
+    fitted = tuple(one for one in every if one.mass_kg > 0)
+    found = parts(request.machine, fitted)
+    if not found:
+        raise OutOfRange([FieldProblem(_asked(request), "no counterweight is cut from a plate: there is none to draw")])
+    status = getattr(answer, "status", "given")
+    return DrawingSet(request.machine.name or "machine without a name", status, found, fitted)
+
+
+def _answer(request: DrawingsRequest) -> OptimizeAnswer | AnalyzeAnswer:
+    if request.counterweights is not None:
+        return analyze(AnalyzeRequest(machine=request.machine, counterweights=request.counterweights))
+    found = optimize(request.model_copy(update={"outputs": ("residual",)}))
+    if found.status == "infeasible":
+        message = "no counterweights within the limits keep the ceilings: there are none to draw"
+        raise OutOfRange([FieldProblem(("objective",), message)])
+    return found
+
+
+def _asked(request: DrawingsRequest) -> tuple[str | int, ...]:
+    return ("machine", "webs") if request.counterweights is None else ("counterweights",)
