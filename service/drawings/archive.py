@@ -20,7 +20,7 @@ _FONT = "Helvetica, Arial, sans-serif"
 def zipped(drawn: DrawingSet) -> bytes:
     """A folder: of each part its outline, its sheet and its solid, all of them in their places, the bill of material.
 
-    The same drawings are the same bytes: files bear no time.
+    The same drawings are the same bytes, but for the workbook, which bears the time.
     """
     out = io.BytesIO()
     with ZipFile(out, "w") as archive:

@@ -13,6 +13,7 @@ from service.report.blocks import Attachment, Chapter, Document, facts
 from service.report.chapters import balance, inputs, reproduction, verdict
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
+from service.report.chapters.workshop import sheets
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
 
@@ -95,5 +96,6 @@ def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[F
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from outputs(request.machine, answer)
+    yield from sheets(request.machine, answer)
     yield reproduction.effects(answer.effects, request.outputs)
     yield reproduction.appendix(request)

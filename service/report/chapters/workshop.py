@@ -1,0 +1,20 @@
+"""What a workshop makes: the sheets of the counterweights that are cut from plates."""
+
+from collections.abc import Iterator
+
+from schemas.answers import OptimizeAnswer
+from schemas.machine import Machine
+from service.drawings.parts import parts
+from service.drawings.sheet import sheet
+from service.report.blocks import Chapter, Figure
+
+
+def sheets(machine: Machine, answer: OptimizeAnswer) -> Iterator[Chapter]:
+    """A sheet for each part number, where there are plates; the same as `/v1/drawings` has."""
+    found = parts(machine, (one for one in answer.counterweights if one.mass_kg > 0))
+    if found:
+        yield Chapter("Workshop sheets", tuple(Figure((sheet(part),), _caption(len(part.places))) for part in found))
+
+
+def _caption(pieces: int) -> str:
+    return "As seen along the shaft, and from the side." if pieces == 1 else f"{pieces} pieces of one outline."

@@ -1,0 +1,27 @@
+"""The sheets of the counterweights that are cut from plates."""
+
+import json
+from pathlib import Path
+
+from schemas.requests import OptimizeRequest
+from service.report.blocks import Figure
+from service.report.document import report
+from service.report.html import html
+from service.report.pdf import pdf
+from tests.report_document.conftest import AT, asked
+
+
+def test_every_part_has_a_sheet() -> None:
+    body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
+    made = report(OptimizeRequest.model_validate(body), AT)
+    (chapter,) = [one for one in made.chapters if one.title == "Workshop sheets"]
+    sheets = [block for block in chapter.blocks if isinstance(block, Figure)]
+    text = "".join(sheet.drawings[0].svg() for sheet in sheets)
+    for web in ("1a", "1b", "2a", "2b"):
+        assert f"{web}: plane z = " in text
+    assert html(made).decode().count("dimensions in mm") == len(sheets)
+    assert pdf(made).startswith(b"%PDF-")
+
+
+def test_without_plates_there_are_none() -> None:
+    assert "Workshop sheets" not in [one.title for one in report(asked("2d12"), AT).chapters]
