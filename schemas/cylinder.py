@@ -1,13 +1,13 @@
 """Gas data of a cylinder. Whether they are complete is asked by the effect that needs them."""
 
 from collections.abc import Iterator
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, Strict
 
 from schemas.base import Model
 from schemas.indicated import IndicatedPressure
-from schemas.quantities import Area, Length, Pressure
+from schemas.quantities import Area, Length, Name, Pressure
 from schemas.rules import Rule, Ruled
 from schemas.units import Unit, between, non_negative
 
@@ -15,6 +15,8 @@ Exponent = Annotated[float, Strict(), Field(gt=1, le=10)]
 Clearance = Annotated[float, Strict(), between(1e-6, 100.0)]
 # below a pressure of 0 there is nothing, and at 0 no ratio
 WorkingPressure = Annotated[float, between(1e-3, 1e12), Unit("Pa")]
+
+PistonArea = Annotated[float, non_negative(1e12), Unit("m2")]
 
 
 class GasState(Model):
@@ -96,3 +98,38 @@ class Cylinder(GasState, Ruled):
             yield Rule(high < low, (side, "suction_pressure_Pa"), "must not be above the discharge pressure")
         else:
             yield Rule(high < low, (side, "discharge_pressure_Pa"), "must not be below the suction pressure")
+
+
+class RowCylinder(Cylinder):
+    """One of several cylinders on a piston rod. The chamber of a step is a side with its ring as area, the other 0."""
+
+    name: Name | None = Field(None, description="name of the cylinder, unique on its row", examples=["I"])
+    head_area_m2: Annotated[PistonArea | None, Unit("m2")] = Field(
+        None,
+        description="piston area on the head side, in place of the diameters; 0 where the piston has no such side",
+        examples=[0.12],
+    )
+    crank_area_m2: Annotated[PistonArea | None, Unit("m2")] = Field(
+        None,
+        description="piston area on the crank side, in place of the diameters; 0 where the piston has no such side",
+        examples=[0.0],
+    )
+    from_m: Annotated[Length | None, Unit("m")] = Field(
+        None, description="where the bore begins along the axis, from the shaft; with to_m", examples=[1.2]
+    )
+    to_m: Annotated[Length | None, Unit("m")] = Field(
+        None, description="where it ends; no two of a row may overlap", examples=[1.8]
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        alone = (self.from_m is None) != (self.to_m is None)
+        yield Rule(alone, ("to_m" if self.to_m is None else "from_m",), "a bore has a beginning and an end")
+        if self.from_m is not None and self.to_m is not None:
+            yield Rule(self.to_m <= self.from_m, ("to_m",), "must be beyond from_m")
+
+    def overlaps(self, other: "RowCylinder") -> Any:
+        """Whether the bores of two cylinders of a row share a part of the axis; of each of many."""
+        if self.from_m is None or self.to_m is None or other.from_m is None or other.to_m is None:
+            return False
+        return (self.from_m < other.to_m) & (other.from_m < self.to_m)

@@ -73,6 +73,8 @@ class Chamber(Model):
     """One side of a piston."""
 
     side: Literal["head", "crank"] = Field(description="which side", examples=["head"])
+    cylinder: int = Field(description="number of the cylinder on its row, from 0", examples=[0])
+    name: str | None = Field(description="name of that cylinder; null where it has none", examples=[None])
     pressure_Pa: tuple[Pascals, ...] = Field(description="absolute pressure", examples=[[852000.0]])
     force_N: tuple[Newtons, ...] = Field(description="force on the piston", examples=[[-355531.1]])
     suction_opens_deg: Degrees | None = Field(
@@ -85,10 +87,14 @@ class Chamber(Model):
 
 
 class RowGas(RowSeries):
-    """Gas in one cylinder."""
+    """Gas in the cylinders of one row."""
 
-    chambers: tuple[Chamber, ...] = Field(description="head and crank side", examples=[[{"side": "head"}]])
-    force_N: tuple[Newtons, ...] = Field(description="gas force on the piston, both sides", examples=[[-238008.0]])
+    chambers: tuple[Chamber, ...] = Field(
+        description="head and crank side of every cylinder", examples=[[{"side": "head"}]]
+    )
+    force_N: tuple[Newtons, ...] = Field(
+        description="gas force on the row's pistons, all sides", examples=[[-238008.0]]
+    )
     indicated_power_W: Watts = Field(description="indicated power of the row", examples=[624389.3])
 
 

@@ -15,7 +15,7 @@ from schemas.drive_bearing import DriveBearing
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
 from schemas.quantities import Angle, Count, Length, Mass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled, larger
-from schemas.throws import MAX_THROWS, Throw
+from schemas.throws import MAX_THROWS, Row, Throw, row_cylinders
 from schemas.units import Unit
 from schemas.webs import Web
 
@@ -268,10 +268,20 @@ def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
             short = row.connecting_rod.length_m <= throw.crank_radius_m
             message = "the connecting rod must be longer than the crank radius"
             yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
-        if row.cylinder is not None and row.cylinder.pressure is not None:
-            at = (*path, "rows", i, "cylinder", "pressure")
-            for broken, rest, words in row.cylinder.pressure.row_rules(sense, throw.crank_angle_deg, row.axis_deg):
-                yield Rule(broken, (*at, *rest), words)
+        yield from _cylinder_rules((*path, "rows", i), throw, row, sense)
+
+
+def _cylinder_rules(path: Path, throw: Throw, row: Row, sense: float) -> Iterator[Rule]:
+    both = row.cylinder is not None and bool(row.cylinders)
+    yield Rule(both, (*path, "cylinders"), "give either one cylinder or several")
+    yield from _unique_names((*path, "cylinders"), [one.name for one in row.cylinders])
+    for k, one in enumerate(row.cylinders):
+        overlaps = reduce(or_, (one.overlaps(other) for other in row.cylinders[:k]), False)
+        yield Rule(overlaps, (*path, "cylinders", k, "from_m"), "overlaps another cylinder of the row")
+    for at, cylinder in row_cylinders(row):
+        if cylinder.pressure is not None:
+            for broken, rest, words in cylinder.pressure.row_rules(sense, throw.crank_angle_deg, row.axis_deg):
+                yield Rule(broken, (*path, *at, "pressure", *rest), words)
 
 
 def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:

@@ -1,16 +1,18 @@
 """Throws of a crankshaft, with the rows on their pins."""
 
+from collections.abc import Iterator
 from typing import Annotated
 
 from pydantic import Field
 
 from schemas.base import Model
-from schemas.cylinder import Cylinder
+from schemas.cylinder import Cylinder, RowCylinder
 from schemas.quantities import Angle, Fraction, Length, Mass, Name, Position
 from schemas.units import Unit
 
 MAX_THROWS = 500
 MAX_ROWS = 60
+MAX_CYLINDERS = 8
 
 
 class ConnectingRod(Model):
@@ -49,6 +51,20 @@ class Row(Model):
     cylinder: Cylinder | None = Field(
         None, description="gas data; a row without it carries no gas, and the output gas needs it", examples=[None]
     )
+    cylinders: tuple[RowCylinder, ...] = Field(
+        (),
+        max_length=MAX_CYLINDERS,
+        description="several cylinders on the row's piston rod, in tandem or stepped, in place of cylinder",
+        examples=[[]],
+    )
+
+
+def row_cylinders(row: Row) -> Iterator[tuple[tuple[str | int, ...], Cylinder]]:
+    """The cylinders of a row with their paths from it."""
+    if row.cylinder is not None:
+        yield ("cylinder",), row.cylinder
+    for k, one in enumerate(row.cylinders):
+        yield ("cylinders", k), one
 
 
 class Throw(Model):

@@ -22,12 +22,12 @@ class GasCycle:
 
     @cached_property
     def opens(self) -> tuple[Real, Real]:
-        """Own crank angles at which suction and discharge open, (..., rows, 2) rad each."""
+        """Own crank angles at which suction and discharge open, (..., rows, C) rad each."""
         return switching_angles(self.chambers, self.layout)
 
     @cached_property
     def work(self) -> Real:
-        """(..., rows, 2) J, indicated in one turn, in the mean of a cycle of two."""
+        """(..., rows, C) J, indicated in one turn, in the mean of a cycle of two."""
         work, rows = indicated_work(self.chambers, self.layout), self.layout.reciprocating
         for trace in self.traces:
             place = (..., trace.row)

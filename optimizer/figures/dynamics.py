@@ -1,6 +1,6 @@
 """Dynamics as answers: series of every row, and what they come to together."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Any, Literal
 
 import numpy as np
@@ -28,6 +28,7 @@ from schemas.dynamics import (
     Torque,
 )
 from schemas.machine import ReciprocatingMachine
+from schemas.throws import row_cylinders
 
 Case = Literal["running", "no_load", "sudden_stop"]
 _SIDES: tuple[Literal["head", "crank"], ...] = ("head", "crank")
@@ -62,11 +63,21 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     cycle = scene.results["gas"]
     total, force = cycle.forces.total, cycle.forces.force
 
-    def chamber(k: int, side: int) -> Chamber:
+    assert isinstance(scene.machine, ReciprocatingMachine)  # of the kinematics
+    # a row without a cylinder has two sides without area
+    names = [
+        [getattr(one, "name", None) for _, one in row_cylinders(row)] or [None]
+        for throw in scene.machine.throws
+        for row in throw.rows
+    ]
+
+    def chamber(k: int, side: int, names: Sequence[str | None]) -> Chamber:
         opens = (np.rad2deg(angles[k, side]) for angles in cycle.opens)
         suction, discharge = (None if np.isnan(angle) else float(angle) for angle in opens)
         return Chamber(
-            side=_SIDES[side],
+            side=_SIDES[side % 2],
+            cylinder=side // 2,
+            name=names[side // 2],
             pressure_Pa=_series(cycle.forces.pressure[k, side]),
             force_N=_series(force[k, side]),
             suction_opens_deg=suction,
@@ -79,7 +90,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
         rows=tuple(
             RowGas(
                 **labels,
-                chambers=(chamber(k, 0), chamber(k, 1)),
+                chambers=tuple(chamber(k, side, names[k]) for side in range(2 * len(names[k]))),
                 force_N=_series(total[k]),
                 indicated_power_W=float(cycle.power[k]),
             )

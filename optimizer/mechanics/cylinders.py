@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from schemas.cylinder import Cylinder
 from schemas.indicated import DEAD_CENTRE_DEG, TURN_DEG, IndicatedPressure, PressureTrace
 from schemas.machine import ReciprocatingMachine
 from schemas.rules import Path, Rule
+from schemas.throws import row_cylinders
 
 _SIDES = ("head", "crank")
 _STATE = (
@@ -26,24 +28,28 @@ _STATE = (
 )
 #: rows times entries of all traces at which the turns of a cycle are cut; so many take some ten seconds
 MAX_ENTRIES = 200_000
+#: a chamber that there is not
+_NONE: list[float | None] = [0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0]
 _NEVER_DELIVERS = "with this clearance and pressure ratio the chamber never delivers"
 
 
 def chambers(machine: ReciprocatingMachine, leading: tuple[int, ...] = ()) -> Chambers:
-    """Chambers of all rows (..., rows, 2), throw by throw; every cylinder has complete data (``gas_problems``).
+    """Chambers of all rows (..., rows, C), throw by throw; every cylinder has complete data (``gas_problems``).
 
-    A row without a cylinder has pistons without area. Fields may hold columns, as in
+    A row with fewer cylinders than another has pistons without area. Fields may hold columns, as in
     :func:`optimizer.mechanics.layout.layout`.
 
     Parameters
     ----------
     leading : axes that every array is to have, whatever depends on columns.
     """
-    rows = [_row(row.cylinder) for throw in machine.throws for row in throw.rows]
+    given = [[cylinder for _, cylinder in row_cylinders(row)] for throw in machine.throws for row in throw.rows]
+    count = 2 * max((len(row) for row in given), default=1) or 2
+    rows = [([side for one in row for side in _row(one)] + [_NONE] * count)[:count] for row in given]
 
-    values = stacked([row[side][number] for number in range(7) for row in rows for side in (0, 1)])
+    values = stacked([chamber[number] for number in range(7) for row in rows for chamber in row])
     axes = np.broadcast_shapes(leading, values.shape[:-1])
-    table = np.broadcast_to(values, (*axes, values.shape[-1])).reshape(*axes, 7, len(rows), 2)
+    table = np.broadcast_to(values, (*axes, values.shape[-1])).reshape(*axes, 7, len(rows), count)
     area, low, high, clearance, expansion, compression, closed = np.moveaxis(table, -3, 0)
     return Chambers(area, low, high, clearance, expansion, compression, closed.astype(bool))
 
@@ -52,9 +58,11 @@ def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
     """Indicated pressures of the chambers that have one, with the leading axes of layout and columns together."""
     ahead = own_angle(layout, np.zeros(1))[..., 0]
     found = [
-        _trace(k, side, given, getattr(given, name), _start_deg(machine, k, given), ahead[..., k])
-        for k, (_, cylinder) in enumerate(_cylinders(machine))
-        for given in (() if cylinder is None or cylinder.pressure is None else (cylinder.pressure,))
+        _trace(
+            place.row, place.chamber + side, given, getattr(given, name), _start_deg(machine, place.row, given), ahead
+        )
+        for place, cylinder in _cylinders(machine)
+        for given in (() if cylinder.pressure is None else (cylinder.pressure,))
         for side, name in enumerate(_SIDES)
         if getattr(given, name) is not None
     ]
@@ -76,7 +84,9 @@ def _start_deg(machine: ReciprocatingMachine, number: int, given: IndicatedPress
     return np.where(first > TURN_DEG - DEAD_CENTRE_DEG, 0.0, first)
 
 
-def _trace(row: int, side: int, given: IndicatedPressure, table: PressureTrace, start_deg: Real, ahead: Real) -> Trace:
+def _trace(
+    row: int, chamber: int, given: IndicatedPressure, table: PressureTrace, start_deg: Real, ahead: Real
+) -> Trace:
     """One trace, from an entry of the cycle before to one of the next."""
     angle, pressure = (np.atleast_2d(stacked(each)) for each in (table.angle_deg, table.pressure_Pa))
     angle, cycle = np.deg2rad(angle), TURN * given.cycle_turns
@@ -85,49 +95,54 @@ def _trace(row: int, side: int, given: IndicatedPressure, table: PressureTrace, 
     angle, pressure = np.broadcast_arrays(angle, pressure)
     return Trace(
         row=row,
-        side=side,
+        side=chamber,
         turns=given.cycle_turns,
         angle=angle,
         pressure=pressure,
         table=np.arange(len(angle)) if len(angle) > 1 else np.zeros((), dtype=np.intp),
-        lead=TURN * np.round((np.deg2rad(start_deg) + ahead) / TURN),
+        lead=TURN * np.round((np.deg2rad(start_deg) + ahead[..., row]) / TURN),
     )
 
 
 def cycle_turns(machine: ReciprocatingMachine) -> int:
     """Turns of the shaft after which the gas of all rows repeats, 1 or 2."""
-    given = [cylinder.pressure for _, cylinder in _cylinders(machine) if cylinder is not None]
+    given = [cylinder.pressure for _, cylinder in _cylinders(machine)]
     return max((one.cycle_turns for one in given if one is not None), default=1)
 
 
 def entry_count(machine: ReciprocatingMachine) -> int:
     """Entries of all indicated pressures over the turns after which all repeats."""
-    turns, given = cycle_turns(machine), [cylinder.pressure for _, cylinder in _cylinders(machine) if cylinder]
+    turns, given = cycle_turns(machine), [cylinder.pressure for _, cylinder in _cylinders(machine)]
     tables = [(one, table) for one in given if one for table in (one.head, one.crank) if table]
     return sum(len(table.angle_deg) * turns // one.cycle_turns for one, table in tables)
 
 
 def without_gas(machine: ReciprocatingMachine) -> tuple[Path, ...]:
     """Where rows have no cylinder, by paths from the machine."""
-    return tuple(path for path, cylinder in _cylinders(machine) if cylinder is None)
+    return tuple(
+        ("throws", t, "rows", i, "cylinder")
+        for t, throw in enumerate(machine.throws)
+        for i, row in enumerate(throw.rows)
+        if not any(row_cylinders(row))
+    )
 
 
 def gas_problems(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
     """Fields that the gas forces of cylinders need and the machine does not give, by paths from the machine."""
-    for path, cylinder in _cylinders(machine):
-        if cylinder is not None:
-            words = "" if cylinder.pressure is None else " on the side without an indicated pressure"
-            for field in _missing(cylinder):
-                yield FieldProblem((*path, field), f"gas forces need this field{words if field in _STATE else ''}")
+    for place, cylinder in _cylinders(machine):
+        words = "" if cylinder.pressure is None else " on the side without an indicated pressure"
+        for field in _missing(cylinder):
+            yield FieldProblem((*place.path, field), f"gas forces need this field{words if field in _STATE else ''}")
 
 
 def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
     """No chamber whose gas only springs back and forth: that is no cycle of four processes."""
     data = chambers(machine)
     suction, _ = switching_travels(data, layout)
-    never = np.any(data.closed & np.isnan(suction), axis=-1)
-    for number, (path, _) in enumerate(_cylinders(machine)):
-        yield Rule(never[..., number], (*path, "relative_clearance"), _NEVER_DELIVERS)
+    never = data.closed & np.isnan(suction)
+    for place, _ in _cylinders(machine):
+        broken = never[..., place.row, place.chamber] | never[..., place.row, place.chamber + 1]
+        yield Rule(broken, (*place.path, "relative_clearance"), _NEVER_DELIVERS)
 
 
 def trace_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
@@ -137,19 +152,34 @@ def trace_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]
         angles = entries(given, own_angle(layout, np.zeros(1))[..., 0])
         different = 1 + np.count_nonzero(np.diff(angles, axis=-1) > SLIVER, axis=-1)
         many = layout.reciprocating.mass.shape[-1] * different > MAX_ENTRIES
-        path = next(path for path, one in _cylinders(machine) if one is not None and one.pressure is not None)
+        path = next(place.path for place, one in _cylinders(machine) if one.pressure is not None)
         words = f"rows times the different angles of all indicated pressures must be at most {MAX_ENTRIES}"
         yield Rule(many, (*path, "pressure"), words)
 
 
-def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[Path, Cylinder | None]]:
-    for t, throw in enumerate(machine.throws):
-        for i, row in enumerate(throw.rows):
-            yield ("throws", t, "rows", i, "cylinder"), row.cylinder
+class _Place(NamedTuple):
+    """Where a cylinder is: its path from the machine, its row, and its first chamber."""
+
+    path: Path
+    row: int
+    chamber: int
+
+
+def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[_Place, Cylinder]]:
+    rows = [(t, i, row) for t, throw in enumerate(machine.throws) for i, row in enumerate(throw.rows)]
+    for number, (t, i, row) in enumerate(rows):
+        for k, (at, cylinder) in enumerate(row_cylinders(row)):
+            yield _Place(("throws", t, "rows", i, *at), number, 2 * k), cylinder
 
 
 def _acts(cylinder: Cylinder, side: str) -> bool:
-    return cylinder.acting in ("double", side)
+    """Whether a side compresses gas; one without area is none."""
+    area = cylinder.head_area_m2 if side == "head" else cylinder.crank_area_m2
+    return cylinder.acting in ("double", side) and not _is_none(area)
+
+
+def _is_none(area: float | None) -> bool:
+    return area is not None and bool(np.all(np.equal(area, 0.0)))
 
 
 def _indicated(cylinder: Cylinder, side: str) -> PressureTrace | None:
@@ -178,16 +208,16 @@ def _missing(cylinder: Cylinder) -> Iterator[str]:
     if crank is None:
         yield "piston_rod_diameter_m" if cylinder.bore_m is not None else "crank_area_m2"
     cycled = [side for side in _SIDES if _indicated(cylinder, side) is None]
-    if not all(_acts(cylinder, side) for side in cycled) and cylinder.ambient_pressure_Pa is None:
+    areas = dict(zip(_SIDES, (head, crank), strict=True))
+    open_ = [side for side in cycled if not _acts(cylinder, side) and not _is_none(areas[side])]
+    if open_ and cylinder.ambient_pressure_Pa is None:
         yield "ambient_pressure_Pa"
     for field in _STATE:
         if any(_acts(cylinder, side) and _value(cylinder, side, field) is None for side in cycled):
             yield field
 
 
-def _row(cylinder: Cylinder | None) -> list[list[float | None]]:
-    if cylinder is None:
-        return [[0.0, 0.0, 0.0, 1.0, 2.0, 2.0, 0.0]] * 2
+def _row(cylinder: Cylinder) -> list[list[float | None]]:
     areas = _areas(cylinder)
     return [_side(cylinder, side, area) for side, area in zip(_SIDES, areas, strict=True)]
 
@@ -197,5 +227,5 @@ def _side(cylinder: Cylinder, side: str, area: float | None) -> list[float | Non
     if _acts(cylinder, side) and not given:
         return [area, *(_value(cylinder, side, field) for field in _STATE), 1.0]
     # an open side: ambient pressure all the way round, unless it is given; the other numbers are not used
-    ambient = 0.0 if given else cylinder.ambient_pressure_Pa
+    ambient = 0.0 if given or _is_none(area) else cylinder.ambient_pressure_Pa
     return [area, ambient, ambient, 1.0, 2.0, 2.0, 0.0]

@@ -1,7 +1,9 @@
 """Gas forces: a four-process cycle in every chamber, with its switching angles and its work; or a pressure as given.
 
-Chamber axis: index 0 the head side, 1 the crank side. A chamber's own travel is the piston's
-distance from the dead centre at which that chamber is smallest. Forces are positive in rod tension:
+Chamber axis: head and crank side of the first cylinder of the row, then of the next on the same rod (tandem or
+stepped), so that even ones are head sides; rows with fewer cylinders have chambers without area. A chamber's own
+travel is the piston's distance from the dead centre at which that chamber is smallest. Forces are positive in rod
+tension:
 head side -p A, crank side +p A (seed 004, 2-14 and 2-15).
 """
 
@@ -16,15 +18,16 @@ from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
 
-#: sign of a chamber's force, head and crank side
-_SIGN = np.array([-1.0, 1.0])
 #: Gauss-Legendre quadrature on [0, 1]
 _INSIDE, _SHARES = (np.array(values) for values in (0.5 * (1.0 + leggauss(10)[0]), 0.5 * leggauss(10)[1]))
 
 
 @dataclass(frozen=True)
 class Chambers:
-    """Data of the chambers, (..., rows, 2). Where ``closed`` is false the side is open to ``suction``."""
+    """Data of the chambers, (..., rows, C), C twice the most cylinders of a row.
+
+    Where ``closed`` is false the side is open to ``suction``.
+    """
 
     area: Real  # m^2
     suction: Real  # Pa
@@ -39,13 +42,13 @@ class Chambers:
 class GasForces:
     """Gas over shaft angles."""
 
-    pressure: Real  # (..., rows, 2, T) Pa
-    area: Real  # (..., rows, 2) m^2
+    pressure: Real  # (..., rows, C, T) Pa
+    area: Real  # (..., rows, C) m^2
 
     @property
     def force(self) -> Real:
-        """(..., rows, 2, T) N, positive in rod tension."""
-        return _SIGN[:, None] * self.pressure * self.area[..., None]
+        """(..., rows, C, T) N, positive in rod tension."""
+        return np.where(head_sides(self.area), -1.0, 1.0)[:, None] * self.pressure * self.area[..., None]
 
     @property
     def total(self) -> Real:
@@ -67,10 +70,11 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     head = motion.displacement[..., None, :]
     # the crank side empties where the difference from the stroke has no digits left
     crank = stroke - head if motion.remaining is None else motion.remaining[..., None, :]
-    travel = np.concatenate([head, crank], axis=-2)
+    heads = head_sides(chambers.area)[:, None]
+    travel = np.where(heads, head, crank)
     clear = chambers.clearance[..., None] * stroke
     to_shaft = np.mod(motion.crank_angle, 2.0 * np.pi) < np.pi
-    growing = np.stack([to_shaft, ~to_shaft], axis=-2)
+    growing = heads == to_shaft[..., None, :]
     low, high = chambers.suction[..., None], chambers.discharge[..., None]
     closed = chambers.closed[..., None]
     safe = np.where(closed, clear, 1.0)
@@ -83,8 +87,13 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     return GasForces(pressure, chambers.area)
 
 
+def head_sides(chambers: Real) -> np.ndarray:
+    """Which of the chambers (..., C) are head sides, (C,)."""
+    return np.arange(chambers.shape[-1]) % 2 == 0
+
+
 def switching_travels(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
-    """Own travel at which suction opens and at which discharge opens, (..., rows, 2) m; nan where open."""
+    """Own travel at which suction opens and at which discharge opens, (..., rows, C) m; nan where open."""
     suction, discharge, _ = _switching(chambers, layout)
     return suction, discharge
 
@@ -110,12 +119,12 @@ def _log_ratio(chambers: Chambers) -> Real:
 
 
 def switching_angles(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
-    """Own crank angles in [0, 2 pi) at which suction and discharge open, (..., rows, 2) rad; nan where never."""
+    """Own crank angles in [0, 2 pi) at which suction and discharge open, (..., rows, C) rad; nan where never."""
     rows = layout.reciprocating
     radius, lam, margin = rows.crank_radius[..., None], rows.rod_ratio[..., None], rows.rod_margin[..., None]
     stroke = 2.0 * radius
     suction, discharge, before = _switching(chambers, layout)
-    from_head = np.array([True, False])
+    from_head = head_sides(chambers.area)
     # the head chamber grows over 0..pi and shrinks over pi..2 pi; the crank chamber the other way round
 
     def own_angle(travel: Real, left: Real) -> Real:
@@ -129,7 +138,7 @@ def switching_angles(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
 
 
 def indicated_work(chambers: Chambers, layout: Layout) -> Real:
-    """Work put into the gas in one turn, in closed form, (..., rows, 2) J; 0 on open sides.
+    """Work put into the gas in one turn, in closed form, (..., rows, C) J; 0 on open sides.
 
     The work above the suction pressure, which would do none by itself: with the volumes V and their polytropes,
     p_s V_full g(l_n, n) + (p_d - p_s) V_delivered - p_s V_opens g(l_m, m), where l_n = ln(p_d / p_s) / n and

@@ -25,7 +25,7 @@ _WIDEST_PANEL = np.deg2rad(10.0)
 class Trace:
     """Indicated pressure of one chamber of each design (...): one of D tables of K entries.
 
-    row, side : which chamber.
+    row, side : which chamber; even ones are head sides.
     turns : of the shaft in a cycle, 1 or 2.
     """
 
@@ -77,7 +77,7 @@ class Trace:
         cosine, sine = np.cos(phi), np.sin(phi)
         upright = np.sqrt(rod_margin[..., None] * (1.0 + lam) + (lam * cosine) ** 2)
         # the head side grows while the row moves to the shaft
-        outward = 1.0 if self.side == 0 else -1.0
+        outward = 1.0 if self.side % 2 == 0 else -1.0
         growth = outward * (area * radius)[..., None] * sine * (1.0 + lam * cosine / upright)
         pressure, _ = self.at(phi + self.lead[..., None])
         return -TURN * mean(turn, pressure * growth)

@@ -10,7 +10,8 @@ Shapes: N designs or places, R rows, P angles.
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from functools import cached_property
+from functools import cached_property, reduce
+from operator import add
 from typing import Any
 
 import numpy as np
@@ -39,7 +40,7 @@ class RowData:
     sense: Real  # (N, 1)
     friction: Real  # (N, R) N
     exact: bool  # or cut off after the second order
-    area: Real | None  # (N, R, 2) m^2, chambers as in :class:`Chambers`; None without gas
+    area: Real | None  # (N, R, C) m^2, chambers as in :class:`Chambers`; None without gas
     suction: Real | None = None
     discharge: Real | None = None
     clearance: Real | None = None
@@ -80,7 +81,7 @@ def row_data(
 
     gas: dict[str, Any] = {"area": None}
     if chambers is not None:
-        gas = {name: flat(value, count, 2) for name, value in vars(chambers).items()}
+        gas = {name: flat(value, count, value.shape[-1]) for name, value in vars(chambers).items()}
     return RowData(
         designs=designs,
         ahead=flat(own_angle(layout, np.zeros(1))[..., 0], count),
@@ -205,16 +206,19 @@ class RowSeries:
         data = self.data
         if data.area is None:
             return None
-        sides = [self._pressure(side).times(_SIGN[side] * self._each(data.area[..., side])) for side in (0, 1)]
-        return sides[0] + sides[1]
+        first, *others = (
+            self._pressure(one).times(_SIGN[one % 2] * self._each(data.area[..., one]))
+            for one in range(data.area.shape[-1])
+        )
+        return reduce(add, others, first)
 
-    def _pressure(self, side: int) -> Taylor:
-        """Pressure in the chambers of one side, Pa: of a cycle, or as it is given."""
-        cycle = self._of_cycle(side)
+    def _pressure(self, chamber: int) -> Taylor:
+        """Pressure in one chamber of every row, Pa: of a cycle, or as it is given."""
+        cycle = self._of_cycle(chamber)
         given = [
             (trace.row, *trace.at(self._angle[:, trace.row], self._within[:, trace.row]))
             for trace in self.data.traces
-            if trace.side == side
+            if trace.side == chamber
         ]
         if not given:
             return cycle
@@ -233,11 +237,11 @@ class RowSeries:
                 radius[0, :, row] = np.abs(slope) * self.half
         return Taylor(middle, radius)
 
-    def _of_cycle(self, side: int) -> Taylor:
+    def _of_cycle(self, chamber: int) -> Taylor:
         """Pressure of the four processes, Pa: constant, or a power of the volume."""
         data = self.data
         low, high, clear, expansion, compression, closed = (
-            self._each(getattr(data, name)[..., side])
+            self._each(getattr(data, name)[..., chamber])
             for name in ("suction", "discharge", "clearance", "expansion_exponent", "compression_exponent", "closed")
         )
         if not np.any(closed):
@@ -246,6 +250,7 @@ class RowSeries:
             return Taylor(middle, None if self.half is None else np.zeros_like(middle))
         # in units of the crank radius; an open side has no clearance to divide by
         clear = np.where(closed, 2.0 * clear, 1.0)
+        side = chamber % 2
         travel = self._travel(side)
         at_points = self.half is None and self.within is self.centre
         there = travel.middle[0] if at_points else self._travel_at(side, self._within)

@@ -11,7 +11,7 @@ from math import factorial, prod
 from typing import Any, NamedTuple
 
 from schemas.machine import Machine, ReciprocatingMachine
-from schemas.throws import Row, Throw
+from schemas.throws import Row, Throw, row_cylinders
 
 #: angles and planes so near are one
 _NEAR = 1e-9
@@ -121,14 +121,14 @@ def _off(difference: float, period: float) -> float:
 def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
     rows = [row for throw in _throws(machine) for row in throw.rows]
-    tabled = any(getattr(row.cylinder, "pressure", None) is not None for row in rows)
+    tabled = any(one.pressure is not None for row in rows for _, one in row_cylinders(row))
     return not tabled and not machine.unbalances and all(web.sector is None for web in machine.webs)
 
 
 def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
     """Whether there is a line along which every throw's rows are their own mirror image; gas knows its direction."""
     throws = _throws(machine)
-    if any(row.cylinder is not None for throw in throws for row in throw.rows):
+    if any(row.cylinder is not None or row.cylinders for throw in throws for row in throw.rows):
         return False
     axes = [row.axis_deg for throw in throws[:1] for row in throw.rows] or [0.0]
     lines = {(one + other) / 2 for one in axes for other in axes}

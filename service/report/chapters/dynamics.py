@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 
 from schemas.dynamics import (
     BearingLoad,
+    Chamber,
     Flywheel,
     Gas,
     Kinematics,
@@ -15,6 +16,7 @@ from schemas.dynamics import (
     Overturning,
     PistonForce,
     RodLoads,
+    RowGas,
     RowPistonForce,
     RowSeries,
     Torque,
@@ -75,11 +77,18 @@ def _kinematics(machine: Machine, found: Kinematics) -> Chapter:
     return Chapter("Motion", (extremes(_EXTREMES, found.angle_deg, parts), *figures))
 
 
+def _chamber(row: RowGas, chamber: Chamber) -> str:
+    """Side, and which cylinder where a row has several."""
+    if len(row.chambers) <= 2:
+        return chamber.side
+    return f"{chamber.name or f'cylinder {chamber.cylinder + 1}'}, {chamber.side}"
+
+
 def _gas(machine: Machine, found: Gas) -> Chapter:
     chambers = [
         (
             row_name(machine, row.throw, row.row),
-            chamber.side,
+            _chamber(row, chamber),
             min(chamber.pressure_Pa),
             max(chamber.pressure_Pa),
             chamber.suction_opens_deg,
@@ -90,7 +99,7 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
         for chamber in row.chambers
     ]
     pressures = [
-        Line(f"{row_name(machine, row.throw, row.row)} {chamber.side}", chamber.pressure_Pa)
+        Line(f"{row_name(machine, row.throw, row.row)} {_chamber(row, chamber)}", chamber.pressure_Pa)
         for row in found.rows
         for chamber in row.chambers
     ]

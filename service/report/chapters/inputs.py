@@ -9,7 +9,7 @@ from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
 from schemas.objective import Priority
 from schemas.over_turn import ForceTable, TorqueTable
 from schemas.requests import OptimizeRequest
-from schemas.throws import Row, Throw
+from schemas.throws import Row, Throw, row_cylinders
 from schemas.webs import Web
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
 from service.report.chapters.worst_case import asked
@@ -114,7 +114,11 @@ def _reciprocating(machine: ReciprocatingMachine) -> Iterator[Block]:
                 for throw, name, plane, row in rows
             ],
         )  # fmt: skip
-    cylinders = [(name, row.cylinder) for _, name, _, row in rows if row.cylinder is not None]
+    cylinders = [
+        (name if at == ("cylinder",) else f"{name}, {getattr(one, 'name', None) or f'cylinder {int(at[-1]) + 1}'}", one)
+        for _, name, _, row in rows
+        for at, one in row_cylinders(row)
+    ]
     if cylinders:
         yield from _cylinders(cylinders)
     yield from _drive(machine)

@@ -4,15 +4,15 @@ import { Problem, post } from "../api.js";
 import { showCall } from "../calls.js";
 import { h } from "../dom.js";
 
-const everyRow = (machine, name) => {
+const everyRow = (machine, ...names) => {
   // asked before the service has looked at the machine, which may hold anything
   const rows = [machine.throws ?? []].flat().flatMap((each) => each?.rows ?? []);
-  return rows.length > 0 && rows.every((row) => row?.[name]);
+  return rows.length > 0 && rows.every((row) => names.some((name) => [row?.[name] ?? []].flat().length > 0));
 };
 // what a panel may need of the machine, and how to say that it is missing
 const NEEDS = {
   rods: { met: (machine) => machine.kind === "scroll" || everyRow(machine, "connecting_rod"), words: "a connecting rod on every row" },
-  cylinders: { met: (machine) => everyRow(machine, "cylinder"), words: "a cylinder on every row" },
+  cylinders: { met: (machine) => everyRow(machine, "cylinder", "cylinders"), words: "a cylinder on every row" },
   flywheel: { met: (machine) => Boolean(machine.flywheel), words: "the flywheel" },
   bearings: { met: (machine) => (machine.bearings ?? []).length > 1, words: "the main bearings" },
   pins: { met: (machine) => machine.anti_rotation?.type === "crank_pins" && (machine.rotation_torque_Nm ?? machine.tangential_gas_force_N ?? null) !== null,
