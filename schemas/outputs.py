@@ -19,6 +19,7 @@ from schemas.dynamics import (
 from schemas.quantities import Degrees, NewtonMetres, Newtons
 from schemas.roll import Roll
 from schemas.scroll import PinLoads
+from schemas.stages import Acting, StageIron
 
 
 class Hodograph(Model):
@@ -133,6 +134,17 @@ class Stage(Model):
         description="whether counterweights on the shaft can balance it", examples=["partly"]
     )
     remaining: float | None = Field(description="what the counterweights leave; null if infeasible", examples=[4997.4])
+    acting: tuple[Acting, ...] = Field(
+        (), description="what the stage is about, without counterweights, as data", examples=[[{"order": 1}]]
+    )
+    left: tuple[Acting, ...] | None = Field(
+        None,
+        description="what the counterweights leave of it, in stage VIII of all; null if infeasible",
+        examples=[[{"order": 1}]],
+    )
+    iron: tuple[StageIron, ...] = Field(
+        (), description="stage VII: mass times radius by plane, for any share", examples=[[]]
+    )
     rules_of_thumb: tuple[RuleOfThumb, ...] = Field(
         (), description="classic partial balances for comparison", examples=[[]]
     )

@@ -20,17 +20,21 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
 from optimizer.figures.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
+from optimizer.figures.stage_parts import iron, of_wrench
 from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
 from schemas.outputs import STAGE_UNITS, Stage
+from schemas.stages import Acting
 
 Balanceable = Literal["fully", "partly", "no"]
 
 #: what is smaller than this share of the machine's scale is not worth a word in the summary
 _NEGLIGIBLE = 1e-5
+#: share of the machine's scale that is rounding
+_ROUNDING = 1e-13
 
 
 class _Heading(NamedTuple):
@@ -116,6 +120,13 @@ def stages(
     rules = {_III: force_rules(first.force, float(square)), _IV: moment_rules(first.moment, float(square), span)}
     turning, first, second = (part.times(square) for part in (turning, first, second))
     fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
+    scale = _scale(layout)
+    noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
+    before = _data(turning, first, second, speed, noise)
+    after = None if fitted is None else _data(*_superpose(turning, first, fitted), second, speed, noise)
+    whole = turning.plus(first) if fitted is None else turning.plus(first).plus(fitted)
+    all_left = (*of_wrench(whole, 1, speed, noise), *of_wrench(second, 2, speed, noise))
+    of_all = (*of_wrench(turning.plus(first), 1, speed, noise), *of_wrench(second, 2, speed, noise))
 
     def shape(heading: _Heading, order: int, wrench: Wrench) -> _Shape:
         pair = wrench.force if heading.unit == "N" else wrench.moment
@@ -137,10 +148,21 @@ def stages(
             **found._asdict(),
             value=float(value[k]),
             remaining=None if remaining is None else float(remaining[k]),
+            acting=of_all if heading is _VIII else before[k : k + 1],
+            left=None if after is None else all_left if heading is _VIII else after[k : k + 1],
+            iron=iron(layout) if heading is _VII else (),
             rules_of_thumb=rules.get(heading, ()),
         )
         for k, (heading, found) in enumerate(shapes.items())
     )
+
+
+def _data(
+    turning: Wrench, first: Wrench, second: Wrench, speed: float, noise: tuple[float, float]
+) -> tuple[Acting, ...]:
+    """Stages I to VI, one each."""
+    parts = ((turning, 1), (first, 1), (second, 2))
+    return tuple(one for wrench, order in parts for one in of_wrench(wrench, order, speed, noise))
 
 
 def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None) -> Real:

@@ -33,6 +33,7 @@ SUFFIXES = {
     "_m3": "m3",
     "_m3_per_min": "m3/min",
     "_m_s": "m/s",
+    "_Hz": "Hz",
     "_mm_s": "mm/s",
     "_m_s2": "m/s2",
     "_N_per_m": "N/m",
