@@ -8,12 +8,14 @@ import sys
 import time
 import urllib.error
 import urllib.request
+from functools import partial
 from pathlib import Path
 
 from rich.console import Console
 from rich.table import Table
 
-from tests.benchmarks import outputs, whole_turn
+from optimizer.optimize import optimize
+from tests.benchmarks import discrete, outputs, whole_turn
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -28,6 +30,7 @@ def main() -> None:
     phases(console, repeats)
     by_output(console, max(repeats // 3, 5))
     bearing_optima(console, max(repeats // 6, 5))
+    choices(console, max(repeats // 12, 3))
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
     # each in a process of its own, which stays on one core or starts its own workers
     for module in ("wire", "sweep", "sweep_scaling"):
@@ -82,6 +85,23 @@ def bearing_optima(console: Console, repeats: int) -> None:
             row = (f"{found.solving:.1f}", f"{found.whole:.1f}", str(found.rounds), str(found.cuts), f"{found.gap:.1e}")
             table.add_row(name, "yes" if least_mass else "no", *row)
     console.print(table)
+
+
+def choices(console: Console, repeats: int) -> None:
+    """Choices from a catalogue beside SCIP, and what else is chosen from few possibilities."""
+    table = Table(title=f"choices to a gap of 1e-4, seconds of one core: median of {repeats}, and SCIP once")
+    for heading in ("case", "ours", "gap", "nodes", "SCIP", "gap", "nodes", "SCIP's less ours"):
+        table.add_column(heading, justify="left" if heading == "case" else "right")
+    for name, body in discrete.CHOICES.items():
+        found = discrete.beside(body, repeats, 60.0)
+        ours = (f"{found.ours_s:.2f}", f"{found.ours_gap:.1e}", str(found.ours_nodes))
+        theirs = (f"{found.theirs_s:.2f}", f"{found.theirs_gap:.1e}", str(found.theirs_nodes))
+        table.add_row(name, *ours, *theirs, f"{found.apart:.1e}")
+    console.print(table)
+    for name, seconds in discrete.others(repeats).items():
+        console.print(f"{name}: {seconds:.3f} s")
+    plate, radius = (discrete.median_s(partial(optimize, each), 5 * repeats) for each in discrete.plate_and_radius())
+    console.print(f"cut from plates {plate * 1e3:.1f} ms, at the radii that they come to {radius * 1e3:.1f} ms")
 
 
 def start_to_ready() -> float:

@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
-from tests.benchmarks import outputs, whole_turn
+from tests.benchmarks import discrete, outputs, whole_turn
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -42,3 +42,15 @@ def test_scroll_pin_cases_run() -> None:
 
 def test_broadcasting_case_runs() -> None:
     assert min(outputs.broadcasting(3)) > 0
+
+
+def test_choices_are_those_of_scip_independent() -> None:
+    found = discrete.beside(discrete.choice(6, None, masses=3), 1, 60.0)
+    assert found.ours_gap <= 1e-4
+    assert abs(found.apart) <= 2e-4
+
+
+def test_what_else_is_chosen_runs() -> None:
+    assert min(discrete.others(1).values()) > 0
+    plate, radius = (optimize(each) for each in discrete.plate_and_radius())
+    assert radius.total_mass_kg == pytest.approx(plate.total_mass_kg, rel=1e-4)

@@ -1,0 +1,155 @@
+"""Choices from what there is, beside SCIP; sixteen rows matched, the orders of eight throws, and what a plate costs.
+
+Times are those of the processor, so that others on the machine count little.
+"""
+
+import json
+import statistics
+import time
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from optimizer.certified import certified
+from optimizer.certified_discrete import continuous
+from optimizer.matching.match import match
+from optimizer.optimize import optimize
+from optimizer.outputs import prepare
+from optimizer.own_solver import own_solver
+from optimizer.stock import stock
+from optimizer.sweep.whole import sweep_table
+from schemas.match import MatchRequest
+from schemas.requests import OptimizeRequest
+from schemas.sweep import SweepRequest
+from tests.benchmarks.cases import EXAMPLES
+from tests.discrete.scip import scip
+
+_GAP = 1e-4
+
+
+class Beside(NamedTuple):
+    """One choice: computing time [s], gap over the yardstick and nodes, ours and of SCIP."""
+
+    ours_s: float
+    ours_gap: float
+    ours_nodes: int
+    theirs_s: float
+    theirs_gap: float
+    theirs_nodes: int
+    apart: float  # objectives, over the yardstick: above 0 where SCIP's is larger
+
+
+def choice(webs: int, holes: int | None, seed: int = 0, masses: int = 9) -> dict[str, Any]:
+    """Cranks with two webs each, whose counterweights are too small to reach the floor; without holes at one angle."""
+    rng = np.random.default_rng(seed)
+    throws = webs // 2
+    cranks = (rng.permutation(throws) * 360.0 / throws).tolist()
+    scatter = rng.uniform(0.95, 1.08, (throws, 2)).tolist()
+    turning = [
+        {
+            "position_m": 0.3 * k,
+            "crank_radius_m": 0.1,
+            "crank_angle_deg": cranks[k],
+            "rotating_mass_kg": 10.0 * scatter[k][0],
+            "rows": [{"axis_deg": 0.0, "reciprocating_mass_kg": 20.0 * scatter[k][1]}],
+        }
+        for k in range(throws)
+    ]
+    places = [
+        {
+            "name": f"{k // 2}{'ab'[k % 2]}",
+            "position_m": 0.3 * (k // 2) + (0.1 if k % 2 else -0.1),
+            "counterweight_radius_m": 0.15,
+            "max_mass_kg": 2.0,
+            "hole_angles_deg": [(cranks[k // 2] + 180.0) % 360.0]
+            if holes is None
+            else [360.0 * n / holes for n in range(holes)],
+        }
+        for k in range(webs)
+    ]
+    catalogue = {"masses_kg": [2.0 * n / masses for n in range(1, masses + 1)]}
+    machine = {"kind": "reciprocating", "speed_rpm": 500, "throws": turning, "webs": places, "catalogue": catalogue}
+    return {"machine": machine, "accuracy": {"relative_gap": _GAP, "time_limit_s": 30}}
+
+
+CHOICES = {"8 webs, 12 holes, 9 masses and none": choice(8, 12), "32 webs at fixed angles": choice(32, None)}
+
+
+def beside(body: dict[str, Any], repeats: int, time_limit_s: float) -> Beside:
+    """Our choice and that of SCIP, from the same options."""
+    request = OptimizeRequest.model_validate(body)
+    answer = optimize(request)
+    proof = answer.certificate
+    assert proof is not None
+    assert proof.relative_gap is not None
+    assert proof.nodes is not None
+    scene = prepare(request, ("residual",))
+    square = np.array([scene.omega_squared])
+    relaxed = certified(continuous(request), scene.responses, square, own_solver())
+    size = float(relaxed.certificate["yardstick"][0] / square[0])
+    began = time.process_time()
+    theirs = scip(relaxed.program.chosen(0), stock(request.machine).options, _GAP, size, time_limit_s)
+    theirs_s = time.process_time() - began
+    return Beside(
+        median_s(lambda: optimize(request), repeats),
+        proof.relative_gap,
+        proof.nodes,
+        theirs_s,
+        (theirs.objective - theirs.lower_bound) / size,
+        theirs.nodes,
+        theirs.objective / size - proof.objective / float(relaxed.certificate["yardstick"][0]),
+    )
+
+
+def median_s(operation: Callable[[], object], repeats: int) -> float:
+    """Seconds of the processor, warm."""
+    operation()
+    taken = []
+    for _ in range(repeats):
+        began = time.process_time()
+        operation()
+        taken.append(time.process_time() - began)
+    return statistics.median(taken)
+
+
+def others(repeats: int) -> dict[str, float]:
+    """Seconds of what else is chosen from few possibilities."""
+    rows, orders = sixteen_rows(), eight_orders()
+    return {
+        "16 rows matched": median_s(lambda: match(rows), repeats),
+        f"all {orders.total} orders of 8 throws with counterweights": median_s(lambda: sweep_table(orders), repeats),
+    }
+
+
+def sixteen_rows() -> MatchRequest:
+    """An in-line machine of sixteen even throws with parts that weigh 1 % more or less."""
+    rng = np.random.default_rng(16)
+    machine = choice(32, None)["machine"]
+    throws = [
+        throw | {"rotating_mass_kg": 10.0, "rows": [throw["rows"][0] | {"reciprocating_mass_kg": 20.0}]}
+        for throw in machine["throws"]
+    ]
+    weighed = rng.normal(10.0, 0.1, 16).tolist()
+    parts = [{"class": "piston", "names": [f"P{n}" for n in range(16)], "masses_kg": weighed}]
+    bare = {"kind": "reciprocating", "speed_rpm": 500, "throws": throws}
+    return MatchRequest.model_validate({"machine": bare, "parts": parts})
+
+
+def eight_orders() -> SweepRequest:
+    """Eight angles on the throws of the example, each once."""
+    body = json.loads((EXAMPLES / "sweeps" / "inline-eight-crank-orders.json").read_bytes())
+    del body["pareto"]
+    body["base"]["outputs"] = ["residual"]
+    return SweepRequest.model_validate(body | {"angles_deg": [45 * n for n in range(8)]})
+
+
+def plate_and_radius() -> tuple[OptimizeRequest, OptimizeRequest]:
+    """The example with plates, and its machine with the radii that they come to."""
+    body = json.loads((EXAMPLES / "plate-single.json").read_bytes())
+    request = OptimizeRequest.model_validate(body)
+    found = optimize(request)
+    for web, one in zip(body["machine"]["webs"], found.counterweights, strict=True):
+        del web["envelope"]
+        web |= {"counterweight_radius_m": one.radius_m, "max_mass_kg": one.mass_kg}
+    return request, OptimizeRequest.model_validate(body)

@@ -1,0 +1,32 @@
+"""The best set of options beside SCIP, a solver of mixed-integer cone programs (independent)."""
+
+import numpy as np
+import pytest
+
+from optimizer.program.verdict import yardstick
+from tests.discrete.scip import scip
+from tests.discrete.sets import options_of
+from tests.discrete.test_search import found_of
+from tests.program.cases import random_statement
+
+#: SCIP keeps constraints to 1e-6 of what they are scaled to; of the yardstick
+_CLOSE = 1e-5
+
+
+@pytest.mark.parametrize(
+    ("combine", "budget", "ceilings", "fitted"),
+    [("sum", False, False, None), ("max", True, False, None), ("sum", True, False, 3), ("max", False, True, None)],
+)
+def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | None) -> None:
+    """Four webs, five masses at six angles: 31^4 sets."""
+    problem = random_statement(11, combine, (1.0, 0.7), False, budget, ceilings, webs=4)
+    most = float(np.max(problem.limits.max_mass))
+    masses = [0.1 * most, 0.25 * most, 0.4 * most, 0.6 * most, 0.8 * most]
+    options = options_of(problem, masses, [0.0, 60.0, 120.0, 180.0, 240.0, 300.0], fitted)
+    size = float(yardstick(problem.alone())[0])
+    ours = found_of(problem, options, relative_gap=1e-6)
+    value = float(problem.objective(options.of(options.unbalance, ours.chosen)))
+    theirs = scip(problem, options, 1e-7, size, 60.0)
+    assert value == pytest.approx(theirs.objective, abs=_CLOSE * size)
+    assert ours.lower_bound <= theirs.objective + _CLOSE * size
+    assert theirs.lower_bound <= value + _CLOSE * size
