@@ -206,10 +206,7 @@ class Pool:
 
 def _cleared(quantity: Quantity, values: Complex) -> Complex:
     """Samples, all 0 where what the rows add to them cancels up to rounding."""
-    pieces, number = quantity.response.curves.pieces, quantity.response.number
-    wide = pieces.half[number] > 0.0
-    # fourth derivatives are bounded row by row, so that nothing cancels in them
-    added = np.max(pieces.rest[number][wide] / pieces.half[number][wide] ** 4, initial=0.0)
+    added = quantity.response.curves.pieces.size[quantity.response.number]
     return values if np.max(np.abs(values)) > _DUST * added else np.zeros_like(values)
 
 

@@ -20,6 +20,10 @@ def main() -> int:
     failed = [verdict for verdict in verdicts if verdict.faults]
     for verdict in failed:
         print(f"{verdict.case.name} ({verdict.case.why})", *verdict.faults, sep="\n    ")
+    for verdict in verdicts:
+        # allowed where the case says so, and said all the same
+        if verdict.status == "inaccurate" and not verdict.faults:
+            print(f"{verdict.case.name} ({verdict.case.why}) is inaccurate: {verdict.reason}")
     for theme in dict.fromkeys(verdict.case.theme for verdict in verdicts):
         of_theme = [verdict for verdict in verdicts if verdict.case.theme == theme]
         statuses = ", ".join(f"{name} {count}" for name, count in Counter(one.status for one in of_theme).items())

@@ -1,6 +1,6 @@
 """What is demanded of answers over the turn: bounds below values, values that samples agree with, and no silence.
 
-Loads at a tenth of a degree come from the simulation of samples, which shares no series with the brackets of peaks.
+Loads at many angles come from the simulation of samples, which shares no series with the brackets of peaks.
 """
 
 import time
@@ -11,13 +11,15 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
+from optimizer.outputs import MAX_SAMPLES
 from schemas.answers import OptimizeAnswer
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from tests.hard_turn.cases import Case
 
-#: so much of the largest load may be missed between two samples, and beside the corners that valves make
-_MISSED, _MISSED_CORNERS = 2e-5, 1e-3
-_STEP = 0.1
+#: so much of the largest load may be missed between two samples a tenth of a degree apart, and beside the corners that
+#: valves make
+_MISSED, _MISSED_CORNERS = 2e-5, 5e-3
+_STEPS = (0.02, 0.05, 0.1, 0.2, 0.5, 1.0)
 
 
 @dataclass
@@ -26,6 +28,7 @@ class Verdict:
 
     case: Case
     status: str = "exception"
+    reason: str = ""
     gap: float = 0.0
     mass_gap: float = 0.0
     seconds: float = 0.0  # of computing
@@ -55,7 +58,7 @@ def run(case: Case, sampled: bool = True) -> Verdict:
 
 def _judge(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer) -> None:
     case, proof = verdict.case, answer.certificate
-    verdict.status = answer.status
+    verdict.status, verdict.reason = answer.status, answer.status_reason
     verdict.demand(len(answer.status_reason) > 10, "nothing is said of the status")
     if case.expected != "said":
         verdict.demand(answer.status == case.expected, f"{answer.status}: {answer.status_reason}")
@@ -91,8 +94,13 @@ def _sampled(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer)
         return
     rng = np.random.default_rng(0)
     body = verdict.case.body
-    gas = any("cylinder" in row for throw in body["machine"]["throws"] for row in throw["rows"])
-    missed = _MISSED_CORNERS if gas or "friction" in body["machine"] else _MISSED
+    machine = body["machine"]
+    rows = [row for throw in machine["throws"] for row in throw.get("rows", ())]
+    # as close as an answer may hold them
+    turns, series = 2.0, len(rows) + len(machine["bearings"])
+    step = min(each for each in _STEPS if turns * series * 360.0 / each <= MAX_SAMPLES)
+    corners = "friction" in machine or any("cylinder" in row for row in rows)
+    missed = _MISSED_CORNERS * (step / 0.1) if corners else _MISSED * (step / 0.1) ** 2
     for off in (0.0, 1e-2):
         fitted = [
             {
@@ -104,7 +112,7 @@ def _sampled(verdict: Verdict, request: OptimizeRequest, answer: OptimizeAnswer)
             for web, each in zip(body["machine"]["webs"], answer.counterweights, strict=True)
         ]
         posed = {name: body[name] for name in ("machine", "fidelity")}
-        posed |= {"counterweights": fitted, "outputs": ["main_bearings"], "angles": {"step_deg": _STEP}}
+        posed |= {"counterweights": fitted, "outputs": ["main_bearings"], "angles": {"step_deg": step}}
         loads = analyze(AnalyzeRequest.model_validate(posed)).main_bearings
         assert loads is not None
         # of the components that are sampled, not of the brackets that stand beside them
