@@ -17,7 +17,7 @@ from optimizer.arrays import Complex
 from optimizer.program.certificate import nothing_proven
 from optimizer.program.compiled import ENOUGH, TARGET, suits_kernel
 from optimizer.program.edge import AMPLE, Unreachable, at_rest, proven_again, raised, smallest_excess
-from optimizer.program.kernel.finer_numbers import PRECISIONS, Precision
+from optimizer.program.kernel.finer_numbers import finest
 from optimizer.program.points import points_at
 from optimizer.program.polish import lightened, polished
 from optimizer.program.reference.solver import Solver
@@ -76,7 +76,7 @@ def _under_ceilings(statement: Statement, asked: Asked, solver: Solver, quick: F
     if asked.least_mass and (rest := at_rest(statement, asked, quick.smallest)):
         return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
     if nearest.objective <= -AMPLE:
-        found = _by_all(statement, asked, solver, quick, nearest.unbalance, precisions=())
+        found = _by_all(statement, asked, solver, quick, nearest.unbalance, finer=False)
         if enough(found, asked):
             return replace(found, certify_s=found.certify_s + nearest.certify_s)
     # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
@@ -92,29 +92,27 @@ def _by_all(
     solver: Solver,
     quick: Found,
     inside: Complex | None = None,
-    precisions: tuple[Precision, ...] = PRECISIONS,
+    finer: bool = True,
 ) -> Solution:
     """One method after the other, each with what is known already.
 
     Parameters
     ----------
     inside : a point as far below the ceilings as there is.
+    finer : whether finer numbers are tried too.
     """
     quick = lightened(statement, asked, polished(statement, asked, quick, inside))
     if quick.certified:
         return quick.lightest
-    first = solver.smallest_objective(statement, _SHARPNESS * asked.share, quick.smallest)
-    if asked.least_mass and first.below_ceilings:
-        first = solver.least_mass(statement, first, asked.share, _MASS_GAP, quick.lightest)
-    found = first
-    for precision in precisions:
-        few = 0 < statement.limits.radius.size <= precision.most_webs
-        if enough(found, asked) or not few or not suits_kernel(statement):
-            break
-        fine = polished(statement, asked, interior_point(statement, asked, precision, inside), inside)
-        fine = lightened(statement, asked, fine, precision)
-        found = fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
-    return found
+    found = solver.smallest_objective(statement, _SHARPNESS * asked.share, quick.smallest)
+    if asked.least_mass and found.below_ceilings:
+        found = solver.least_mass(statement, found, asked.share, _MASS_GAP, quick.lightest)
+    precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
+    if precision is None or enough(found, asked):
+        return found
+    fine = polished(statement, asked, interior_point(statement, asked, precision, inside), inside)
+    fine = lightened(statement, asked, fine, precision)
+    return fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
 
 
 def _better_of(one: Solution, other: Solution, share: float) -> Solution:

@@ -11,7 +11,7 @@ from optimizer.formulate import formulate
 from optimizer.outputs import prepare
 from optimizer.program.compiled import BothStages, both_stages
 from optimizer.program.edge import Unreachable
-from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS
+from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
 from optimizer.program.kernel.interior_point import solve
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
@@ -219,7 +219,12 @@ def test_every_method_answers_some_program() -> None:
     for case in COMBINATIONS:
         found = optimum(random_statement(0, *case), 1e-6, False)
         methods[found.method] = str(case)
-    assert methods.keys() == {CLOSED_FORM, INTERIOR_POINT, CONE_PROGRAM, EXTENDED.name, FIFTY_DIGITS.name}, methods
+    assert methods.keys() == {CLOSED_FORM, INTERIOR_POINT, CONE_PROGRAM, FIFTY_DIGITS.name}, methods
+
+
+def test_the_finest_numbers_that_are_bearable() -> None:
+    most = {webs: finest(webs) for webs in (0, 1, 16, 17, 64, 65)}
+    assert most == {0: None, 1: FIFTY_DIGITS, 16: FIFTY_DIGITS, 17: EXTENDED, 64: EXTENDED, 65: None}
 
 
 # ---- inputs that leave nothing to solve

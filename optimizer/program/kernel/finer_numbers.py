@@ -1,8 +1,8 @@
 """The interior point once more, interpreted, in finer numbers: slow, for what double precision cannot settle.
 
-The functions are those of :mod:`optimizer.program.kernel.interior_point` before compilation. First with numpy's
-longdouble (64 bits of mantissa on x86; where it is no finer than double it gains nothing), then with
-50 decimal digits.
+The functions are those of :mod:`optimizer.program.kernel.interior_point` before compilation, with 50 decimal
+digits, or, for more webs, numpy's longdouble (64 bits of mantissa on x86; where it is no finer than double it gains
+nothing).
 """
 
 from collections.abc import Callable
@@ -79,6 +79,14 @@ FIFTY_DIGITS = Precision(
     lambda: localcontext(_FIFTY),
 )
 PRECISIONS = (EXTENDED, FIFTY_DIGITS)
+
+
+def finest(webs: int) -> Precision | None:
+    """The finest numbers in which the time is bearable; None where there are none, or no webs.
+
+    Coarser ones are not tried before: interpreted, they take half as long, and what they settle finer ones do.
+    """
+    return next((each for each in reversed(PRECISIONS) if 0 < webs <= each.most_webs), None)
 
 
 def interpreted(numpy: SimpleNamespace, number: Callable[[float], Any] = float) -> dict[str, Any]:
