@@ -209,7 +209,7 @@ def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator
 def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     machine, square = posed(request).machine, scene.omega_squared
-    alone = replace(asked.program, ceilings=(), limited=())
+    alone = asked.program.changed(ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
     components = [name for name in groups if name not in RESPONSES]
     # of quantities those that the conflict is about
@@ -224,7 +224,7 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
     least = {name: _least(alone, group) for name, group in groups.items()}
     most = np.max([found.limits.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
     if np.any(most != alone.limits.max_mass):
-        alone = replace(alone, limits=replace(alone.limits, max_mass=most))
+        alone = alone.changed(limits=replace(alone.limits, max_mass=most))
         least = {name: _least(alone, group) for name, group in groups.items()}
     value = {name: each.goals[0].value * square for name, each in least.items()}
     bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
@@ -309,7 +309,7 @@ def _under(program: OverTurn, scenario: str) -> Found | Unkept:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
-    return over_turn(replace(program, goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, ())
+    return over_turn(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, ())
 
 
 def _at_fault(found: Unkept) -> list[str]:
@@ -324,7 +324,7 @@ def _at_fault(found: Unkept) -> list[str]:
 
 def _least(program: OverTurn, group: Group) -> Found:
     """The smallest value of one group."""
-    found = over_turn(replace(program, goals=(Goal("alone", (group,)),)), _ALONE, False, ())
+    found = over_turn(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, ())
     assert isinstance(found, Found)  # without ceilings nothing is out of reach
     return found
 

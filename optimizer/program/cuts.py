@@ -157,7 +157,7 @@ class _Course:
 
     def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof:
         """Make a goal small under those before it."""
-        so_far = replace(self.program, goals=self.program.goals[: n + 1])
+        so_far = self.program.changed(goals=self.program.goals[: n + 1])
         self.inside, most = _again(so_far, self.inside), self._most(n)
         self.so_far = _bounded(so_far, self.inside, most)
         margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
@@ -236,7 +236,8 @@ def _nearest(program: OverTurn, pool: Pool, until: float) -> Stage:
 
 def _again(program: OverTurn, point: Point) -> Point:
     """A point with what it comes to in another program."""
-    return replace(point, values=program.values(point.unbalance, _TOLD))
+    known = None if np.any(point.unbalance) else program.at_rest
+    return replace(point, values=known or program.values(point.unbalance, _TOLD))
 
 
 def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
@@ -246,4 +247,4 @@ def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
         return program
     levels = np.append(most, inside.values.goals[most.size]) / program.units
     # no point that is no larger has a larger sum in any case
-    return replace(program, limits=bounded(statement, 2.0 * float(np.sum(levels[program.goal_of_case]))).limits)
+    return program.changed(limits=bounded(statement, 2.0 * float(np.sum(levels[program.goal_of_case]))).limits)

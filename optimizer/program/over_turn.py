@@ -11,7 +11,7 @@ of that is proven of the program.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -22,8 +22,10 @@ from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import PARTS, Ceilings, Names, Norms, Row, Statement, Term, WeightedPeak, limited
 from optimizer.response import Response
 
-#: relative width of the brackets by which quantities are known where they only are a measure
-_FINE = 1e-9
+#: relative width of the brackets by which quantities are known without counterweights
+_FINE = 1e-12
+#: what is known of the quantities alone
+_OF_QUANTITIES = ("samples", "first", "_resting")
 #: what is smaller is nothing
 _TINY = 1e-300
 #: of every quantity
@@ -109,6 +111,12 @@ class OverTurn:
         sums = np.bincount(self.case_of, of_groups)
         return np.maximum.reduceat(sums, np.searchsorted(self.goal_of_case, np.arange(len(self.goals))))
 
+    def changed(self, **fields: Any) -> "OverTurn":
+        """The program with other goals, ceilings or limits, and what is known of its quantities."""
+        other = replace(self, **fields)
+        vars(other).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
+        return other
+
     @cached_property
     def samples(self) -> Samples:
         """The quantities all over the turn."""
@@ -181,7 +189,7 @@ class OverTurn:
 
     def alone(self, n: int) -> "OverTurn":
         """The program of one of the goals alone."""
-        return replace(self, goals=self.goals[n : n + 1])
+        return self.changed(goals=self.goals[n : n + 1])
 
     def statement(self, cuts: Cuts) -> Statement:
         """The program with finitely many cuts of every quantity: its groups, its ceilings with what is limited last."""
@@ -282,7 +290,7 @@ class OverTurn:
         sizes = self.sizes[len(self.ceilings) :].tolist()
         weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
         goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),), 1.0)
-        return replace(self, goals=(goal,), ceilings=(), limited=())
+        return self.changed(goals=(goal,), ceilings=(), limited=())
 
 
 class _Terms:
