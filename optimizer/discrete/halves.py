@@ -156,11 +156,11 @@ class _Pairs:
         """Every pair; whether the time was enough."""
         step = max(1, _AT_ONCE // self.one.shape[0])
         for start in range(0, self.other.shape[0], step):
+            if start and spent():
+                return False
             part = np.arange(start, min(start + step, self.other.shape[0]))
             i, j = np.meshgrid(np.arange(self.one.shape[0]), part, indexing="ij")
             self.evaluated(i.ravel(), j.ravel())
-            if spent():
-                return False
         return True
 
     def nearest(self) -> None:

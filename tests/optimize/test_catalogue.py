@@ -268,8 +268,10 @@ def test_sweeps_refuse_a_catalogue() -> None:
         SweepRequest.model_validate({"base": {"machine": twin()}, "axes": [axis]})
 
 
-def test_nothing_to_choose_for() -> None:
-    found = answer(machine(twin()["throws"], [], catalogue={"masses_kg": [3], "angle_step_deg": 60}))
+@pytest.mark.parametrize("time_limit_s", [1e-9, 30.0])
+def test_nothing_to_choose_for(time_limit_s: float) -> None:
+    bare = machine(twin()["throws"], [], catalogue={"masses_kg": [3], "angle_step_deg": 60})
+    found = answer(bare, {"time_limit_s": time_limit_s})
     assert (found.status, found.counterweights, found.total_mass_kg) == ("optimal", (), 0.0)
 
 
