@@ -14,6 +14,7 @@ from optimizer.figures.cautions import cautions
 from optimizer.figures.dynamics import OVER_THE_TURN
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
 from optimizer.figures.internal_moment import INTERNAL_MOMENT
+from optimizer.figures.loads import LOADS
 from optimizer.figures.orders import ORDERS
 from optimizer.figures.output import Output
 from optimizer.figures.pins import PIN_LOADS
@@ -36,6 +37,7 @@ OUTPUTS: dict[str, Output] = {
         STAGES,
         INTERNAL_MOMENT,
         *OVER_THE_TURN,
+        LOADS,
         ROLL,
         MAIN_BEARINGS,
         PIN_LOADS,

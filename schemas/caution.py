@@ -16,6 +16,7 @@ CautionCode = Literal[
     "bending_moment_grows",
     "peak_not_closed",
     "fragile_optimum",
+    "crosshead_lifts",
 ]
 
 

@@ -137,6 +137,11 @@ class ReciprocatingMachine(Rotor):
     flywheel: FlywheelData | None = Field(
         None, description="turning inertia; needed only by the output flywheel", examples=[{"irregularity": 0.01}]
     )
+    gravity_deg: Annotated[Angle | None, Unit("deg")] = Field(
+        None,
+        description="direction in which weight acts across the shaft, as drawn; needed only by the guides of loads",
+        examples=[270.0],
+    )
     bearings: tuple[Bearing, ...] = Field(
         (),
         max_length=MAX_BEARINGS,

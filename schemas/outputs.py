@@ -16,6 +16,7 @@ from schemas.dynamics import (
     RodLoads,
     Torque,
 )
+from schemas.loads import Loads
 from schemas.quantities import Degrees, NewtonMetres, Newtons
 from schemas.roll import Roll
 from schemas.scroll import PinLoads
@@ -177,6 +178,7 @@ class OutputFields(Model):
     flywheel: Flywheel | None = Field(None, description="flywheel, if asked for", examples=[None])
     overturning: Overturning | None = Field(None, description="overturning couple, if asked for", examples=[None])
     roll: Roll | None = Field(None, description="roll moment, if asked for or weighed", examples=[None])
+    loads: Loads | None = Field(None, description="loads of parts, guides and base, if asked for", examples=[None])
     main_bearings: MainBearings | None = Field(None, description="bearing loads, if asked for", examples=[None])
     pin_loads: PinLoads | None = Field(None, description="scroll pin loads, if asked for", examples=[None])
 

@@ -148,7 +148,7 @@ IDLE = (
     " name description length_m throw overspeed_rpm friction flywheel bearings cylinder cylinders rotation_torque_Nm"
     " tangential_gas_force_N drive_bearing pin_circle_radius_m time_limit_s outputs angles fidelity multipliers"
     " symmetric points total_mass_budgets_kg bearing_measure balance_quality grade_mm_s"
-    " centre_of_mass_m plane_a_m plane_b_m "
+    " centre_of_mass_m plane_a_m plane_b_m gravity_deg "
 )
 
 

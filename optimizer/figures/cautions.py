@@ -17,6 +17,7 @@ from schemas.base import Model
 from schemas.caution import Caution, CautionCode
 from schemas.dynamics import MainBearings
 from schemas.first_order import Residual
+from schemas.loads import Loads
 from schemas.machine import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.robust import Sensitivity
@@ -85,6 +86,20 @@ def _no_gas(told: Told) -> Iterator[Caution]:
             message=f"{who} loads are those of inertia and friction alone.",
             pointer=pointer(("machine", *rows[0])),
         )
+
+
+def _crosshead_lifts(told: Told) -> Iterator[Caution]:
+    """Rows whose side force carries the crosshead to the upper guide, from which it falls at the dead centres."""
+    loads: Loads | None = told.fields.get("loads")
+    for row in () if loads is None else loads.rows:
+        if row.guide is not None and row.guide.lifts:
+            weight, up = row.guide.weight_N, row.guide.weight_N - row.guide.smallest_N
+            yield Caution(
+                code="crosshead_lifts",
+                message=f"The crosshead of this row leaves its lower guide over {100.0 * row.guide.lifted_share:.0f} % "
+                f"of the turn: a side force of up to {_plain(up)} N against a weight of {_plain(weight)} N.",
+                pointer=pointer(("machine", "throws", row.throw, "rows", row.row)),
+            )
 
 
 def _second_order(told: Told) -> Iterator[Caution]:
@@ -292,6 +307,7 @@ def _fragile(told: Told) -> Iterator[Caution]:
 Watch = Callable[[Told], Iterator[Caution]]
 WATCHES: tuple[Watch, ...] = (
     _no_gas,
+    _crosshead_lifts,
     _second_order,
     _bare_crank,
     _component_grows,

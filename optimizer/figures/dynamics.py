@@ -48,7 +48,7 @@ def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
                 velocity_m_s=_series(found.velocity[k]),
                 acceleration_m_s2=_series(found.acceleration[k]),
             )
-            for k, labels in _rows(scene)
+            for k, labels in rows_of(scene)
         ),
     )
 
@@ -94,7 +94,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
                 force_N=_series(total[k]),
                 indicated_power_W=float(cycle.power[k]),
             )
-            for k, labels in _rows(scene)
+            for k, labels in rows_of(scene)
         ),
         indicated_power_W=float(_indicated_power(scene)),
     )
@@ -117,7 +117,7 @@ def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce
                 peak_compression_N=-float(peaks.low.lower[k]),
                 peak_compression_bracket_N=_negated(bracket(peaks.low, k)),
             )
-            for k, labels in _rows(scene)
+            for k, labels in rows_of(scene)
         ),
     )
 
@@ -133,7 +133,7 @@ def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     by_case = {case: of_rows(scene, reading) for case, reading in _CASES.items()}
     on_guide = of_rows(scene, "side").magnitude
     rows = []
-    for k, labels in _rows(scene):
+    for k, labels in rows_of(scene):
         cases = tuple(_case(case, peaks, k) for case, peaks in by_case.items())
         worst = max(cases, key=_largest)
         rows.append(
@@ -173,7 +173,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
         angle_deg=scene.angles,
         rows=tuple(
             RowTorque(**labels, torque_Nm=_series(found.rows[k]), mean_torque_Nm=float(integrals.row_mean[k]))
-            for k, labels in _rows(scene)
+            for k, labels in rows_of(scene)
         ),
         rotating_friction_Nm=float(found.rotating_friction),
         torque_Nm=_series(found.total),
@@ -208,7 +208,7 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     total, peak = np.sum(rows, axis=-2), of_torque(scene)
     return Overturning(
         angle_deg=scene.angles,
-        rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in _rows(scene)),
+        rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in rows_of(scene)),
         couple_Nm=_series(total),
         peak_Nm=float(peak.lower),
         peak_bracket_Nm=bracket(peak),
@@ -216,7 +216,7 @@ def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
     )
 
 
-def _rows(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
+def rows_of(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
     """Number of every row, and its labels."""
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # no other has effects over the turn

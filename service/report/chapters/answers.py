@@ -11,6 +11,7 @@ from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
+from service.report.chapters.loads import loads
 from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
 from service.report.chapters.roll import roll
@@ -34,6 +35,7 @@ CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
         ),
     ),
     **OVER_THE_TURN,
+    "loads": loads,
     "roll": roll,
     "pin_loads": lambda _machine, found: pin_loads(found),
 }

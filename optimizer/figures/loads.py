@@ -1,0 +1,168 @@
+"""Loads as a designer of parts asks for them, from the forces over the turn."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.effects.results import GasCycle
+from optimizer.figures.dynamics import rows_of
+from optimizer.figures.output import Output
+from optimizer.figures.peaks import of_rows, of_torque
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.gas import gas_forces
+from optimizer.mechanics.kinematics import motion, own_angle
+from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.weight import on_bearings, on_guide
+from optimizer.scene import Prepared
+from optimizer.shaft import INFLUENCES, bearing_places
+from schemas.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
+from schemas.machine import ReciprocatingMachine
+from schemas.throws import row_cylinders
+
+
+def _figure(scene: Prepared, _fitted: Complex | None) -> Loads:
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
+    found, integrals = scene.results["torque"], scene.results["torque_integrals"]
+    beyond = found.total - integrals.mean
+    inertia = _inertia(scene, machine)
+    return Loads(
+        angle_deg=scene.angles,
+        rows=tuple(_rows(scene, machine)),
+        throws=tuple(
+            ThrowMass(throw=t, rotating_mass_kg=throw.rotating_mass_kg + sum(map(_rod_rotating, throw.rows)))
+            for t, throw in enumerate(machine.throws)
+        ),
+        driver_Nm=float(integrals.mean),
+        shared_base_Nm=tuple(beyond.tolist()),
+        own_base_peak_Nm=float(of_torque(scene, found.rotating_friction).lower),
+        shared_base_peak_Nm=float(np.max(np.abs(beyond))),
+        # J eps is what the constant torque of the driver leaves over
+        angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
+        bearing_weights=tuple(_weights(scene, machine)),
+        gravity_deg=machine.gravity_deg,
+    )
+
+
+def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
+    """Polar moment of inertia of all that turns, kg m^2: as given, or what the irregularity asks for."""
+    wheel = machine.flywheel
+    if wheel is None:
+        return None
+    if wheel.inertia_kg_m2 is not None:
+        return wheel.inertia_kg_m2
+    # delta = dE / (J omega^2)
+    allowed = wheel.irregularity or np.nan
+    return float(scene.results["torque_integrals"].fluctuation / (allowed * scene.omega_squared))
+
+
+def _rod_rotating(row: Any) -> float:
+    rod = row.connecting_rod
+    return 0.0 if rod is None else float((1.0 - rod.reciprocating_share) * rod.mass_kg)
+
+
+def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
+    forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
+    piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
+    at_centres = _at_dead_centres(scene)
+    guides = _guides(scene, machine)
+    rows = [row for throw in machine.throws for row in throw.rows]
+    for k, labels in rows_of(scene):
+        three = {
+            "gas": float(np.max(np.abs(forces.gas[k]))),
+            "inertia": float(np.max(np.abs(forces.inertia[k]))),
+            "running": float(piston.lower[k]),
+        }
+        worst = max(three, key=lambda name: three[name])
+        yield RowLoad(
+            **labels,
+            reciprocating_mass_kg=float(masses[k]),
+            rod_rotating_mass_kg=_rod_rotating(rows[k]),
+            largest_gas_N=three["gas"],
+            largest_inertia_N=three["inertia"],
+            largest_piston_force_N=three["running"],
+            piston_rod_N=three[worst],
+            piston_rod_governed_by=worst,
+            crosshead_pin_N=float(rod.lower[k]),
+            stop_at_outer_dead_centre_N=float(at_centres[k, 0]),
+            stop_at_inner_dead_centre_N=float(at_centres[k, 1]),
+            stop_over_the_turn_N=float(stopped.lower[k]),
+            covers=tuple(_covers(scene, k, sum(1 for _ in row_cylinders(rows[k])))),
+            frame=_frame(forces.gas[k]),
+            guide=None if guides is None else guides[k],
+        )
+
+
+def _at_dead_centres(scene: Prepared) -> Real:
+    """Gas force of every row at its own outer and inner dead centre, (rows, 2) N."""
+    cycle: GasCycle | None = scene.results.get("gas")
+    count = scene.layout.reciprocating.mass.shape[-1]
+    if cycle is None:
+        return np.zeros((count, 2))
+    ahead = own_angle(scene.layout, np.zeros(1))[..., 0]
+    angle = np.concatenate([-ahead, np.pi - ahead])
+    total = gas_forces(cycle.chambers, motion(scene.layout, angle), scene.layout, cycle.traces).total
+    rows = np.arange(count)
+    return np.stack([total[rows, rows], total[rows, count + rows]], axis=-1)
+
+
+def _covers(scene: Prepared, k: int, cylinders: int) -> Iterator[CoverLoad]:
+    cycle: GasCycle | None = scene.results.get("gas")
+    if cycle is None:
+        return
+    outward = np.abs(cycle.forces.force[k])
+    for chamber in range(2 * cylinders):
+        low, high = float(np.min(outward[chamber])), float(np.max(outward[chamber]))
+        side = "crank" if chamber % 2 else "head"
+        yield CoverLoad(cylinder=chamber // 2, side=side, largest_N=high, smallest_N=low)
+
+
+def _frame(gas: Real) -> FrameLoad:
+    """The cylinders pull at the frame against the gas force of the pistons."""
+    low, high = float(np.min(-gas)), float(np.max(-gas))
+    return FrameLoad(
+        tension_N=max(high, 0.0),
+        compression_N=min(low, 0.0) + 0.0,
+        mean_N=0.5 * (low + high) + 0.0,
+        amplitude_N=0.5 * (high - low),
+    )
+
+
+def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] | None:
+    if machine.gravity_deg is None:
+        return None
+    layout = scene.layout
+    down = np.asarray(direction(np.asarray(machine.gravity_deg)))
+    masses = layout.reciprocating.mass
+    force, weight = on_guide(scene.results["rod_forces"].side, layout.reciprocating.axis, layout.sense, masses, down)
+    return [
+        GuideLoad(
+            weight_N=float(weight[k]),
+            largest_N=float(np.max(force[k])),
+            smallest_N=float(np.min(force[k])),
+            lifts=None if weight[k] == 0.0 else bool(np.any(force[k] < 0.0)),
+            lifted_share=0.0 if weight[k] == 0.0 else float(np.mean(force[k] < 0.0)),
+        )
+        for k in range(masses.shape[-1])
+    ]
+
+
+def _weights(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[BearingWeight]:
+    if not machine.bearings:
+        return
+    parts = [(throw.position_m, throw.rotating_mass_kg) for throw in machine.throws]
+    parts += [(throw.position_m + row.offset_m, _rod_rotating(row)) for throw in machine.throws for row in throw.rows]
+    places, masses = (stacked(each) for each in zip(*parts, strict=True))
+    influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
+    for bearing, weight in zip(machine.bearings, on_bearings(influence, masses), strict=True):
+        yield BearingWeight(name=bearing.name, weight_N=float(weight))
+
+
+LOADS = Output(
+    "loads",
+    "loads on piston rod, pin, covers, frame, guides, base and bearings",
+    ("gas", "piston_force", "rod_forces", "torque", "torque_integrals", "whole_turn"),
+    _figure,
+)

@@ -1,0 +1,47 @@
+"""Weights: on the guides of crossheads, which they may lift off, and on the main bearings."""
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+
+#: m/s^2, standard acceleration of free fall
+GRAVITY = 9.80665
+
+
+def on_guide(side: Real, axis: Complex, sense: Real, mass: Real, down: Complex) -> tuple[Real, Real]:
+    """Force of the crossheads on their guides with their weight, and the weight alone, across the axis.
+
+    In rod tension the rod draws the crosshead to the side of the crank pin: the side force N points along s j e^{jg}.
+    Of the weight the part across the axis lies on the guide. Both are given positive towards the lower guide, so that
+    a crosshead is off it where the sum is negative (lecture slides on compressors: one of two opposed rows is lifted by
+    its side force, falls at the dead centres, and knocks).
+
+    Parameters
+    ----------
+    side : (..., rows, T) N, positive in rod tension.
+    axis : (..., rows) direction of the cylinder axes.
+    sense : (...) of rotation.
+    mass : (..., rows) kg.
+    down : (...) direction of gravity.
+
+    Returns
+    -------
+    (..., rows, T) N and (..., rows) N; the latter 0 where the axis is upright, so that there is no lower guide.
+    """
+    across = 1j * axis
+    part = (np.conj(across) * np.asarray(down)[..., None]).real
+    # an upright row has none; 1e-12 of the weight is rounding
+    weight = np.where(np.abs(part) > 1e-12, mass * GRAVITY * np.abs(part), 0.0)
+    towards = np.where(part < 0.0, -1.0, 1.0) * np.asarray(sense)[..., None]
+    return towards[..., None] * side + weight[..., None], weight
+
+
+def on_bearings(influence: Real, mass: Real) -> Real:
+    """Weights of masses on the shaft at the bearings, (..., B) N.
+
+    Parameters
+    ----------
+    influence : (..., B, L) load on every bearing for one unit in every plane.
+    mass : (..., L) kg.
+    """
+    return np.asarray(np.sum(influence * mass[..., None, :], axis=-1) * GRAVITY)

@@ -1,0 +1,126 @@
+"""Loads as a designer of parts asks for them: the 2D12, whose figures are published, and what follows by hand."""
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.analyze import analyze
+from optimizer.mechanics.weight import GRAVITY, on_guide
+from schemas.answers import AnalyzeAnswer
+from schemas.loads import Loads
+from schemas.requests import AnalyzeRequest
+from service.documents.examples import load
+
+
+def answer(outputs: tuple[str, ...] = ("loads", "torque", "rod_loads"), **machine: Any) -> AnalyzeAnswer:
+    posted = json.loads(load("2d12"))["machine"] | machine
+    request = {"machine": posted, "outputs": list(outputs), "angles": {"step_deg": 5}}
+    return analyze(AnalyzeRequest.model_validate(request))
+
+
+def loads_of(found: AnalyzeAnswer) -> Loads:
+    assert found.loads is not None
+    return found.loads
+
+
+BOTH = answer(gravity_deg=270)
+
+
+def test_gas_forces_at_the_dead_centres_published() -> None:
+    """Design calculation of the 2D12, 1.11: -239491.5 and -239937.4 N outside, 228681.6 N inside, with pi = 3.14."""
+    rows = loads_of(BOTH).rows
+    outer, inner = ([getattr(row, f"stop_at_{end}_dead_centre_N") for row in rows] for end in ("outer", "inner"))
+    assert outer == pytest.approx([-239491.5, -239937.4], rel=6e-4)
+    assert inner[0] == pytest.approx(228681.6, rel=6e-4)
+    # over the turn the lean of the rod adds little, and nothing at the dead centre itself
+    assert BOTH.rod_loads is not None
+    for row, loaded in zip(rows, BOTH.rod_loads.rows, strict=True):
+        stop = next(case for case in loaded.cases if case.case == "sudden_stop")
+        assert row.stop_over_the_turn_N == max(stop.tension_N, -stop.compression_N)
+        assert row.stop_over_the_turn_N >= abs(row.stop_at_outer_dead_centre_N) * (1.0 - 1e-9)
+
+
+def test_masses_published() -> None:
+    """303.60 and 277.53 kg; 0.7 of each rod turns, with 12 kg of the throw."""
+    found = loads_of(BOTH)
+    assert [row.reciprocating_mass_kg for row in found.rows] == pytest.approx([303.60, 277.53], abs=5e-3)
+    assert [row.rod_rotating_mass_kg for row in found.rows] == pytest.approx([0.7 * 86.025] * 2)
+    assert [throw.rotating_mass_kg for throw in found.throws] == pytest.approx([12.0 + 0.7 * 86.025] * 2)
+    assert sum(one.weight_N for one in found.bearing_weights) == pytest.approx(2 * (12.0 + 0.7 * 86.025) * GRAVITY)
+
+
+def test_piston_rod_covers_and_frame_analytic() -> None:
+    for row in loads_of(BOTH).rows:
+        largest = (row.largest_gas_N, row.largest_inertia_N, row.largest_piston_force_N)
+        assert row.piston_rod_N == max(largest)
+        assert row.piston_rod_governed_by == "gas"
+        head, crank = row.covers
+        # at the outer dead centre the head side has its largest pressure, and the crank side its smallest
+        assert head.largest_N - crank.smallest_N == pytest.approx(-row.stop_at_outer_dead_centre_N)
+        frame = row.frame
+        assert frame.tension_N == pytest.approx(-row.stop_at_outer_dead_centre_N)
+        assert frame.tension_N == pytest.approx(frame.mean_N + frame.amplitude_N)
+        assert frame.compression_N == pytest.approx(frame.mean_N - frame.amplitude_N)
+
+
+def test_base_and_turning_masses_analytic() -> None:
+    """J eps = driver less torque; over a turn the speed comes back, and its range is the irregularity asked for."""
+    found = loads_of(answer(outputs=("loads", "torque", "flywheel")))
+    whole = answer()
+    assert whole.torque is not None
+    np.testing.assert_allclose(found.shared_base_Nm, np.array(whole.torque.torque_Nm) - whole.torque.mean_torque_Nm)
+    assert found.driver_Nm == whole.torque.mean_torque_Nm
+    assert found.own_base_peak_Nm == whole.torque.peak_Nm
+    assert found.angular_acceleration_rad_s2 is not None
+    assert abs(np.mean(found.angular_acceleration_rad_s2)) < 2e-2 * np.max(np.abs(found.angular_acceleration_rad_s2))
+    omega = 500.0 * np.pi / 30.0
+    speed = np.cumsum(found.angular_acceleration_rad_s2) * np.deg2rad(5.0) / omega
+    assert np.ptp(speed) / omega == pytest.approx(0.01, rel=0.05)
+    assert loads_of(answer(flywheel=None)).angular_acceleration_rad_s2 is None
+
+
+def test_one_of_two_opposed_crossheads_lifts_published() -> None:
+    """Lecture slides: in one of two opposed rows the side force points up. In a machine that turns the other way, in
+    the other row.
+    """
+    shares = [row.guide.lifted_share for row in loads_of(BOTH).rows if row.guide]
+    other = answer(gravity_deg=270, rotation="cw")
+    reversed_ = [row.guide.lifted_share for row in loads_of(other).rows if row.guide]
+    assert max(shares) > 0.5 > min(shares)
+    assert np.argmax(shares) != np.argmax(reversed_)
+    warned = [warning for warning in BOTH.warnings if warning.code == "crosshead_lifts"]
+    assert f"/machine/throws/{np.argmax(shares)}/rows/0" in [warning.pointer for warning in warned]
+    # without gravity nothing is said of it
+    silent = answer()
+    assert all(row.guide is None for row in loads_of(silent).rows)
+    assert "crosshead_lifts" not in [warning.code for warning in silent.warnings]
+
+
+def test_guides_by_hand_analytic() -> None:
+    """Axis along +x, turning counter-clockwise, weight down: tension draws the crosshead up towards the crank pin.
+
+    Only over the first half of the turn is the pin above the axis; the side force has that sign in it already.
+    """
+    side = np.array([[-50.0, 0.0, 200.0]])
+    axis, down = np.array([1.0 + 0j]), np.asarray(-1j)
+    force, weight = on_guide(side, axis, np.asarray(1.0), np.array([10.0]), down)
+    np.testing.assert_allclose(weight, [98.0665])
+    np.testing.assert_allclose(force, [[148.0665, 98.0665, -101.9335]])
+    # an upright row has no lower guide
+    _, none = on_guide(side, np.array([1j]), np.asarray(1.0), np.array([10.0]), down)
+    assert none == 0.0
+
+
+def test_without_gas_only_inertia_loads() -> None:
+    posted = json.loads(load("2d12"))["machine"]
+    for throw in posted["throws"]:
+        throw["rows"][0]["cylinder"] = None
+    found = loads_of(answer(throws=posted["throws"], friction=None))
+    for row in found.rows:
+        assert (row.covers, row.stop_at_outer_dead_centre_N, row.frame.amplitude_N) == ((), 0.0, 0.0)
+        # analytic: m r omega^2 (1 + lambda) at the outer dead centre, which is a sample
+        omega = 500.0 * np.pi / 30.0
+        assert row.largest_inertia_N == pytest.approx(row.reciprocating_mass_kg * 0.14 * omega**2 * 1.2)
+        assert row.piston_rod_governed_by in ("inertia", "running")
