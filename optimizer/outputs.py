@@ -37,8 +37,8 @@ OUTPUTS: dict[str, Output] = {
         STAGES,
         INTERNAL_MOMENT,
         *OVER_THE_TURN,
-        LOADS,
         ROLL,
+        LOADS,
         MAIN_BEARINGS,
         PIN_LOADS,
     )

@@ -179,7 +179,8 @@ def test_fidelity_of_the_shaft_changes_the_bearings_alone() -> None:
     body = complete()
     hinged = figures(found(*EVERY, body=body))
     continuous = figures(found(*EVERY, body=body, fidelity={"shaft": "continuous"}))
-    assert {name for name in EVERY if hinged[name] != continuous[name]} == {"main_bearings"}
+    # loads have the weights on the bearings
+    assert {name for name in EVERY if hinged[name] != continuous[name]} == {"main_bearings", "loads"}
 
 
 PINS = {"type": "crank_pins", "count": 3, "pin_circle_radius_m": 0.05, "position_m": 0.03}

@@ -34,6 +34,7 @@ SUFFIXES = {
     "_m3_per_min": "m3/min",
     "_m_s": "m/s",
     "_Hz": "Hz",
+    "_rad_s2": "rad/s2",
     "_mm_s": "mm/s",
     "_m_s2": "m/s2",
     "_N_per_m": "N/m",
