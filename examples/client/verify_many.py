@@ -2,8 +2,7 @@
 
     python verify_many.py request.json answer.json
 
-Of a sweep, the answer is its rows as a JSON list or as NDJSON. verify.py, verify_program.py and verify_numbers.py
-have to lie beside this file.
+Of a sweep, the answer is its rows as a JSON list or as NDJSON. The other verify*.py have to lie beside this file.
 """
 
 from __future__ import annotations
@@ -35,6 +34,7 @@ from verify import (
 )
 from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Place, Unreadable, largest, read, real
 from verify_program import CEILINGS, NAMES, Machine, Statement
+from verify_turn import single
 
 __all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
 
@@ -197,7 +197,7 @@ def verify(request: Any, answer: Any, most: float = inf) -> dict[str, Any]:
     work = leaves(answer) + leaves(request) * (len(answer) if many and isinstance(answer, list) else 1)
     if work > most:
         raise Unreadable(given.path, f"holds more than is checked at a time: {work} of {most} numbers and texts")
-    kind = sweep if many else front if isinstance(answer, dict) and "fronts" in answer else optimum
+    kind = sweep if many else front if isinstance(answer, dict) and "fronts" in answer else single
     return judged(covered(kind(asked, given)))
 
 

@@ -221,17 +221,17 @@ class Place:
             raise Unreadable(self.path, " ".join(["must be a number", *(f"or one in {unit}" for unit in units)]))
         return Fraction(match.group(1)) * Fraction(units[symbol])
 
-    def known(self) -> None:
-        """Raises NotCovered where there is a field that is not known."""
+    def known(self, also: str = "") -> None:
+        """Raises NotCovered where there is a field that is not known, here or to who asks."""
         for name in self.value if isinstance(self.value, dict) else ():
             # a weight of 0 is none
             nothing = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
             if f" {name} " not in IDLE and (self / name).value not in nothing:
-                if f" {name} " not in KNOWN:
+                if f" {name} " not in f"{KNOWN} {also} ":
                     raise NotCovered(self / name)
-                (self / name).known()
+                (self / name).known(also)
         for one in self if isinstance(self.value, list) else ():
-            one.known()
+            one.known(also)
 
 
 def read(path: str) -> Any:

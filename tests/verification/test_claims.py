@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
 from service.verification import checker
+from tests.verification.anything import JSON, judged, paths, replaced
 from tests.verification.checking import broken, verdict
 from tests.verification.kinds import SINGLE
 from tests.verification.tampering import beyond_limits, tampered
@@ -99,66 +100,24 @@ def test_requests_with_every_field_and_over_the_whole_turn() -> None:
     for name, value in {"orders": "all", "bearing_weight": 1.0, "bending_ceiling_Nm": 0.0}.items():
         found = checker().verify({**body, "objective": {name: value}}, answer)
         assert found["verdict"] == "not covered"
-        assert f"/request/objective/{name}" in [one["where"] for one in found["claims"]]
+        assert "objective" not in [one["claim"] for one in found["claims"] if one["verdict"] == "held"]
 
 
-_WEB = SINGLE["sum"]["machine"]["webs"][0]["name"]
 _ANSWER = json.loads(optimize(OptimizeRequest.model_validate(SINGLE["ceilings"])).model_dump_json())
-_JSON = st.recursive(
-    st.none()
-    | st.booleans()
-    | st.floats()
-    | st.integers()
-    | st.sampled_from([10**400, -(10**400), 10**4000, 1e308, -1e308, 5e-324, "", "5 kg", "1e999 mm", "\ud800", _WEB])
-    | st.text(max_size=5),
-    lambda inner: (
-        st.lists(inner, max_size=3) | st.dictionaries(st.text(max_size=3) | st.just("name"), inner, max_size=3)
-    ),
-    max_leaves=6,
-)
-
-
-def _paths(node: Any, path: tuple[str | int, ...] = ()) -> list[tuple[str | int, ...]]:
-    found = [path]
-    if isinstance(node, dict):
-        return [*found, *(deeper for key, value in node.items() for deeper in _paths(value, (*path, key)))]
-    if isinstance(node, list):
-        return [*found, *(deeper for key, value in enumerate(node) for deeper in _paths(value, (*path, key)))]
-    return found
-
 
 _ASKED_AND_ANSWERED = {"request": SINGLE["ceilings"], "answer": _ANSWER}
-_PLACES = [path for path in _paths(_ASKED_AND_ANSWERED) if path]
+_PLACES = [path for path in paths(_ASKED_AND_ANSWERED) if path]
 
 
-def _with(node: Any, path: tuple[str | int, ...], value: Any) -> Any:
-    if not path:
-        return value
-    if isinstance(node, dict):
-        return {key: _with(one, path[1:], value) if key == path[0] else one for key, one in node.items()}
-    return [_with(one, path[1:], value) if key == path[0] else one for key, one in enumerate(node)]
-
-
-@given(st.lists(st.tuples(st.sampled_from(_PLACES), _JSON), min_size=1, max_size=3))
+@given(st.lists(st.tuples(st.sampled_from(_PLACES), JSON), min_size=1, max_size=3))
 def test_nothing_that_is_sent_raises(changes: list[tuple[tuple[str | int, ...], Any]]) -> None:
     """Any JSON in any place of request and answer is judged, or refused by name."""
     sent: Any = _ASKED_AND_ANSWERED
     for path, value in changes:
-        sent = _with(sent, path, value)
-    _judged(sent["request"], sent["answer"])
+        sent = replaced(sent, path, value)
+    judged(sent["request"], sent["answer"])
 
 
-@given(_JSON, _JSON)
+@given(JSON, JSON)
 def test_anything_at_all_is_judged_or_refused(request: Any, answer: Any) -> None:
-    _judged(request, answer)
-
-
-def _judged(request: Any, answer: Any) -> None:
-    path: tuple[str | int, ...] = ()
-    try:
-        found = checker().verify(request, answer)
-    except checker().Unreadable as error:
-        path = error.path
-    else:
-        json.dumps(found, allow_nan=False).encode()
-    assert path[:1] in ((), ("request",), ("answer",))
+    judged(request, answer)

@@ -1,0 +1,170 @@
+"""Goals over the whole turn: what their cuts prove is held, what is falsified is caught, the rest is named.
+
+Independent: the checker shares no code with what computed the answers.
+"""
+
+import copy
+import json
+from functools import cache
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optimizer.optimize import optimize
+from schemas.requests import OptimizeRequest
+from service.verification import checker
+from tests.optimize.machines import machine, row, throw, web
+from tests.verification.anything import JSON, judged, paths, replaced
+from tests.verification.checking import broken
+
+_BEARINGS = [
+    {"name": name, "position_m": place, "diameter_m": 0.05, "length_m": 0.03 + 0.01 * k}
+    for k, (name, place) in enumerate((("B", 0.35), ("A", -0.1), ("C", 0.7)))
+]
+_WEBS = [
+    web("a", -0.2, 30.0),
+    web("b", 0.25, 8.0, sector={"centre_deg": 140.0, "half_angle_deg": 35.0}),
+    web("c", 0.65, 30.0, 0.15),
+]
+
+
+def _machine(webs: list[dict[str, Any]] = _WEBS, **more: Any) -> dict[str, Any]:
+    rod = {"connecting_rod": {"length_m": 0.35, "mass_kg": 3.0}}
+    throws = [
+        throw(0.0, 0.0, [row(90.0, 10.0, **rod)], rotating=5.0),
+        throw(0.2, 180.0, [row(60.0, 8.0, **rod), row(120.0, 9.0, offset_m=0.02, **rod)], rotating=4.0),
+        throw(0.5, 75.0, [row(90.0, 12.0, connecting_rod={"length_m": None})], rotating=6.0),
+    ]
+    return machine(throws, webs, bearings=_BEARINGS, **more)
+
+
+_KINDS: dict[str, dict[str, Any]] = {
+    "bearings": {"machine": _machine(), "objective": {"bearing_weight": 1, "force_weight": 0, "moment_weight": 0}},
+    "beside the first order": {
+        "machine": _machine(rotation="cw", max_total_mass_kg=20.0, reference_plane_m=0.1),
+        "objective": {"bearing_weight": 0.5, "bending_weight": 2.0, "direction_weights": {"x": 1, "y": 0.5}},
+    },
+    "the largest of all orders": {
+        "machine": _machine(rotation="cw"),
+        "objective": {"orders": "all", "combine": "max", "bearing_weight": 2, "bending_weight": 3.0},
+    },
+    "specific": {
+        "machine": _machine(),
+        "objective": {"orders": "all", "bearing_weight": 1e-3, "bearing_measure": "specific", "force_ceiling_N": 60000},
+    },
+    "no limits": {"machine": _machine([web("a", -0.2, None), web("c", 0.65, None)]), "objective": {"orders": "all"}},
+}
+
+
+@cache
+def _told(name: str) -> str:
+    return optimize(OptimizeRequest.model_validate(_KINDS[name])).model_dump_json()
+
+
+def _claims(body: dict[str, Any], answer: dict[str, Any]) -> dict[str, str]:
+    return {one["claim"]: one["verdict"] for one in checker().verify(body, answer)["claims"]}
+
+
+def _changed(answer: dict[str, Any], factor: float, *path: str) -> dict[str, Any]:
+    found = copy.deepcopy(answer)
+    place = found
+    for name in path[:-1]:
+        place = place[name]
+    place[path[-1]] *= factor
+    return found
+
+
+@pytest.mark.parametrize("name", _KINDS)
+def test_what_cuts_prove_is_held_and_what_is_falsified_is_caught(name: str) -> None:
+    body, answer = _KINDS[name], json.loads(_told(name))
+    assert answer["status"] == "optimal"
+    found = _claims(body, answer)
+    held = {"lower_bound", "mass_lower_bound", "cuts", "counterweights", "max_mass", "after", "gap", "status"}
+    assert {claim for claim, verdict in found.items() if verdict == "held"} >= held
+    # that no angle between the cuts is worse is not told
+    assert found["objective"] == "not covered"
+    assert (found.get("reach") == "not covered") == (name == "no limits")
+    rise = 1.0 + 1e-6 + answer["certificate"]["gap"] / answer["certificate"]["objective"]
+    for path, factor in ((("lower_bound",), rise), (("mass_lower_bound_kg",), 1.0 + 1e-6), (("objective",), 1 - 1e-4)):
+        wrong = _changed(answer, factor, "certificate", *path)
+        assert broken(body, wrong), path
+    heavier = copy.deepcopy(answer)
+    for one in heavier["counterweights"]:
+        one["mass_kg"] *= 1.01
+    assert {claim for claim, verdict in _claims(body, heavier).items() if verdict == "broken"} >= {
+        "total_mass",
+        "after",
+    }
+
+
+def test_multipliers_that_are_too_long_prove_no_more() -> None:
+    """Analytic: |y| <= lambda is made to hold."""
+    body, answer = _KINDS["bearings"], json.loads(_told("bearings"))
+    for term in answer["certificate"]["multipliers"]["objective"]["terms"]:
+        term["x"] *= 1000
+        term["y"] *= 1000
+    answer["certificate"]["lower_bound"] = 1.001 * answer["certificate"]["objective"]
+    assert _claims(body, answer)["lower_bound"] == "broken"
+
+
+_PRESSURES = {"suction_pressure_Pa": 1e5, "discharge_pressure_Pa": 4e5, "ambient_pressure_Pa": 1e5}
+_GAS = _PRESSURES | {"relative_clearance": 0.1, "expansion_exponent": 1.2, "compression_exponent": 1.3}
+
+
+@pytest.mark.parametrize("what", ["gas", "rms", "continuous", "priorities", "tolerances"])
+def test_what_is_not_covered_is_named(what: str) -> None:
+    body = copy.deepcopy(_KINDS["bearings"])
+    goal = body["objective"]
+    where = {"rms": "/request/objective/bearing_measure", "continuous": "/request/fidelity/shaft"}
+    where |= {"priorities": "/request/objective/priorities", "tolerances": "/request/tolerances"}
+    where["gas"] = "/request/machine/throws/0/rows/0/cylinder"
+    if what == "gas":
+        body["machine"]["throws"][0]["rows"][0]["cylinder"] = {"bore_m": 0.1, "acting": "head", **_GAS}
+    elif what == "rms":
+        goal["bearing_measure"] = "rms"
+    elif what == "continuous":
+        body["fidelity"] = {"shaft": "continuous"}
+    elif what == "tolerances":
+        body["tolerances"] = {"mass_relative": 0.01}
+    else:
+        goal["priorities"] = [{"goal": "bearings"}, {"goal": "mass"}]
+    answer = json.loads(_told("bearings"))
+    told = {one["claim"]: one for one in checker().verify(body, answer)["claims"]}
+    assert (told["request"]["verdict"], told["request"]["where"]) == ("not covered", where[what])
+    assert "lower_bound" not in told
+
+
+def test_an_answer_out_of_reach_is_not_covered() -> None:
+    body = copy.deepcopy(_KINDS["bearings"])
+    body["objective"]["bearing_ceiling_N"] = 1.0
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert answer["status"] == "infeasible"
+    assert _claims(body, answer)["request"] == "not covered"
+    assert not broken(body, answer)
+
+
+@settings(max_examples=12)
+@given(data=st.data())
+def test_nothing_that_is_sent_raises(data: st.DataObject) -> None:
+    """Any JSON in any place of request and answer is judged, or refused by name."""
+    name = "the largest of all orders"
+    sent: Any = {"request": _KINDS[name], "answer": json.loads(_told(name))}
+    places = st.sampled_from([path for path in paths(sent) if path])
+    for path, value in data.draw(st.lists(st.tuples(places, JSON), min_size=1, max_size=3)):
+        sent = replaced(sent, path, value)
+    judged(sent["request"], sent["answer"])
+
+
+_NOWHERE = [("bearing:Z", 10.0), ("bending:far", 10.0), ("bending:inf", 1.0), ("roll", 10.0), ("force", None)]
+
+
+@pytest.mark.parametrize(("response", "angle"), _NOWHERE)
+def test_terms_of_what_there_is_not_prove_nothing(response: str, angle: float | None) -> None:
+    body, answer = _KINDS["the largest of all orders"], json.loads(_told("the largest of all orders"))
+    term = answer["certificate"]["multipliers"]["objective"]["terms"][0]
+    term["response"], term["angle_deg"] = response, angle
+    assert "lower_bound" not in _claims(body, answer)
+    nowhere = {**body, "machine": {**body["machine"], "bearings": []}}
+    assert "lower_bound" not in _claims(nowhere, answer)
