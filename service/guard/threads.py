@@ -12,7 +12,8 @@ from service.guard.shares import holding
 
 Result = TypeVar("Result")
 _ALTOGETHER = 24
-_EACH = 4
+#: more would do no more: they compute one at a time, and the event loop waits for each of them
+_EACH = 2
 
 
 class Threads:

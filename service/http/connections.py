@@ -3,6 +3,8 @@
 import asyncio
 import sys
 from collections.abc import Callable
+from contextlib import suppress
+from functools import cache
 from typing import Any
 
 import h11
@@ -71,7 +73,8 @@ class Connection(H11Protocol):
             # its answer would come after the refusal
             self.transport.abort()
         else:
-            self._refuse(fault(TooManyConnections()))
+            self.transport.write(_no_room())
+            self.transport.close()
 
     @property
     def _address(self) -> str:
@@ -174,24 +177,29 @@ class Connection(H11Protocol):
             # who answers a request whose body turned out to be no HTTP has nobody to answer any more
             self.cycle.disconnected = True
             self.cycle.message_event.set()
-        content = problem(fault, "").model_dump_json().encode()
-        headers = [
-            *((name.encode(), value.encode()) for name, value in fault.headers.items()),
-            (b"content-type", PROBLEM_JSON.encode()),
-            (b"content-length", str(len(content)).encode()),
-            (b"connection", b"close"),
-        ]
-        try:
-            for event in (
-                h11.Response(status_code=fault.status, headers=headers),
-                h11.Data(data=content),
-                h11.EndOfMessage(),
-            ):
-                self.transport.write(self.conn.send(event) or b"")
-        except h11.LocalProtocolError:
-            # an answer is on its way already, and what follows its question is no HTTP
-            pass
+        # if an answer is on its way already, what follows its question is no HTTP
+        with suppress(h11.LocalProtocolError):
+            self.transport.write(_refusal(self.conn, fault))
         self.transport.close()
+
+
+@cache
+def _no_room() -> bytes:
+    """Made once: whoever comes too often is told as often."""
+    return _refusal(h11.Connection(h11.SERVER), fault(TooManyConnections()))
+
+
+def _refusal(connection: h11.Connection, fault: Fault) -> bytes:
+    """An answer that is the last of its connection."""
+    content = problem(fault, "").model_dump_json().encode()
+    headers = [
+        *((name.encode(), value.encode()) for name, value in fault.headers.items()),
+        (b"content-type", PROBLEM_JSON.encode()),
+        (b"content-length", str(len(content)).encode()),
+        (b"connection", b"close"),
+    ]
+    events = (h11.Response(status_code=fault.status, headers=headers), h11.Data(data=content), h11.EndOfMessage())
+    return b"".join(connection.send(event) or b"" for event in events)
 
 
 def _probes_only(app: Callable[..., Any]) -> Callable[..., Any]:

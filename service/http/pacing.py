@@ -1,9 +1,13 @@
-"""Answers at the pace at which their clients read."""
+"""Answers at the pace at which their clients read, client by client."""
+
+import asyncio
+from collections.abc import Iterator
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.guard.shares import Holding, OverShare
 from service.http.errors import answered
+from service.http.rounds import Rounds
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
 PIECE_BYTES = 16_384
@@ -12,11 +16,20 @@ PIECE_BYTES = 16_384
 class Pacing:
     """Hands over large answers in pieces, so that what is not read is kept once and counted for its client.
 
-    One that would have its client hold more than its share is answered 429 in its place.
+    One that would have its client hold more than its share is answered 429 in its place. Of answers in pieces one piece
+    is handed over in a turn of the event loop, of one client after the other.
     """
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    def _of_loop(self) -> Rounds:
+        loop = asyncio.get_running_loop()
+        if loop is not self._loop:
+            # what waited in a loop that has ended is gone with it
+            self._loop, self._rounds = loop, Rounds(loop.call_soon)
+        return self._rounds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -46,15 +59,28 @@ class Pacing:
                         return
                     # it has begun, and is as large already as it is
                     counted = 0
-            if start is not None:
-                begin, start = start, None
-                await send(begin)
-            at = 0
-            while len(body) - at > PIECE_BYTES:
-                await send({"type": "http.response.body", "body": body[at : at + PIECE_BYTES], "more_body": True})
-                at += PIECE_BYTES
-            await send({**message, "body": body[at:]} if at else message)
+            begin, start = start, None
+            await self._hand_over(begin, message, "" if holding is None else holding.who, send)
             if holding is not None and counted:
                 holding.give("answers", counted)
 
         await self._app(scope, receive, paced)
+
+    async def _hand_over(self, begin: Message | None, message: Message, who: str, send: Send) -> None:
+        """Part of an answer, the first one with its head: what is small and whole at once, all else piece by piece."""
+        rounds, whole = self._of_loop(), len(message.get("body", b"")) <= PIECE_BYTES and not message.get("more_body")
+        for piece in _pieces(message):
+            if not whole:
+                await rounds.turn(who)
+            if begin is not None:
+                await send(begin)
+                begin = None
+            await send(piece)
+
+
+def _pieces(message: Message) -> Iterator[Message]:
+    body, at = message.get("body", b""), 0
+    while len(body) - at > PIECE_BYTES:
+        yield {"type": "http.response.body", "body": body[at : at + PIECE_BYTES], "more_body": True}
+        at += PIECE_BYTES
+    yield {**message, "body": body[at:]} if at else message

@@ -1,5 +1,6 @@
-"""Whose bytes are looked at next: client by client, so that one who sends on hundreds of connections delays nobody."""
+"""Whose bytes are looked at or sent next: client by client, so that one with hundreds of connections delays nobody."""
 
+import asyncio
 from collections import OrderedDict, deque
 from collections.abc import Callable
 
@@ -30,6 +31,18 @@ class Rounds:
         self._call_soon(self._next)
         work()
         return True
+
+    async def turn(self, client: str) -> None:
+        """Wait for a turn of the event loop that is a client's."""
+        given = asyncio.get_running_loop().create_future()
+
+        def give() -> None:
+            # who waited may be gone
+            if not given.done():
+                given.set_result(None)
+
+        if not self.ask(client, give):
+            await given
 
     def _next(self) -> None:
         if not self._waiting:

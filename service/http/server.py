@@ -23,6 +23,8 @@ _TO_ANSWER_S = 1.0
 _OTHER_FILES = 128
 _NO_FILES = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
 _SAY_AGAIN_S = 60.0
+#: connections that wait to be let in, and of those so many are let in at a time: each takes its time
+_BACKLOG, _AT_A_TIME = 2048, 16
 #: a thread that computes gives way to the event loop after so long; five times as long by default
 _SWITCH_S = 0.001
 
@@ -36,7 +38,7 @@ def listen(settings: Settings) -> socket.socket:
         if the address is taken, unknown or not allowed.
     """
     family = socket.AF_INET6 if ":" in settings.host else socket.AF_INET
-    listening = socket.create_server((settings.host, settings.port), family=family, backlog=2048)
+    listening = socket.create_server((settings.host, settings.port), family=family, backlog=_BACKLOG)
     # inherited by every connection. The event loop sets it only where a socket names its protocol, which these do not;
     # without it an answer on a kept connection waits 40 ms for the client's delayed acknowledgement
     listening.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
@@ -63,6 +65,8 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
         forwarded_allow_ips=list(settings.trusted_proxies),
         log_config=None,
         access_log=False,
+        # the event loop lets in as many at a time
+        backlog=_AT_A_TIME,
         server_header=False,
         timeout_keep_alive=settings.keep_alive_s,
         timeout_graceful_shutdown=settings.graceful_shutdown_s,
@@ -107,6 +111,8 @@ class _Server(uvicorn.Server):
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         asyncio.get_running_loop().set_exception_handler(_Accepting())
         await super().startup(sockets)
+        for listening in sockets or ():
+            listening.listen(_BACKLOG)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         # computations that do not end by themselves are answered 503 while there is still time to send it

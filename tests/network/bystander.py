@@ -19,6 +19,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from multiprocessing.synchronize import Event
+from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -54,10 +55,15 @@ class Aim:
 
 @dataclass
 class Outcome:
-    """What became of the bystander, by path [s], and what the service held above rest [MB]."""
+    """What became of the bystander, by path [s], and what the service held above rest [MB].
+
+    work_s : what the service computed, for him or others, from each of his questions to its answer; unlike his time it
+        does not depend on what else the machine does.
+    """
 
     statuses: Counter[int] = field(default_factory=Counter)
     seconds: dict[str, list[float]] = field(default_factory=dict)
+    work_s: list[float] = field(default_factory=list)
     held_mb: float = 0.0
 
     @property
@@ -166,6 +172,16 @@ def held_mb(target: Service) -> float:
     return psutil.Process(target.process.pid).memory_info().rss / _MB
 
 
+def computed_s(target: Service) -> float:
+    """Time for which the threads of the service itself have computed so far [s]."""
+    nanoseconds = 0
+    for thread in Path(f"/proc/{target.process.pid}/task").iterdir():
+        # it may have ended
+        with suppress(OSError):
+            nanoseconds += int((thread / "schedstat").read_text().split()[0])
+    return nanoseconds / 1e9
+
+
 async def beside(target: Service, press: Press, clients: int, seconds: float) -> Outcome:
     """What becomes of a bystander while so many clients press the service."""
     outcome = Outcome()
@@ -188,10 +204,11 @@ async def beside(target: Service, press: Press, clients: int, seconds: float) ->
         end = time.monotonic() + seconds
         while time.monotonic() < end or not outcome.statuses:
             for asked in ORDINARY:
-                asked_at = time.perf_counter()
+                asked_at, before_s = time.perf_counter(), computed_s(target)
                 async with asyncio.timeout(60), connected(target.port, _BYSTANDER) as (reader, writer):
                     writer.write(asked)
                     outcome.statuses[(await read(reader)).status] += 1
+                outcome.work_s.append(computed_s(target) - before_s)
                 outcome.seconds.setdefault(asked.split(b" ", 2)[1].decode(), []).append(time.perf_counter() - asked_at)
             await asyncio.sleep(0.05)
     finally:
@@ -230,13 +247,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--clients", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=60.0)
+    parser.add_argument("--only", help="a kind of traffic, besides none")
     given = parser.parse_args()
-    failures, quiet = 0, 0.0
+    failures, quiet, quiet_work = 0, 0.0, 0.0
     presses: dict[str, tuple[Press, int]] = {
         "nobody": (silent, 0),
         **{name: (press, min(300, given.clients)) for name, press in PRESSES.items()},
         "a mix of all": (mixed, given.clients),
     }
+    if given.only is not None:
+        presses = {name: presses[name] for name in ("nobody", given.only)}
     with service(log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]
         print(f"at rest: {held_mb(target):.0f} MB")
@@ -244,11 +264,12 @@ def main() -> int:
             outcome = asyncio.run(beside(target, press, clients, given.seconds))
             together = [each for times in outcome.seconds.values() for each in times]
             p50, p99 = (quantile_ms(together, share) for share in (0.5, 0.99))
-            quiet = quiet or p99
+            work = quantile_ms(outcome.work_s, 0.99)
+            quiet, quiet_work = quiet or p99, quiet_work or work
             print(
                 f"{name:<20}{clients:>5} clients  bystander: {outcome.statuses.total():>5} requests, {outcome.refused} "
-                f"refused, p50 {p50:6.1f} ms, p99 {p99:7.1f} ms, {p99 / quiet:5.1f} of quiet  above rest: "
-                f"{outcome.held_mb:5.0f} MB",
+                f"refused, p50 {p50:6.1f} ms, p99 {p99:7.1f} ms, {p99 / quiet:5.1f} of quiet  work p99 {work:6.1f} ms, "
+                f"{work / quiet_work:5.1f} of quiet  above rest: {outcome.held_mb:5.0f} MB",
                 flush=True,
             )
             each = (f"{path} {quantile_ms(times, 0.99):.0f}" for path, times in outcome.seconds.items())

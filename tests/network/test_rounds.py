@@ -125,3 +125,26 @@ def test_a_connection_whose_bytes_wait_is_not_idle() -> None:
             return connection.timeout_keep_alive_task is not None
 
     assert not asyncio.run(counts())
+
+
+def test_who_waits_for_a_turn_has_it_in_the_order_of_the_clients() -> None:
+    async def told() -> list[str]:
+        rounds, done = Rounds(asyncio.get_running_loop().call_soon), list[str]()
+
+        async def pieces(client: str) -> None:
+            for _ in range(3):
+                await rounds.turn(client)
+                done.append(client)
+
+        async with asyncio.timeout(180), asyncio.TaskGroup() as group:
+            many = [group.create_task(pieces("many")) for _ in range(50)]
+            gone = many.pop()
+            await asyncio.sleep(0)
+            group.create_task(pieces("few"))
+            gone.cancel()
+        return done
+
+    done = asyncio.run(told())
+    assert done.count("many") >= 3 * 49
+    # between two of its own at most one of somebody else's, and one or two turns to ask for the next
+    assert [k for k, client in enumerate(done) if client == "few"][-1] < 20
