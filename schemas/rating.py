@@ -71,6 +71,12 @@ class CompressionStage(Ruled):
     compression_exponent: Exponent | None = Field(
         None, description="polytropic exponent of the compression; null is the isentropic one", examples=[1.4]
     )
+    polytropic_exponent: Exponent | None = Field(
+        None,
+        description="polytropic exponent of a compression that is cooled on its way, for a discharge temperature "
+        "of its own beside that of compression_exponent; null answers none",
+        examples=[1.25],
+    )
     pressure_coefficient: Share | None = Field(
         None,
         description="pressure coefficient of the delivery; null is 0.97 in the first stage and 0.99 in the others",

@@ -114,6 +114,10 @@ class StageRating(Model):
     in_cylinder: StageState = Field(
         description="between the pressures in the cylinder", examples=[{"suction_pressure_Pa": 286000}]
     )
+    polytropic_temperature_K: Kelvins | None = Field(
+        description="discharge temperature in the cylinder by the polytropic exponent; null where none is given",
+        examples=[389.0],
+    )
     actual_coefficients: DeliveryCoefficients = Field(
         description="delivery at the pressures in the cylinder", examples=[{"volumetric": 0.8605}]
     )

@@ -5,6 +5,7 @@ from optimizer.rating.customary import machine_warnings, stage_warnings
 from optimizer.rating.design import StageDesign, design, suction_per_capacity
 from optimizer.rating.loads import gas_loads
 from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
+from optimizer.rating.ratios import discharge_temperature
 from schemas.cylinder import Cylinder
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingAnswer, StageRating
@@ -65,6 +66,9 @@ def _stage(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Stag
         reference_losses=actual.reference_losses,
         losses=actual.losses,
         in_cylinder=inside,
+        polytropic_temperature_K=None
+        if given.polytropic_exponent is None
+        else discharge_temperature(given.suction_temperature_K, inside.pressure_ratio, given.polytropic_exponent),
         actual_coefficients=actual.coefficients,
         actual_loads=gas_loads(
             inside.suction_pressure_Pa, inside.discharge_pressure_Pa, ambient, given.acting, actual.size

@@ -90,6 +90,22 @@ def test_losses_and_pressures_in_the_cylinder_published() -> None:
     assert [one.in_cylinder.discharge_temperature_K for one in ANSWER.stages] == near([427.0, 425.0], 1.0)
 
 
+def test_discharge_temperature_by_the_polytropic_exponent_published() -> None:
+    """(1-26): 389 and 388 K for 1.25, beside 427 and 425 K for 1.4."""
+    cooled = rate(
+        request(
+            *rods(0.11),
+            ("stages/0/polytropic_exponent", 1.25),
+            ("stages/1/polytropic_exponent", 1.25),
+            mean_piston_speed_m_s=4.0,
+        )
+    )
+    assert [one.polytropic_temperature_K for one in cooled.stages] == near([389.0, 388.0], 1.0)
+    assert [one.polytropic_temperature_K for one in ANSWER.stages] == [None, None]
+    # nothing else changes
+    assert cooled.shaft_power_W == ANSWER.shaft_power_W
+
+
 def test_gas_forces_as_built_published() -> None:
     first, second = (one.actual_loads for one in ANSWER.stages)
     assert [first.outer.gas_force_N, second.outer.gas_force_N] == pytest.approx([-239491.5, -239937.4], rel=3e-3)

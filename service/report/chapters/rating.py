@@ -20,6 +20,7 @@ _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
     ("", "discharge", lambda one: one.losses.discharge),
     ("discharge temperature, K", "nominal", lambda one: one.nominal.discharge_temperature_K),
     ("", "in cylinder", lambda one: one.in_cylinder.discharge_temperature_K),
+    ("", "polytropic", lambda one: one.polytropic_temperature_K),
     ("volumetric coefficient", "design", lambda one: one.design_coefficients.volumetric),
     ("", "actual", lambda one: one.actual_coefficients.volumetric),
     ("pressure coefficient", "", lambda one: one.actual_coefficients.pressure),
