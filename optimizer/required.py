@@ -11,6 +11,11 @@ from schemas.requests import OptimizeRequest
 
 #: effects that force and moment of all orders need
 _TURN = ("whole_turn",)
+#: why the bending of a shaft without bearings cannot be told
+_FREE = (
+    "a free shaft bends in a known way only where its loads balance at every angle, which those of pistons never do:"
+    " give the bearings that carry them"
+)
 
 
 def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
@@ -19,8 +24,10 @@ def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
     if not goal.over_the_turn:
         return
     needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else _TURN
+    field = goal.over_the_turn[0]
     for path, message in problems_of(machine, needs):
-        yield FieldProblem(("machine", *path), f"{message}; asked for by objective.{goal.over_the_turn[0]}")
+        why = _FREE if path == ("bearings",) and field.startswith("bending") else message
+        yield FieldProblem(("machine", *path), f"{why}; asked for by objective.{field}")
     specific = goal.specific_load_ceiling_Pa is not None or (goal.bearing_weight and goal.bearing_measure == "specific")
     if specific and isinstance(machine, ReciprocatingMachine):
         yield from missing_sizes(machine)

@@ -210,6 +210,11 @@ def test_what_a_machine_lacks_is_named() -> None:
     (problem,) = missing.value.problems
     assert problem.path == ("machine", "bearings")
     assert problem.message == "bearing loads need the bearings; asked for by objective.bearing_weight"
+    with pytest.raises(MissingInput) as missing:
+        optimize(asked(machine, bending_ceiling_Nm=5.0))
+    (problem,) = missing.value.problems
+    assert problem.path == ("machine", "bearings")
+    assert problem.message.startswith("a free shaft bends in a known way only where its loads balance at every angle")
     del machine["throws"][0]["rows"][0]["connecting_rod"]
     with pytest.raises(MissingInput) as missing:
         optimize(asked(machine, orders="all"))
