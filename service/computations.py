@@ -56,6 +56,7 @@ class Computation:
     forms : in which the answer is there; of several the header `Accept` chooses, the first for those who take all.
     options : fields of the request that the command line may give in place of the file.
     picture : () -> (title, answer) -> SVG, for the command line.
+    workbook : request, answer -> xlsx, for the command line.
     examples : folder of example bodies.
     long : takes seconds: such computations never occupy all workers.
     later : may be asked for as a job, by `Prefer: respond-async`.
@@ -73,6 +74,7 @@ class Computation:
     chapters: Reference | None = None
     options: tuple[str, ...] = ()
     picture: Reference | None = None
+    workbook: Reference | None = None
     tag: str = "counterweights"
     forms: tuple[Form, ...] = (JSON,)
     examples: str = ""
@@ -126,6 +128,7 @@ COMPUTATIONS: dict[str, Computation] = {
             help="Choose the counterweights of a machine.",
             chapters="service.report.chapters.answers:optimized",
             options=("outputs",),
+            workbook="service.workbook.answers:answered",
             later=True,
         ),
         Computation(

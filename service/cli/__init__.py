@@ -15,6 +15,7 @@ from service.cli.key import key
 from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
+from service.cli.template import template
 from service.cli.terminal import put
 from service.cli.verify import verify
 from service.computations import COMPUTATIONS
@@ -47,7 +48,7 @@ def command_line() -> typer.Typer:
     for one in COMPUTATIONS.values():
         if one.chapters is not None:
             made.command(name=one.title)(command(one))
-    for other in (sweep, report, draw, verify, effects, examples, schema, serve):
+    for other in (sweep, report, draw, template, verify, effects, examples, schema, serve):
         made.command()(other)
     made.add_typer(key, name="key")
     return made

@@ -8,7 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
-from service.cli.terminal import AsJson, File, answer, fail, put, question, show
+from service.cli.terminal import WORKBOOK, AsJson, File, answer, asked, fail, put, show
 from service.computations import Computation
 
 #: statuses that say that the answer is not what was asked for
@@ -33,21 +33,31 @@ _OPTIONS: dict[str, Any] = {
 _Picture = Annotated[
     Path | None, typer.Option(metavar="FILE.svg", help="Draw the answer; needs counterweight\\[pictures].")
 ]
+_Workbook = Annotated[
+    Path | None, typer.Option("-o", "--to", metavar="FILE.xlsx", help="Write request and answer to a workbook too.")
+]
 
 
 def command(one: Computation) -> Callable[..., None]:
     """The command of a computation, with the options that its entry names."""
 
-    def run(file: str, as_json: bool, picture: Path | None = None, **given: Any) -> None:
+    def run(file: str, as_json: bool, picture: Path | None = None, to: Path | None = None, **given: Any) -> None:
+        if to is not None and to.suffix.lower() != WORKBOOK:
+            fail(f"the name of the workbook must end in {WORKBOOK}")
         draw = _artist(one) if picture is not None else None
-        request = question(one.asks, file, {name: _read(value) for name, value in given.items() if value})
-        found = answer(one.function, request)
+        request, where = asked(one.asks, file, {name: _read(value) for name, value in given.items() if value})
+        found = answer(one.function, request, where)
         name = getattr(getattr(request, "machine", request), "name", None) or one.title
         if draw is not None and picture is not None:
             try:
                 picture.write_text(draw(name, found))
             except OSError as error:
                 fail(f"cannot write {picture}: {error.strerror}")
+        if to is not None:
+            try:
+                to.write_bytes(resolve_name(one.workbook or "")(request, found))
+            except OSError as error:
+                fail(f"cannot write {to}: {error.strerror}")
         status = getattr(found, "status", None)
         if as_json:
             put(found.model_dump_json())
@@ -58,6 +68,8 @@ def command(one: Computation) -> Callable[..., None]:
     options = {"file": File, **{name: _OPTIONS[name] for name in one.options}, "as_json": AsJson}
     if one.picture is not None:
         options["picture"] = _Picture
+    if one.workbook is not None:
+        options["to"] = _Workbook
     defaults = {"file": Parameter.empty, "as_json": False}
     run.__doc__ = one.help
     run.__annotations__ = options

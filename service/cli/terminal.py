@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, NoReturn, TypeVar
+from typing import TYPE_CHECKING, Annotated, Any, Generic, NamedTuple, NoReturn, TypeVar
 
 import typer
 
@@ -12,30 +12,66 @@ if TYPE_CHECKING:
     from schemas.base import FieldProblem, Model
     from service.report.blocks import Chapter
 
-    Question = TypeVar("Question", bound=Model)
-    Answer = TypeVar("Answer")
+Question = TypeVar("Question", bound="Model")
+Answer = TypeVar("Answer")
 
 BAD_INPUT = 2
+#: how the name of a workbook ends
+WORKBOOK = ".xlsx"
 _STYLES = {
     **dict.fromkeys(("optimal", "measured", "held"), "bold green"),
     **dict.fromkeys(("infeasible", "broken"), "bold red"),
 }
 
-File = Annotated[str, typer.Argument(metavar="FILE", help="JSON file, or - for standard input.")]
+File = Annotated[str, typer.Argument(metavar="FILE", help="JSON file or workbook (.xlsx), or - for standard input.")]
 AsJson = Annotated[bool, typer.Option("--json", help="Print the exact answer of the REST service.")]
 
 
-def question(model: "type[Question]", file: str, given: Mapping[str, object] | None = None) -> "Question":
+class Asked(NamedTuple, Generic[Question]):
+    """A request, and where its file says what; ``where`` takes a problem of a field."""
+
+    request: Question
+    where: "Callable[[FieldProblem], str]"
+
+
+def question(model: type[Question], file: str, given: Mapping[str, object] | None = None) -> Question:
     """The request in a file, with fields given on the command line in place of those in it."""
+    return asked(model, file, given).request
+
+
+def asked(model: type[Question], file: str, given: Mapping[str, object] | None = None) -> Asked[Question]:
+    """The same, and where it stands: of a workbook in which cell."""
     from service.validation import InvalidRequest, check
 
-    body = content(file)
+    body, where = _cells(file) if file.lower().endswith(WORKBOOK) else (content(file), _pointer)
     if given and isinstance(body, dict):
         body = {**body, **given}
     try:
-        return check(model, body)
+        return Asked(check(model, body), where)
     except InvalidRequest as error:
-        fail_fields(error.problems, error.more)
+        fail_fields(error.problems, error.more, where)
+
+
+def _cells(file: str) -> "tuple[Any, Callable[[FieldProblem], str]]":
+    """The request in a workbook."""
+    from service.workbook.files import UnreadableWorkbook, workbook_sheets
+    from service.workbook.sheets import Misplaced, read
+
+    try:
+        found = read(workbook_sheets(_read(file)))
+    except OSError as error:
+        fail(f"cannot read {file}: {error.strerror}")
+    except UnreadableWorkbook as error:
+        fail(f"{file}: {error}")
+    except Misplaced as error:
+        fail(*error.lines)
+    return found.body, found.where
+
+
+def _pointer(problem: "FieldProblem") -> str:
+    from service.validation import pointer
+
+    return pointer(problem.path) or "the request"
 
 
 def content(file: str) -> Any:
@@ -59,19 +95,21 @@ def _read(file: str) -> bytes:
     return sys.stdin.buffer.read()
 
 
-def answer(compute: "Callable[[Question], Answer]", question: "Question") -> "Answer":
+def answer(
+    compute: "Callable[[Question], Answer]", question: Question, where: "Callable[[FieldProblem], str]" = _pointer
+) -> "Answer":
     from optimizer.errors import NotComputable
 
     try:
         return compute(question)
     except NotComputable as error:
-        fail_fields(error.problems)
+        fail_fields(error.problems, where=where)
 
 
-def fail_fields(problems: "Sequence[FieldProblem]", more: bool = False) -> NoReturn:
-    from service.validation import pointer
-
-    lines = [f"{pointer(problem.path) or 'the request'}: {problem.message}" for problem in problems]
+def fail_fields(
+    problems: "Sequence[FieldProblem]", more: bool = False, where: "Callable[[FieldProblem], str]" = _pointer
+) -> NoReturn:
+    lines = [f"{where(problem)}: {problem.message}" for problem in problems]
     fail(*lines, *(["... and more"] if more else []))
 
 

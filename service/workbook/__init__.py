@@ -1,0 +1,1 @@
+"""Machines and answers as workbooks of a spreadsheet."""

@@ -1,0 +1,220 @@
+"""What stands in which cell: a request as sheets, and back.
+
+The sheet `machine` has a line for each field, named by its path with dots. Throws, rows, webs, bearings and unbalances
+have a sheet each, with a line for each of them and a column for each field. Units are in the names of the fields. An
+empty cell leaves its field out. A text that is `null`, or begins with a bracket, a brace or a quotation mark, is JSON;
+every other one is that text.
+"""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from openpyxl.utils import get_column_letter
+
+from schemas.base import FieldProblem
+from schemas.rules import Path
+
+Cell = str | float | int | bool | None
+#: lines of cells by sheet, the headings first
+Sheets = dict[str, list[list[Cell]]]
+
+FIELDS = "machine"
+_FIELD_HEADS: tuple[Cell, ...] = ("field", "value")
+_THROWS = "throws"
+_ROWS = "rows"
+#: number of the throw that a row is on, from 0
+_THROW = "throw"
+_TABLES = (_THROWS, _ROWS, "webs", "bearings", "unbalances")
+#: sheets of an answer, which say nothing of the machine
+ANSWER, COUNTERWEIGHTS = "answer", "counterweights"
+_JSON = ("[", "{", '"')
+
+
+class Misplaced(ValueError):
+    """Cells that say nothing of a machine; ``lines`` name them."""
+
+    def __init__(self, lines: Sequence[str]) -> None:
+        self.lines = list(lines)
+        super().__init__("; ".join(lines))
+
+
+@dataclass(frozen=True)
+class Read:
+    """A request that was read, and where its fields stand.
+
+    cells : by path from the root of the request.
+    lines : sheet and line of what has a line of its own.
+    """
+
+    body: dict[str, Any]
+    cells: Mapping[Path, str]
+    lines: Mapping[Path, tuple[str, int]]
+
+    def where(self, problem: FieldProblem) -> str:
+        """The cell of a field, or the line where it is missing."""
+        path = problem.path
+        if path in self.cells:
+            return self.cells[path]
+        for length in range(len(path), 0, -1):
+            if path[:length] in self.lines:
+                sheet, line = self.lines[path[:length]]
+                return f"{sheet}, line {line}: {_dotted(path[length:])}"
+        return f"{FIELDS}: {_dotted(path)}"
+
+
+# ---- from a request
+
+
+def written(body: Mapping[str, Any]) -> Sheets:
+    """The sheets of a request."""
+    machine = dict(body.get("machine", {}))
+    throws = [dict(each) for each in machine.pop(_THROWS, ())]
+    rows = [{_THROW: number, **row} for number, throw in enumerate(throws) for row in throw.pop(_ROWS, ())]
+    tables = {_THROWS: throws, _ROWS: rows, **{name: machine.pop(name, []) for name in _TABLES[2:]}}
+    fields: list[list[Cell]] = [list(_FIELD_HEADS)]
+    fields += [[name, value] for name, value in flat({**body, "machine": machine})]
+    return {FIELDS: fields, **{name: table(lines) for name, lines in tables.items() if lines}}
+
+
+def table(lines: Sequence[Mapping[str, Any]]) -> list[list[Cell]]:
+    """A line for each, with all fields that any of them has."""
+    flattened = [dict(flat(line)) for line in lines]
+    heads = list(dict.fromkeys(name for line in flattened for name in line))
+    return [[*heads], *([line.get(name) for name in heads] for line in flattened)]
+
+
+def flat(fields: Mapping[str, Any], prefix: str = "") -> Iterator[tuple[str, Cell]]:
+    """Paths with dots, and what stands in their cells."""
+    for name, value in fields.items():
+        if isinstance(value, Mapping) and value:
+            yield from flat(value, f"{prefix}{name}.")
+        else:
+            yield f"{prefix}{name}", _cell(value)
+
+
+def _cell(value: Any) -> Cell:
+    plain = isinstance(value, float | int | bool) or (
+        isinstance(value, str) and value != "null" and not value.startswith(_JSON)
+    )
+    return value if plain else json.dumps(value, ensure_ascii=False)
+
+
+# ---- to a request
+
+
+def read(sheets: Sheets) -> Read:
+    """The request that sheets say.
+
+    Raises
+    ------
+    Misplaced
+    """
+    reader = _Reader()
+    for name, lines in sheets.items():
+        if name == FIELDS:
+            reader.fields(lines)
+        elif name in _TABLES:
+            reader.table(name, lines)
+        elif name not in (ANSWER, COUNTERWEIGHTS):
+            reader.wrong.append(f"{name}: no sheet of a machine; these are {', '.join((FIELDS, *_TABLES))}")
+    return reader.found()
+
+
+@dataclass
+class _Reader:
+    body: dict[str, Any] = field(default_factory=dict)
+    tables: dict[str, list[tuple[int, dict[str, Any], dict[Path, str]]]] = field(default_factory=dict)
+    cells: dict[Path, str] = field(default_factory=dict)
+    wrong: list[str] = field(default_factory=list)
+
+    def fields(self, lines: Sequence[Sequence[Cell]]) -> None:
+        """The sheet of single fields; further columns are notes."""
+        for number, line in enumerate(lines[1:], start=2):
+            name, value = [*line, None, None][:2]
+            place = f"{FIELDS}!B{number}"
+            if name is None and value is not None:
+                self.wrong.append(f"{place}: a value without a field beside it")
+            elif name is not None and value is not None:
+                self._set(self.body, self.cells, str(name), value, place)
+
+    def table(self, sheet: str, lines: Sequence[Sequence[Cell]]) -> None:
+        """A sheet of lines below headings."""
+        heads = lines[0] if lines else ()
+        found = self.tables.setdefault(sheet, [])
+        for number, line in enumerate(lines[1:], start=2):
+            if all(value is None for value in line):
+                continue
+            item: dict[str, Any] = {}
+            places: dict[Path, str] = {}
+            for column, value in enumerate(line):
+                place = f"{sheet}!{get_column_letter(column + 1)}{number}"
+                head = heads[column] if column < len(heads) else None
+                if head is None and value is not None:
+                    self.wrong.append(f"{place}: a value without a heading")
+                elif head is not None and value is not None:
+                    self._set(item, places, str(head), value, place)
+            found.append((number, item, places))
+
+    def _set(self, item: dict[str, Any], places: dict[Path, str], name: str, value: Cell, place: str) -> None:
+        path = tuple(name.split("."))
+        for key in path[:-1]:
+            inner = item.setdefault(key, {})
+            if not isinstance(inner, dict):
+                self.wrong.append(f"{place}: {name} is said beside {key} as a whole")
+                return
+            item = inner
+        if path[-1] in item:
+            self.wrong.append(f"{place}: {name} is said twice")
+            return
+        try:
+            item[path[-1]] = _value(path[-1], value)
+        except ValueError as error:
+            self.wrong.append(f"{place}: no JSON: {error}")
+        places[path] = place
+
+    def found(self) -> Read:
+        lines: dict[Path, tuple[str, int]] = {}
+        machine = self.body.setdefault("machine", {}) if self.tables else {}
+        for sheet in _TABLES:
+            for number, item, places in self.tables.get(sheet, ()):
+                path = self._placed(machine, sheet, number, item)
+                if path is not None:
+                    lines[path] = sheet, number
+                    self.cells |= {(*path, *below): place for below, place in places.items()}
+        if self.wrong:
+            raise Misplaced(self.wrong)
+        return Read(self.body, self.cells, lines)
+
+    def _placed(self, machine: Any, sheet: str, number: int, item: dict[str, Any]) -> Path | None:
+        """Put a line where it belongs; the path from the root."""
+        if not isinstance(machine, dict):
+            self.wrong.append(f"{sheet}, line {number}: the machine is said as a whole too")
+            return None
+        if sheet != _ROWS:
+            items = machine.setdefault(sheet, [])
+            items.append(item)
+            return "machine", sheet, len(items) - 1
+        throw, throws = item.pop(_THROW, None), machine.get(_THROWS, [])
+        if not isinstance(throw, int | float) or throw not in range(len(throws)):
+            message = f"the number of its throw, from 0 to {len(throws) - 1}" if throws else "there are no throws"
+            self.wrong.append(f"{sheet}, line {number}: {_THROW}: {message}")
+            return None
+        rows = throws[int(throw)].setdefault(_ROWS, [])
+        rows.append(item)
+        return "machine", _THROWS, int(throw), _ROWS, len(rows) - 1
+
+
+def _value(name: str, value: Cell) -> Any:
+    """What a cell says."""
+    if isinstance(value, str) and (value == "null" or value.startswith(_JSON)):
+        return json.loads(value)
+    if name == "name" and isinstance(value, int | float) and not isinstance(value, bool):
+        # a spreadsheet makes a number of a name such as 1
+        return f"{value:.15g}"
+    return value
+
+
+def _dotted(path: Path) -> str:
+    return ".".join(map(str, path)) or "what it says"

@@ -1,0 +1,88 @@
+"""Requests as cells and back."""
+
+import io
+import json
+from pathlib import Path
+from typing import Any
+
+import openpyxl
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from schemas.base import FieldProblem
+from service.documents.examples import bodies
+from service.workbook.files import workbook, workbook_sheets
+from service.workbook.sheets import Misplaced, Sheets, read, written
+
+TEXTS = st.text(st.characters(min_codepoint=32, max_codepoint=0x2FFF, exclude_categories=("Cs", "Cc")), min_size=1)
+LEAVES = st.one_of(st.none(), st.booleans(), st.integers(-(10**6), 10**6), TEXTS)
+
+
+@pytest.mark.parametrize("name", bodies())
+def test_every_example_comes_back(name: str) -> None:
+    body = bodies()[name]
+    assert read(workbook_sheets(workbook(written(body)))).body == body
+
+
+@given(st.dictionaries(st.sampled_from(["a", "b", "c"]), st.one_of(LEAVES, st.lists(LEAVES), st.just({}))))
+def test_any_value_comes_back(objective: dict[str, Any]) -> None:
+    body = {"machine": {"throws": [{"name": "x", "rows": []}]}, "objective": objective}
+    # a throw without rows has no line among the rows; what is empty is said where it stands
+    expected = {"machine": {"throws": [{"name": "x"}]}, "objective": objective}
+    assert read(written(body)).body == expected
+
+
+def test_text_that_looks_like_a_formula_stays_text() -> None:
+    body = {"machine": {"name": "=1+1", "webs": [{"name": "@x"}, {"name": "-y"}]}}
+    content = workbook(written(body))
+    sheet = openpyxl.load_workbook(io.BytesIO(content))["webs"]
+    assert [cell.data_type for cell in sheet["A"]] == ["s", "s", "s"]
+    assert read(workbook_sheets(content)).body == body
+
+
+def test_names_that_a_spreadsheet_made_numbers_of() -> None:
+    sheets: Sheets = {"webs": [["name", "max_mass_kg"], [1, 60], [2.5, 60]]}
+    assert [web["name"] for web in read(sheets).body["machine"]["webs"]] == ["1", "2.5"]
+
+
+def test_where_a_field_stands_or_is_missing() -> None:
+    found = read(written(bodies()["2d12"]))
+
+    def where(*path: str | int) -> str:
+        return found.where(FieldProblem(path, ""))
+
+    assert where("machine", "webs", 2, "max_mass_kg") == "webs!D4"
+    assert where("machine", "throws", 1, "rows", 0, "connecting_rod", "length_m") == "rows!E3"
+    assert where("machine", "webs", 2, "sector", "centre_deg") == "webs, line 4: sector.centre_deg"
+    assert where("machine", "speed_rpm") == "machine!B5"
+    assert where("objective", "force_weight") == "machine: objective.force_weight"
+
+
+@pytest.mark.parametrize(
+    ("sheets", "said"),
+    [
+        ({"machines": [["field"]]}, "machines: no sheet of a machine"),
+        ({"webs": [["name", None], ["a", 3]]}, "webs!B2: a value without a heading"),
+        ({"webs": [["name", "name"], ["a", "b"]]}, "webs!B2: name is said twice"),
+        ({"webs": [["sector", "sector.centre_deg"], ["null", 3]]}, "webs!B2: sector.centre_deg is said beside sector"),
+        ({"webs": [["name"], ["[1"]]}, "webs!A2: no JSON"),
+        ({"machine": [["field", "value"], [None, 3]]}, "machine!B2: a value without a field beside it"),
+        ({"machine": [["field", "value"], ["machine", 3]], "webs": [["name"], ["a"]]}, "webs, line 2: the machine is"),
+        ({"rows": [["throw"], [0]]}, "rows, line 2: throw: there are no throws"),
+        (
+            {"throws": [["name"], ["a"]], "rows": [["throw"], [1]]},
+            "rows, line 2: throw: the number of",
+        ),
+        ({"throws": [["name"], ["a"]], "rows": [["name"], ["b"]]}, "rows, line 2: throw: the number"),
+    ],
+)
+def test_what_says_nothing_of_a_machine_is_named(sheets: Sheets, said: str) -> None:
+    with pytest.raises(Misplaced) as refused:
+        read(sheets)
+    assert any(line.startswith(said) for line in refused.value.lines), refused.value.lines
+
+
+def test_the_example_of_plates_comes_back() -> None:
+    body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
+    assert read(workbook_sheets(workbook(written(body)))).body == body
