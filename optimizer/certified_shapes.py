@@ -1,9 +1,9 @@
 """Certified counterweights that are cut from plates, whose mass is no multiple of their unbalance.
 
-The mass m(U) of a plate is convex. Chords of it are webs in one plane, each with a radius and a largest mass of its
-own: what they carry together is feasible and no lighter than what is cut. Tangents are such webs too, and no heavier:
-what is proven of them is proven of the plate. Both are laid closer about what the tangents call for, until the gap is
-as asked.
+The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
+own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
+is cut, and is the answer, but for a budget: then chords are, such webs too and no lighter, so that what they find keeps
+it. Both are laid closer about what the tangents call for, until the gap is as asked.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -27,9 +27,11 @@ from optimizer.shapes import envelopes, fitted
 from schemas.requests import OptimizeRequest
 
 #: half-angles at first, by their tangents: closer both where a plate is all but closed and where it is all but full
-_FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 9)))
+_FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 33)))
 #: how many nodes are kept beside the ends, and how often others are laid
 _KEPT, _ROUNDS = 9, 12
+#: nodes are laid on both sides of one this share nearer than those that were there
+_NARROWER = 0.25
 #: tangents reach no less far than chords, whatever the rounding of their pieces
 _REACHES = 1.0 + 1e-13
 #: nodes that are nearer than this share of the largest half-angle are one
@@ -54,8 +56,10 @@ def certified_shapes(
     nodes: _Nodes = {k: _nodes(_FIRST, float(plate.most)) for k, plate in plates.items()}
     best: tuple[OptimizeRequest, Certified] | None = None
     end = thread_time() + request.accuracy.time_limit_s
+    closed = request.model_copy(update={"machine": fitted(request.machine, dict.fromkeys(plates, 0.0))})
+    whole = within_reach(formulate(closed.machine, request.objective, responses, omega_squared), solver)
     for _ in range(_ROUNDS):
-        asked, found, called_for = _round(request, plates, nodes, responses, omega_squared, solver)
+        asked, found, called_for = _round(request, whole, plates, nodes, responses, omega_squared, solver)
         if best is None or _gap(found) <= _gap(best[1]):
             best = asked, found
         if found.status[0] != "inaccurate":
@@ -74,17 +78,16 @@ def _gap(found: Certified) -> float:
 
 def _round(
     request: OptimizeRequest,
+    whole: Statement,
     plates: Mapping[int, Envelope],
     nodes: _Nodes,
     responses: Sequence[Response],
     omega_squared: Real,
     solver: Solver,
 ) -> tuple[OptimizeRequest, Certified, Mapping[int, float]]:
-    """What chords find and tangents prove, and the half-angles that the tangents call for."""
+    """What is found and what tangents prove, and the half-angles that the tangents call for."""
     goal, square = request.objective, omega_squared
-    closed = request.model_copy(update={"machine": fitted(request.machine, dict.fromkeys(plates, 0.0))})
-    webs = range(len(closed.machine.webs))
-    whole = within_reach(formulate(closed.machine, goal, responses, square), solver)
+    webs = range(len(request.machine.webs))
     owner = np.repeat(np.array(webs), [nodes[k].size - 1 if k in plates else 1 for k in webs])
 
     def optimum(laid: Callable[[Envelope, Real], _Webs]) -> tuple[Statement, Optima, Complex]:
@@ -94,15 +97,16 @@ def _round(
         np.add.at(carried, owner, found.unbalance[0])
         return program, found, carried
 
-    (_, feasible, u), (tangents, proven, called_for) = optimum(_chords), optimum(_tangents)
-    if proven.unreachable[0]:
-        u = called_for
-    else:
+    tangents, proven, called_for = optimum(_tangents)
+    u, spent = called_for, proven.certify_s
+    if np.isfinite(whole.limits.max_total_mass[0]) and not proven.unreachable[0]:
+        # what tangents call for may be heavier than the budget, what chords find is not
+        _, feasible, u = optimum(_chords)
         proven = _up_to(tangents, proven, whole.objective(u) + whole.rounding(u))
+        spent = spent + feasible.certify_s
     asked = request.model_copy(update={"machine": fitted(request.machine, _opened(plates, u))})
     program = formulate(asked.machine, goal, responses, square)
     program = replace(program, limits=_limits(program.limits, whole.limits, plates))
-    spent = feasible.certify_s + proven.certify_s
     found = judged(asked, program, replace(proven, unbalance=u[None], certify_s=spent), square)
     return asked, found, _opened(plates, called_for)
 
@@ -180,6 +184,6 @@ def _closer(nodes: Real, angle: float) -> Real:
     most = float(nodes[-1])
     after = int(np.clip(np.searchsorted(nodes, angle), 1, nodes.size - 1))
     beside = nodes[[after - 1, after]]
-    every = np.concatenate([nodes[1:-1], [angle], 0.5 * (angle + beside)])
+    every = np.concatenate([nodes[1:-1], [angle], angle + _NARROWER * (beside - angle)])
     nearest = every[np.argsort(np.abs(every - angle), kind="stable")][:_KEPT]
     return _nodes(nearest[nearest > 0], most)

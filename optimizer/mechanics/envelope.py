@@ -9,6 +9,7 @@ The half-angle a [rad] is that at the outer radius, as seen from the shaft, from
 functions broadcast.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -16,8 +17,8 @@ import numpy as np
 
 from optimizer.arrays import Real, Reals
 
-#: halvings of an interval: to the last bit
-_HALVINGS = 60
+#: cuts of an interval into as many parts: to the last bit
+_CUTS, _PARTS = 10, 64
 #: below it x - sin x is summed as a series
 _SMALL = 0.05
 
@@ -132,11 +133,8 @@ class Segment(Plate):
         touching = np.minimum(np.arccos(self.inner / self.outer), self.most)
         if np.all((beyond <= touching) | (touching >= self.most)):
             return np.minimum(beyond, self.most)
-        low, high = (np.broadcast_to(each, np.shape(beyond + touching)) for each in (touching, self.most))
-        for _ in range(_HALVINGS):
-            middle = 0.5 * (low + high)
-            more = self.unbalance(middle) > unbalance
-            low, high = np.where(more, low, middle), np.where(more, middle, high)
+        every = np.broadcast_arrays(touching, self.most, unbalance)
+        low = _inverse(self.unbalance, *every)
         return np.where(beyond <= touching, beyond, np.where(unbalance >= self.unbalance(self.most), self.most, low))
 
     def chord(self, half_angle: Reals) -> Real:
@@ -155,12 +153,18 @@ class _OfAngle(Protocol):
 
 def opened_for(plate: Envelope, mass: Reals) -> Real:
     """Half-angle of the counterweight of a mass, rad; the largest for more than the plate holds."""
-    low, high = np.broadcast_arrays(0.0, plate.most, mass)[:2]
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        more = plate.mass(middle) > mass
-        low, high = np.where(more, low, middle), np.where(more, middle, high)
-    return np.where(mass >= plate.mass(plate.most), plate.most, low)
+    found = _inverse(plate.mass, *np.broadcast_arrays(0.0, plate.most, mass))
+    return np.where(mass >= plate.mass(plate.most), plate.most, found)
+
+
+def _inverse(rising: Callable[[Real], Real], low: Real, high: Real, value: Real) -> Real:
+    """Where a function that rises has a value, between two angles."""
+    share = (np.arange(1, _PARTS) / _PARTS).reshape(-1, *np.ones(np.ndim(low), int))
+    for _ in range(_CUTS):
+        width = high - low
+        part = np.sum(rising(low + share * width) <= value, axis=0)
+        low, high = low + part / _PARTS * width, low + (part + 1) / _PARTS * width
+    return low
 
 
 def _excess(angle: Real) -> Real:
