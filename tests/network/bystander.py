@@ -2,7 +2,8 @@
 
 ``python -m tests.network.bystander`` prints, for each kind of traffic, what became of the bystander's requests and how
 much memory the service took above rest; it fails if one of his was refused or the memory is over its limit. All clients
-are on this machine: the bystander has an address of his own (127.0.0.2), those who press the service share another.
+are on this machine: the bystander has an address of his own (127.0.0.2), those who press the service share another, or
+four of them.
 Those are a process of their own, of low priority: what they compute is not what the service costs, and other machines
 would compute it.
 """
@@ -31,7 +32,7 @@ from tests.network.serving import Service, read, request, service
 
 #: most that all processes of the service may hold above rest [MB]; computations apart, which have a limit of their own
 CEILING_MB = 150.0
-_PRESSING, _BYSTANDER = "127.0.0.3", "127.0.0.2"
+_BYSTANDER = "127.0.0.2"
 #: of those who press
 _NICENESS = 10
 _MB = 1e6
@@ -47,10 +48,15 @@ ORDINARY = (
 
 @dataclass(frozen=True)
 class Aim:
-    """Whom to press: the port of a service, and the path of a sweep that runs there."""
+    """Whom to press: the port of a service, and the path of a sweep that runs there; from how many addresses."""
 
     port: int
     sweep: str
+    addresses: int = 1
+
+    def address(self, number: int) -> str:
+        """That of a client."""
+        return f"127.0.0.{3 + number % self.addresses}"
 
 
 @dataclass
@@ -98,9 +104,9 @@ def largest(throws: int) -> bytes:
 Press = Callable[[Aim, int], Awaitable[None]]
 
 
-async def stalled_body(target: Aim, _: int) -> None:
+async def stalled_body(target: Aim, number: int) -> None:
     """Announces a body, sends all of it but the end, and waits."""
-    async with connected(target.port, _PRESSING) as (reader, writer):
+    async with connected(target.port, target.address(number)) as (reader, writer):
         writer.write(request("POST", "/v1/optimize", headers={"Content-Length": "1000000"}) + b" " * 999_000)
         with suppress(ConnectionError):
             await writer.drain()
@@ -111,16 +117,16 @@ async def stopped_reader(target: Aim, number: int) -> None:
     """Asks for answers of megabytes, again and again on one connection, and reads nothing."""
     wanted = json.dumps({"machine": MACHINES["2d12"]["machine"], "outputs": ["torque"], "angles": {"step_deg": 0.05}})
     asked = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", wanted.encode())
-    async with connected(target.port, _PRESSING) as (reader, writer):
+    async with connected(target.port, target.address(number)) as (reader, writer):
         reader._transport.pause_reading()  # type: ignore[attr-defined]
         writer.write(asked.replace(b"Connection: close", b"Connection: keep-alive") * 5)
         await asyncio.sleep(600)
 
 
-async def largest_machine(target: Aim, _: int) -> None:
+async def largest_machine(target: Aim, number: int) -> None:
     """Asks for the optimum of a machine of hundreds of webs, again and again."""
     while True:
-        async with connected(target.port, _PRESSING) as (reader, writer):
+        async with connected(target.port, target.address(number)) as (reader, writer):
             writer.write(request("POST", "/v1/optimize", largest(300)))
             with suppress(ConnectionError):
                 await writer.drain()
@@ -128,26 +134,26 @@ async def largest_machine(target: Aim, _: int) -> None:
         await asyncio.sleep(0.2)
 
 
-async def stream(target: Aim, _: int) -> None:
+async def stream(target: Aim, number: int) -> None:
     """Watches a sweep."""
-    async with connected(target.port, _PRESSING) as (reader, writer):
+    async with connected(target.port, target.address(number)) as (reader, writer):
         writer.write(request("GET", f"{target.sweep}/events"))
         while await reader.read(1000):
             pass
 
 
-async def silent(target: Aim, _: int) -> None:
+async def silent(target: Aim, number: int) -> None:
     """Says nothing."""
     while True:
-        async with connected(target.port, _PRESSING) as (reader, _):
+        async with connected(target.port, target.address(number)) as (reader, _):
             await reader.read()
         await asyncio.sleep(0.2)
 
 
-async def state(target: Aim, _: int) -> None:
+async def state(target: Aim, number: int) -> None:
     """Asks for the state of a sweep, again and again."""
     while True:
-        async with connected(target.port, _PRESSING) as (reader, writer):
+        async with connected(target.port, target.address(number)) as (reader, writer):
             writer.write(request("GET", target.sweep))
             await read(reader)
 
@@ -182,8 +188,8 @@ def computed_s(target: Service) -> float:
     return nanoseconds / 1e9
 
 
-async def beside(target: Service, press: Press, clients: int, seconds: float) -> Outcome:
-    """What becomes of a bystander while so many clients press the service."""
+async def beside(target: Service, press: Press, clients: int, seconds: float, addresses: int = 1) -> Outcome:
+    """What becomes of a bystander while so many clients, of so many addresses, press the service."""
     outcome = Outcome()
     rest = held_mb(target)
 
@@ -193,7 +199,7 @@ async def beside(target: Service, press: Press, clients: int, seconds: float) ->
             await asyncio.sleep(0.1)
 
     watch = asyncio.create_task(watching())
-    aim = Aim(target.port, target.sweep)  # type: ignore[attr-defined]
+    aim = Aim(target.port, target.sweep, addresses)  # type: ignore[attr-defined]
     spawn = multiprocessing.get_context("spawn")
     begun = spawn.Event()
     pressed = spawn.Process(target=_pressing, args=(aim, press, clients, begun), daemon=True)
@@ -250,18 +256,19 @@ def main() -> int:
     parser.add_argument("--only", help="a kind of traffic, besides none")
     given = parser.parse_args()
     failures, quiet, quiet_work = 0, 0.0, 0.0
-    presses: dict[str, tuple[Press, int]] = {
-        "nobody": (silent, 0),
-        **{name: (press, min(300, given.clients)) for name, press in PRESSES.items()},
-        "a mix of all": (mixed, given.clients),
+    presses: dict[str, tuple[Press, int, int]] = {
+        "nobody": (silent, 0, 1),
+        **{name: (press, min(300, given.clients), 1) for name, press in PRESSES.items()},
+        "a mix of all": (mixed, given.clients, 1),
+        "a mix of four": (mixed, given.clients, 4),
     }
     if given.only is not None:
         presses = {name: presses[name] for name in ("nobody", given.only)}
     with service(log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]
         print(f"at rest: {held_mb(target):.0f} MB")
-        for name, (press, clients) in presses.items():
-            outcome = asyncio.run(beside(target, press, clients, given.seconds))
+        for name, (press, clients, addresses) in presses.items():
+            outcome = asyncio.run(beside(target, press, clients, given.seconds, addresses))
             together = [each for times in outcome.seconds.values() for each in times]
             p50, p99 = (quantile_ms(together, share) for share in (0.5, 0.99))
             work = quantile_ms(outcome.work_s, 0.99)
