@@ -14,7 +14,7 @@ from optimizer.optimize import optimize
 from optimizer.outputs import MAX_SAMPLES
 from schemas.answers import OptimizeAnswer
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from tests.hard_turn.cases import Case
+from tests.hard_turn.case import Case
 
 #: so much of the largest load may be missed between two samples a tenth of a degree apart, and beside the corners that
 #: valves make

@@ -2,7 +2,8 @@
 
 import pytest
 
-from tests.hard_turn.cases import Case, all_cases
+from tests.hard_turn.case import Case
+from tests.hard_turn.cases import all_cases
 from tests.hard_turn.judge import run
 
 _CASES = all_cases()

@@ -1,9 +1,6 @@
-"""The whole flow: rules of the field, statuses, limits, and answers re-simulated by other means."""
+"""The whole flow: rules of the field, limits, and answers re-simulated by other means."""
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
-from importlib import import_module
 from itertools import pairwise
 from typing import Any
 
@@ -12,28 +9,9 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from optimizer.program import compiled
-from optimizer.program.kernel import interior_point
-from optimizer.program.kernel.finer_numbers import PRECISIONS
-from optimizer.program.reference import solver as solve
-from optimizer.program.reference.modelling import ConeProgram
-from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
+from tests.optimize.asking import OMEGA_SQUARED, answer, single
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
-from tests.verification.checking import optimized
-
-OMEGA_SQUARED = (600 * math.pi / 30) ** 2
-
-
-def answer(body: dict[str, Any], **objective: Any) -> OptimizeAnswer:
-    request = {"machine": body, "objective": objective}
-    return optimized(request)
-
-
-def single(axes_and_masses: list[tuple[float, float]], rotating: float = 0.0) -> dict[str, Any]:
-    rows = [row(axis, mass) for axis, mass in axes_and_masses]
-    return machine([throw(0.0, 0.0, rows, rotating=rotating)], [web("a", -0.1), web("b", 0.1)])
-
 
 # ---- rules of docs/mathematics.md section 6, all analytic: m = 20 kg, r = R = 0.1 m
 
@@ -177,72 +155,6 @@ def test_no_random_counterweights_beat_the_bound(seed: int) -> None:
         assert value >= found.certificate.lower_bound * (1 - 1e-3)  # the grid of 2 degrees sees 1e-3 less
 
 
-# ---- statuses
-
-
-def test_infeasible_names_the_ceiling_and_what_can_be_reached() -> None:
-    found = answer(single([(90.0, 20.0)]), force_ceiling_N=100.0, moment_ceiling_Nm=1e6)
-    assert found.status == "infeasible"
-    assert found.counterweights == ()
-    assert found.total_mass_kg is None
-    assert found.certificate is None
-    assert found.residual.after is None
-    assert found.residual.before.force.peak_N > 0
-    reached = found.infeasibility
-    assert reached.conflict == ("force_ceiling_N",)
-    half = 0.5 * 20.0 * 0.1 * OMEGA_SQUARED  # analytic
-    assert reached.smallest_force_N == pytest.approx(half, rel=1e-9)
-    assert reached.smallest_force_lower_bound_N == pytest.approx(half, rel=1e-8)
-    assert reached.closest.first_order.force.peak_N == pytest.approx(half, rel=1e-6)
-
-
-def test_ceilings_that_conflict_only_together_are_both_named() -> None:
-    # one web between force and moment: u = 2 serves the force, u = 0 the moment (analytic)
-    body = machine([throw(0.0, 0.0, [], rotating=20.0), throw(1.0, 0.0, [])], [web("a", 1.0)], reference_plane_m=0.0)
-    force, moment = 2.0 * OMEGA_SQUARED, 2.0 * OMEGA_SQUARED
-    assert answer(body, force_ceiling_N=0.6 * force, moment_ceiling_Nm=0.6 * moment).status == "optimal"
-    found = answer(body, force_ceiling_N=0.4 * force, moment_ceiling_Nm=0.4 * moment)
-    assert found.status == "infeasible"
-    assert found.infeasibility.conflict == ("force_ceiling_N", "moment_ceiling_Nm")
-    assert found.infeasibility.smallest_force_N == pytest.approx(0.0, abs=1e-6 * force)
-    assert found.infeasibility.smallest_moment_Nm == pytest.approx(0.0, abs=1e-6 * moment)
-    closest = found.infeasibility.closest.first_order
-    # analytic, in units of the full force: (|1 - x| - 0.4) / 1 = (x - 0.4) / 0.4, each excess relative to the
-    # larger of ceiling and response without counterweights
-    share = 0.64 / 1.4  # 0.4 (0.6 - x) = x - 0.4
-    assert closest.moment.peak_Nm == pytest.approx(share * moment, rel=1e-6)
-    assert closest.force.peak_N == pytest.approx((1 - share) * force, rel=1e-6)
-
-
-def test_active_limits_are_named() -> None:
-    body = single([(90.0, 20.0)])
-    small = body | {"webs": [web("a", -0.1, 2.0), web("b", 0.1, 3.0)]}
-    assert {weight.active_limits for weight in answer(small).counterweights} == {("max_mass",)}
-    assert answer(body | {"max_total_mass_kg": 4.0}).active_limits == ("max_total_mass",)
-    ceiling = 0.7 * 20.0 * 0.1 * OMEGA_SQUARED
-    held = answer(body, force_weight=0.0, moment_weight=1.0, force_ceiling_N=ceiling)
-    assert held.active_limits == ("force_ceiling",)
-    assert held.residual.after.force.peak_N <= ceiling * (1 + 1e-9)
-    sector = {"centre_deg": 240.0, "half_angle_deg": 30.0}  # 180 would be best
-    turned = body | {"webs": [web("a", 0.0, sector=sector)]}
-    assert answer(turned).counterweights[0].active_limits == ("sector",)
-
-
-def test_an_asked_gap_that_cannot_be_certified_is_called_inaccurate() -> None:
-    request = {"machine": random_machine(3), "accuracy": {"relative_gap": 1e-12}, "objective": {"combine": "max"}}
-    found = optimized(request)
-    expected = "optimal" if found.certificate.relative_gap <= 1e-12 else "inaccurate"
-    assert found.status == expected
-
-
-def test_looser_and_tighter_gaps_are_reported_as_asked() -> None:
-    for gap in (1e-3, 1e-6, 1e-8):
-        request = {"machine": random_machine(1), "accuracy": {"relative_gap": gap}}
-        found = optimized(request)
-        assert found.status == "optimal"
-        assert found.certificate.relative_gap <= gap
-
-
 # ---- ordinary cases that are easily forgotten
 
 
@@ -331,77 +243,3 @@ def test_two_planes_balance_an_orbiting_scroll_with_the_closed_form_masses() -> 
     assert far.mass_kg == pytest.approx(1.2 * 0.005 / 0.02 * (0.05 - 0.02) / 0.12, rel=1e-5)
     assert near.angle_deg == pytest.approx(180.0)
     assert far.angle_deg % 360.0 == pytest.approx(0.0, abs=1e-3)
-
-
-def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], dict[str, Any]]) -> None:
-    """Every interior point, in whatever numbers, hands out its arrays (points, cones, rows) with this change."""
-
-    def changed(solve: Callable[..., Any]) -> Callable[..., Any]:
-        def run(*arguments: Any) -> Any:
-            v, cone, row, unit = solve(*arguments)
-            found = change({"v": v, "cone": cone, "row": row})
-            return found["v"], found["cone"], found["row"], unit
-
-        return run
-
-    # in finer numbers it is made from the compiled one, and once: before that is changed
-    finer = {precision: changed(compiled.solve_in(precision)) for precision in PRECISIONS}
-    monkeypatch.setattr(interior_point, "solve", changed(interior_point.solve))
-    monkeypatch.setattr(compiled, "solve_in", finer.__getitem__)
-
-
-def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
-    body = single([(90.0, 20.0)])
-    monkeypatch.setattr(ConeProgram, "solve", lambda *_: None)
-    broken(monkeypatch, lambda found: {name: np.full_like(np.asarray(a, float), np.nan) for name, a in found.items()})
-    # the closed form would answer without any solver
-    monkeypatch.setattr(solve, "cancelling", lambda statement, **_: np.zeros(statement.limits.radius.shape, complex))
-    found = answer(body)
-    assert found.status == "inaccurate"
-    assert found.total_mass_kg == 0.0
-    # analytic: nothing but the floor is proven, half of what there is
-    assert found.certificate.relative_gap == pytest.approx(0.5, rel=1e-12)
-
-
-def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> None:
-    honest = ConeProgram.solve
-
-    def lying(self: ConeProgram, *arguments: Any) -> Any:
-        found = honest(self, *arguments)
-        return None if found is None else found._replace(x=0.3 * found.x, row=-found.row, term=5j * found.term)
-
-    monkeypatch.setattr(ConeProgram, "solve", lying)
-    broken(
-        monkeypatch, lambda found: {"v": 0.3 * found["v"], "cone": 5.0 * found["cone"][..., ::-1], "row": -found["row"]}
-    )
-    found = answer(random_machine(1))
-    assert found.status == "inaccurate"
-    assert found.certificate.lower_bound <= found.certificate.objective
-    assert found.certificate.relative_gap > 1e-6
-
-
-def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The yardstick is then what the counterweights could change, and the relative gap stands for the gap."""
-    whole = import_module("optimizer.certified")
-
-    opposed = [throw(-0.2, 0.0, [], rotating=10.0), throw(0.2, 180.0, [], rotating=10.0)]
-    body = machine(opposed, [web("one", 0.3)])
-    rest = answer(body).residual.before.moment.peak_Nm
-    asked = {"moment_weight": 0.0, "moment_ceiling_Nm": 0.9 * rest}
-    found = answer(body, **asked)
-    # analytic: the force cancels at rest, and one web that lowers the couple makes one
-    assert found.certificate.objective_without_counterweights == pytest.approx(0.0, abs=1e-9)
-    assert found.certificate.objective == pytest.approx(0.1 * rest / 0.3, rel=1e-6)
-    proof = found.certificate
-    assert found.status == "optimal"
-    assert proof.yardstick > proof.objective  # both what one web does to the force
-    assert proof.relative_gap == pytest.approx(proof.gap / proof.yardstick)
-
-    honest = whole.optima
-
-    def modest(*arguments: Any) -> Any:
-        best = honest(*arguments)
-        return replace(best, lower_bound=0.5 * best.lower_bound)
-
-    monkeypatch.setattr(whole, "optima", modest)
-    assert answer(body, **asked).status == "inaccurate"

@@ -14,7 +14,7 @@ from service.report.html import html
 from service.validation import InvalidRequest, check
 from service.validation import pointer as spelled
 from service.verification import checker
-from tests.optimize.test_robust import crank, scenario
+from tests.optimize.robust import crank, scenario
 
 TWO = [scenario("as it is"), scenario("turned", throws__0__crank_angle_deg=60)]
 BODY = {"machine": crank(), "scenarios": TWO, "tolerances": {"mass_relative": 0.02}}
