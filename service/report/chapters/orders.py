@@ -1,8 +1,11 @@
 """What shakes at multiples of the shaft speed."""
 
+from functools import partial
+
 from schemas.first_order import ResidualOrders
-from schemas.outputs import Order, OrdersComparison
-from service.report.blocks import Chapter, Paragraph, Table, table
+from schemas.outputs import ForceOrder, MomentOrder, Order, OrdersComparison
+from service.report.blocks import Chapter, Figure, Paragraph, Table, table
+from service.report.charts import after, before, hodograph
 
 _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
 
@@ -20,7 +23,29 @@ def orders(found: OrdersComparison) -> Chapter:
     left = {one.order: one for one in found.after or ()}
     rows = [_row(str(one.order), one, left.get(one.order)) for one in found.before]
     words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
-    return Chapter("Orders", (Paragraph(words), table("", _HEADS, rows)))
+    drawn = [_hodographs(one, left.get(one.order)) for one in found.before]
+    return Chapter("Orders", (Paragraph(words), table("", _HEADS, rows), *(one for one in drawn if one is not None)))
+
+
+def _hodographs(was: Order, left: Order | None) -> Figure | None:
+    """The ellipses of force and moment of one order; None where there is neither."""
+    drawings = []
+    for what, unit in (("force", "N"), ("moment", "N m")):
+        parts = [(before, was)] + ([] if left is None else [(partial(after, "with counterweights"), left)])
+        ellipses = [make(*_ellipse(getattr(one, what), unit)) for make, one in parts]
+        if any(one.major > 0.0 for one in ellipses):
+            drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses))
+    times = "once" if was.order == 1 else f"{was.order} times"
+    caption = f"Order {was.order}: the tip of the vector runs along its ellipse {times} a turn."
+    return Figure(tuple(drawings), caption) if drawings else None
+
+
+def _ellipse(one: ForceOrder | MomentOrder, unit: str) -> tuple[float, float, float]:
+    """Semi-axes and direction of the major one, degrees."""
+    short = unit.replace(" ", "")
+    sizes = [getattr(phasor, f"magnitude_{short}") for phasor in (one.co_rotating, one.counter_rotating)]
+    axis = 0.5 * (one.co_rotating.phase_deg + one.counter_rotating.phase_deg)
+    return sum(sizes), abs(sizes[0] - sizes[1]), axis
 
 
 def _row(name: str, was: Order | None, left: Order | None) -> tuple[str | float | None, ...]:
