@@ -1,0 +1,46 @@
+"""What a ceiling over the turn costs: the lengths of its multipliers, against differences of certified optima."""
+
+from typing import Any
+
+import pytest
+
+from schemas.answers import Certificate
+from tests.optimize.machines import machine, row, throw, web
+from tests.verification.checking import optimized
+
+
+def _certificate(objective: dict[str, Any], **more: Any) -> Certificate:
+    rod = {"connecting_rod": {"length_m": 0.35, "mass_kg": 3.0}}
+    throws = [throw(0.0, 0.0, [row(90.0, 10.0, **rod)], rotating=5.0), throw(0.4, 110.0, [row(60.0, 8.0, **rod)])]
+    bearings = [{"name": name, "position_m": place} for name, place in (("A", -0.1), ("B", 0.2), ("C", 0.5))]
+    body = machine(throws, [web("a", -0.05, 30.0), web("b", 0.45, 30.0)], bearings=bearings, **more)
+    asked = {"machine": body, "objective": {**objective, "least_mass": False}, "accuracy": {"relative_gap": 1e-9}}
+    found = optimized(asked).certificate
+    assert found is not None
+    return found
+
+
+def _price(found: Certificate) -> float:
+    return sum(abs(complex(one.x, one.y)) for one in found.multipliers.objective.ceilings)
+
+
+def test_the_price_of_a_bearing_ceiling_is_the_sum_of_its_multipliers() -> None:
+    # independent: central differences; the ceiling is between what the two goals by themselves leave
+    alone = _certificate({"bearing_weight": 1, "force_weight": 0, "moment_weight": 0})
+    cap = 1.02 * alone.objective
+    found, step = _certificate({"bearing_ceiling_N": cap}), 1e-3 * cap
+    higher, lower = (_certificate({"bearing_ceiling_N": cap + by}).objective for by in (step, -step))
+    assert _price(found) > 0.1
+    assert _price(found) == pytest.approx((lower - higher) / (2.0 * step), rel=1e-3)
+    assert all(
+        one.response.startswith("bearing:") and one.angle_deg is not None
+        for one in found.multipliers.objective.ceilings
+    )
+
+
+def test_the_price_of_the_budget_is_its_multiplier() -> None:
+    goal = {"bearing_weight": 1}
+    found = _certificate(goal, max_total_mass_kg=2.0)
+    higher, lower = (_certificate(goal, max_total_mass_kg=most).objective for most in (2.002, 1.998))
+    assert found.multipliers.objective.budget > 0.0
+    assert found.multipliers.objective.budget == pytest.approx((lower - higher) / 0.004, rel=1e-3)
