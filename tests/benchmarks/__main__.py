@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optimizer.optimize import optimize
-from tests.benchmarks import discrete, outputs, whole_turn
+from tests.benchmarks import discrete, outputs
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -29,11 +29,10 @@ def main() -> None:
     console = Console(width=120)
     phases(console, repeats)
     by_output(console, max(repeats // 3, 5))
-    bearing_optima(console, max(repeats // 6, 5))
     choices(console, max(repeats // 12, 3))
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
     # each in a process of its own, which stays on one core or starts its own workers
-    for module in ("wire", "sweep", "sweep_scaling"):
+    for module in ("whole_turn", "wire", "sweep", "sweep_scaling"):
         subprocess.run([sys.executable, "-m", f"tests.benchmarks.{module}"], check=True)
 
 
@@ -72,19 +71,6 @@ def by_output(console: Console, repeats: int) -> None:
         console.print(f"scroll pins, {name}: {value:.2f} ms")
     loop, block = outputs.broadcasting()
     console.print(f"1,000 machines: one by one {loop:.3f} s, in one call {block:.3f} s, ratio {loop / block:.0f}")
-
-
-def bearing_optima(console: Console, repeats: int) -> None:
-    """Bearing optima by cuts, and the least mass among them."""
-    table = Table(title=f"bearing optimum to 1e-6, warm median of {repeats}, milliseconds")
-    for heading in ("case", "least mass", "program", "answer", "rounds", "cuts", "gap"):
-        table.add_column(heading, justify="left" if heading == "case" else "right")
-    for name, build in whole_turn.MACHINES.items():
-        for least_mass in (False, True):
-            found = whole_turn.times(build(), least_mass, repeats)
-            row = (f"{found.solving:.1f}", f"{found.whole:.1f}", str(found.rounds), str(found.cuts), f"{found.gap:.1e}")
-            table.add_row(name, "yes" if least_mass else "no", *row)
-    console.print(table)
 
 
 def choices(console: Console, repeats: int) -> None:
