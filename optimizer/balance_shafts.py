@@ -12,6 +12,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import counterweights, places, unbalance, unbalances_of_shaft
+from optimizer.fixed import beside
 from optimizer.formulate import with_weights_of
 from optimizer.mechanics.layout import stacked
 from schemas.counterweights import Counterweight, FittedShaft
@@ -74,16 +75,17 @@ class Fitted(NamedTuple):
         }
 
 
-def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real, of_program: Complex) -> Fitted:
-    """What a program has chosen, shaft by shaft.
+def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real) -> Fitted:
+    """What a program has chosen, shaft by shaft, beside the weights that are fixed.
 
     Parameters
     ----------
-    mass_kg, angle_deg, of_program : (K + S,) of the webs of :func:`posed`.
+    mass_kg, angle_deg : (K + S,) of the webs of :func:`posed`.
     """
     machine, shafts = request.machine, balance_shafts(request.machine)
+    mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not shafts:
-        return Fitted(counterweights(machine, mass_kg, angle_deg), float(np.sum(mass_kg)), (), of_program, None)
+        return fitted(machine, mass_kg, angle_deg)
     ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
     mirrored = (ratio == -1) & (request.objective.orders == "first")
     own = len(machine.webs)
@@ -95,7 +97,7 @@ def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real, of_program:
 def fitted(machine: Machine, mass_kg: Real, angle_deg: Real) -> Fitted:
     """Masses and angles (K + S,), as drawn, of all webs of a machine and of its balance shafts."""
     own, shafts = len(machine.webs), balance_shafts(machine)
-    u = unbalance(mass_kg, angle_deg, stacked([web.counterweight_radius_m for web in places(machine)]))
+    u = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in places(machine)]))
     found, first = [], own
     for shaft in shafts:
         there = slice(first, first + len(shaft.webs))

@@ -1,17 +1,19 @@
 """Certified counterweights of many designs of one shape; one request is a batch of one."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import masses_and_angles, unbalance
+from optimizer.fixed import fixed_masses
 from optimizer.formulate import formulate
 from optimizer.program.optima import Optima, optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
+from optimizer.program.symmetry import symmetric
 from optimizer.program.verdict import INFEASIBLE, Verdict, claim, verdict
 from optimizer.response import Response
 from schemas.requests import OptimizeRequest
@@ -24,7 +26,7 @@ class Certified:
     program: Statement  # (N,), over omega^2, with the limits that the proofs count with
     omega_squared: Real  # (N,) rad^2/s^2
     found: Optima
-    mass_kg: Real  # (N, K)
+    mass_kg: Real  # (N, K), those that are chosen, as all that follows
     angle_deg: Real  # (N, K)
     unbalance: Complex  # (N, K) kg m, of these masses and angles
     verdict: Verdict
@@ -46,6 +48,8 @@ def certified(
     machine, goal = request.machine, request.objective
     program = within_reach(formulate(machine, goal, responses, omega_squared), solver)
     found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
+    if goal.symmetric:
+        found = replace(found, unbalance=symmetric(program, found.unbalance))
     return judged(request, program, found, omega_squared)
 
 
@@ -63,7 +67,7 @@ def judged(request: OptimizeRequest, program: Statement, found: Optima, omega_sq
     claimed = claim(program, u, np.sum(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
     judged = verdict(claimed, request.accuracy.relative_gap)
     of_mass = {
-        "mass_lower_bound_kg": judged.mass_lower_bound,
+        "mass_lower_bound_kg": judged.mass_lower_bound + np.sum(fixed_masses(machine), axis=-1),
         "mass_relative_gap": judged.mass_gap,
         "mass_yardstick_kg": judged.mass_yardstick,
         "mass_objective_limit": found.mass_target * square,

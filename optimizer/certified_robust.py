@@ -36,7 +36,7 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
     told = fitted(request, scene, asked, found)
-    u, certificate = told.unbalance, told.fields["certificate"]
+    u, certificate = told.chosen, told.fields["certificate"]
     assert u is not None
     assert isinstance(certificate, Certificate)
     worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": _price(robust, u)}
@@ -72,7 +72,7 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
 def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> float:
     """A peak on the frame: of the first order, or of all where these count."""
     if robust.request.objective.orders == "all":
-        return _peak(robust, machine, shaking(machine.turn, machine.scene.layout)[response], u)
+        return _peak(robust, machine, shaking(machine.turn, machine.scene.laden)[response], u)
     measure = Measure(response, 1.0, 1.0)
     off = robust.scatter.of(machine.nominal[response].influence, u)
     return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared
@@ -86,7 +86,7 @@ def _peak(robust: Robust, machine: Machine, response: TurnResponse, u: Complex) 
 def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
     made, scene = machine.request.machine, machine.scene
     assert isinstance(made, ReciprocatingMachine)  # no other has bearings
-    yield from bearing_responses(made, machine.request.fidelity, scene.layout, machine.turn)
+    yield from bearing_responses(made, machine.request.fidelity, scene.laden, machine.turn)
 
 
 def _price(robust: Robust, u: Complex) -> PriceOfRobustness:

@@ -22,6 +22,7 @@ from optimizer.program.optima import Optima, optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
+from optimizer.program.symmetry import symmetric
 from optimizer.response import Response
 from optimizer.shapes import envelopes, fitted
 from schemas.requests import OptimizeRequest
@@ -104,6 +105,9 @@ def _round(
         _, feasible, u = optimum(_chords)
         proven = _up_to(tangents, proven, whole.objective(u) + whole.rounding(u))
         spent = spent + feasible.certify_s
+    if goal.symmetric:
+        # no worse in any term, so that what is proven of those that were found holds
+        u = symmetric(whole, u[None], _kinds(request))[0]
     asked = request.model_copy(update={"machine": fitted(request.machine, _opened(plates, u))})
     program = formulate(asked.machine, goal, responses, square)
     program = replace(program, limits=_limits(program.limits, whole.limits, plates))
@@ -121,6 +125,12 @@ def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:
     target = np.maximum(proven.mass_target, objective)
     bound = np.minimum(mass_lower_bound(program, proven.mass_multipliers, target), proven.mass_lower_bound)
     return replace(proven, mass_target=target, mass_lower_bound=bound)
+
+
+def _kinds(request: OptimizeRequest) -> np.ndarray:
+    """Webs with the same plate have the same number, those without one another."""
+    cut = [web.envelope for web in request.machine.webs]
+    return np.array([cut.index(each) for each in cut])
 
 
 def _opened(plates: Mapping[int, Envelope], u: Complex) -> dict[int, float]:

@@ -13,6 +13,7 @@ from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import touched_by_mass
 from optimizer.figures.proof import implied_max_mass, named, named_excess, physical
+from optimizer.fixed import beside, fixed_masses
 from optimizer.formulate import RESPONSES, given_ceilings
 from optimizer.formulate import limited as limited_responses
 from optimizer.goals import Case, Goals, goals
@@ -50,6 +51,7 @@ class CertifiedTurn:
     status: str
     reason: str
     unbalance: Complex | None  # (K,) kg m; None where the ceilings are out of reach
+    chosen: Complex | None  # (K + S,) kg m, without the weights that are fixed
     shafts: Complex | None  # (S,) kg m, of the balance shafts; None where there are none to show
     certify_s: float  # time spent on bounds
     fields: dict[str, object]
@@ -66,7 +68,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
     together, responses = posed(request), scene.responses
     if request.objective.orders == "all":
         responses = tuple(each.unmirrored() for each in responses)
-    case = Case(together, scene.layout, (responses,), whole_turn_of(scene))
+    case = Case(together, scene.laden, (responses,), whole_turn_of(scene))
     asked = goals(together, [case], scene.omega_squared)
     accuracy, least = request.accuracy, request.objective.least_mass
     found = over_turn(asked.program, accuracy.relative_gap, least, asked.allowances, accuracy.time_limit_s)
@@ -85,7 +87,8 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     machine, square = posed(request).machine, scene.omega_squared
     mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
     u = unbalance(mass, angle, found.limits.radius)
-    shown = chosen(request, mass, angle, u)
+    shown = chosen(request, mass, angle)
+    there, _ = beside(machine, mass, angle)
     values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
     judged = _judged(request, asked.program, found, u, values, mass)
     late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
@@ -94,11 +97,14 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
         str(judged.status),
         f"{ended}{judged.reason}",
         shown.on_crank,
+        u,
         shown.on_shafts,
         found.certify_s,
         {
             **shown.fields,
-            "active_limits": tuple(dict.fromkeys((*touched_by_mass(machine, mass), *_touched(request, asked, values)))),
+            "active_limits": tuple(
+                dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values)))
+            ),
             "shadow_prices": (),
             "sensitivity": None
             if any(each.response.turning is not None for each in asked.program.quantities)
@@ -159,7 +165,7 @@ def _certificate(
     request: OptimizeRequest, asked: Goals, found: Found, judged: Verdict, values: Values, square: float
 ) -> Certificate:
     program, least = asked.program, request.objective.least_mass
-    of_mass = None
+    fixed, of_mass = np.sum(fixed_masses(request.machine)), None
     if found.mass_proof is not None:
         proof = found.mass_proof
         of_mass = named(proof.statement, physical(proof.statement, proof.multipliers, "mass", square))
@@ -170,7 +176,7 @@ def _certificate(
         relative_gap=_or_null(judged.relative_gap),
         yardstick=float(program.yardsticks[-1]) * square,
         objective_without_counterweights=float(program.at_rest.goals[-1]) * square,
-        mass_lower_bound_kg=_or_null(judged.mass_lower_bound) if least else None,
+        mass_lower_bound_kg=_or_null(judged.mass_lower_bound + fixed) if least else None,
         mass_relative_gap=_or_null(judged.mass_gap) if least else None,
         mass_yardstick_kg=_or_null(judged.mass_yardstick) if least else None,
         mass_objective_limit=_or_null(found.mass_target * square) if least else None,
@@ -254,7 +260,7 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
     impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
     together = [field for name, field in exact.items() if name in at_fault] + [field for _, field, _ in both]
     mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)
-    shown = chosen(request, mass, angle, unbalance(mass, angle, found.limits.radius))
+    shown = chosen(request, mass, angle)
     closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
     proof = found.proof
     fields: dict[str, object] = {
@@ -277,7 +283,7 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
         ),
     }
     spent = found.certify_s + sum(each.certify_s for each in least.values())
-    return CertifiedTurn("infeasible", INFEASIBLE, None, None, spent, fields)
+    return CertifiedTurn("infeasible", INFEASIBLE, None, None, None, spent, fields)
 
 
 def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

@@ -12,6 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from optimizer.arrays import Real, Reals
+from optimizer.fixed import fixed_masses, fixed_webs
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
@@ -121,7 +122,7 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
     "envelope": MassLimit(
         "(kg m)",
         largest=_largest_unbalances,
-        of_one_kg=lambda machine: stacked([web.counterweight_radius_m for web in machine.webs]),
+        of_one_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
     ),
     "sector": _Sector(),
 }
@@ -132,7 +133,8 @@ MACHINE_LIMITS: dict[MachineLimit, Limit] = {"max_total_mass": _Budget()}
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
     allowed = [each.mass(machine) for each in WEB_LIMITS.values() if isinstance(each, MassLimit)]
-    mass = reduce(np.minimum, allowed)
+    # where a weight is fixed nothing is chosen
+    mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed))
     # null, or more than can be multiplied
     return np.where(mass > _NO_LIMIT, np.inf, mass)
 
@@ -142,14 +144,15 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     webs = machine.webs
     free, centre, half_angle = sectors(machine)
     edge, shape = direction(half_angle), (*leading, len(webs))
+    left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.sum(fixed_masses(machine), axis=-1)
     return Limits(
-        radius=np.broadcast_to(stacked([web.counterweight_radius_m for web in webs]), shape),
+        radius=np.broadcast_to(stacked([web.radius_m for web in webs]), shape),
         max_mass=np.broadcast_to(largest_mass(machine), shape),
         free=np.broadcast_to(free, shape),
         centre=np.broadcast_to(direction(centre), shape),
         half_angle_cos=np.broadcast_to(edge.real, shape),
         half_angle_sin=np.broadcast_to(edge.imag, shape),
-        max_total_mass=np.broadcast_to(MACHINE_LIMITS["max_total_mass"].size(machine), leading),
+        max_total_mass=np.broadcast_to(left, leading),
     )
 
 

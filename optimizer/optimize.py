@@ -19,6 +19,7 @@ from optimizer.figures.limits import shadow_prices as priced
 from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
 from optimizer.figures.sensitivity import of_first_order
+from optimizer.fixed import beside
 from optimizer.formulate import given_ceilings, limited, smallest_peak
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
@@ -73,7 +74,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
 
     reporting = time.perf_counter()
     unreachable = bool(best.status[0] == "infeasible")
-    fitted = chosen(request, best.mass_kg[0], best.angle_deg[0], best.unbalance[0])
+    fitted = chosen(request, best.mass_kg[0], best.angle_deg[0])
     scene = replace(scene, shafts=fitted.on_shafts)
     fields = _infeasible(asked, scene, best, fitted, solver) if unreachable else _reached(asked, scene, best, fitted)
     fields |= _nothing_off(request, scene, None if unreachable else best.unbalance[0], fields)
@@ -108,7 +109,7 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
     best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
     reporting = time.perf_counter()
     figures = answered(replace(scene, shafts=best.shafts), best.unbalance, always, best.fields)
-    worst = _nothing_off(request, scene, best.unbalance, best.fields)
+    worst = _nothing_off(request, scene, best.chosen, best.fields)
     end = time.perf_counter()
     return OptimizeAnswer(
         status=best.status,
@@ -142,7 +143,8 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted:
     """Counterweights, what holds them up, and their certificate."""
     request = continuous(request) if request.machine.discrete else request
     machine, goal, u = request.machine, request.objective, best.unbalance[0]
-    touched = touched_limits(machine, goal, scene.responses, best.mass_kg[0], u, scene.omega_squared)
+    mass, _ = beside(machine, best.mass_kg[0], best.angle_deg[0])
+    touched = touched_limits(machine, goal, scene.responses, mass, u, scene.omega_squared)
     (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
     figures = {name: column[0] for name, column in best.certificate.items()}
     return {

@@ -107,7 +107,7 @@ class Machine:
             for signs in known
         )
         turn = self.turn if self.request.objective.over_the_turn else None
-        return Case(self.request, self.scene.layout, variants or (self.nominal,), turn, self.scenario, self.weight)
+        return Case(self.request, self.scene.laden, variants or (self.nominal,), turn, self.scenario, self.weight)
 
 
 class Robust:

@@ -3,16 +3,18 @@
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.effects.registry import Simulated, closure, simulate
+from optimizer.fixed import laden
 from optimizer.formulate import responses
 from optimizer.mechanics.balance_shafts import of_balance_shafts
 from optimizer.mechanics.cylinders import cycle_turns
-from optimizer.mechanics.inertia import Wrench, counterweights
+from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.response import Response
 from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
@@ -66,10 +68,18 @@ class Prepared:
             return wrench
         return wrench.plus(of_balance_shafts(self.layout, self.layout.balance, self.shafts, order))
 
+    @cached_property
+    def laden(self) -> Layout:
+        """The machine with the weights that are on it already."""
+        return laden(self.layout, self.machine)
+
     @property
     def responses(self) -> tuple[Response, ...]:
-        """What can be weighed, as responses to the unbalance of the counterweights."""
-        return responses(self.layout, self.simulated.first_order)
+        """What can be weighed, as responses to the unbalance of the counterweights that are chosen."""
+        plan = self.laden
+        if plan is self.layout:
+            return responses(plan, self.simulated.first_order)
+        return responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
 
     @property
     def first_turn_deg(self) -> Real:

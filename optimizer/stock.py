@@ -46,6 +46,9 @@ def stock(machine: Machine) -> Stock:
     free, centre, half_angle = sectors(machine)
     for k, (web, most) in enumerate(zip(machine.webs, largest_mass(machine).tolist(), strict=True)):
         angles, path = np.mod(np.array(web.hole_angles_deg or (), dtype=float), 360.0), ("machine", "webs", k)
+        if web.fixed is not None:
+            held.append((np.zeros(1), np.zeros(1)))
+            continue
         if web.hole_angles_deg is None:
             crank = cranks[k]
             if crank is None:
@@ -64,7 +67,7 @@ def stock(machine: Machine) -> Stock:
     most_options = max((mass.size for mass, _ in held), default=1)
     mass, angle = (np.array([np.pad(one[n], (0, most_options - one[n].size)) for one in held]) for n in (0, 1))
     mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
-    radius = np.array([web.counterweight_radius_m for web in machine.webs]).reshape(-1, 1)
+    radius = np.array([web.radius_m for web in machine.webs]).reshape(-1, 1)
     options = Options(
         unbalance=mass * radius * direction(angle),
         mass=mass,

@@ -77,6 +77,8 @@ def catalogue_rules(machine: "Rotor") -> Iterator[Rule]:
         return
     catalogue, together = machine.catalogue or Catalogue(), 0
     for k, web in enumerate(machine.webs):
+        if web.fixed is not None:
+            continue
         yield from _masses_rules(("webs", k, "catalogue_masses_kg"), web.catalogue_masses_kg)
         yield from _hole_rules(("webs", k, "hole_angles_deg"), web)
         step = catalogue.mass_step_kg if web.catalogue_masses_kg is None else None

@@ -53,6 +53,7 @@ class Counterweight(Model):
     active_limits: tuple[WebLimit, ...] = Field(
         description="limits of this web that the counterweight touches", examples=[["max_mass"]]
     )
+    fixed: bool = Field(False, description="whether it was there already, and was not chosen", examples=[False])
     shape: Shape | None = Field(None, description="its outline; null where the web has no envelope", examples=[None])
 
 

@@ -57,6 +57,7 @@ def fitted_rules(
     """Every counterweight on a web of the machine or in a plane of its own, and every web with one at most."""
     shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
     names = {web.name for place in (machine, *shafts) for web in place.webs}
+    fixed = {web.name: web.fixed for web in machine.webs if web.fixed is not None}
     seen: set[str] = set()
     for index, counterweight in enumerate(counterweights):
         if counterweight.web is None:
@@ -65,4 +66,10 @@ def fitted_rules(
         yield Rule(counterweight.web not in names, path, "the machine has no web of this name")
         twice = counterweight.web in seen & names
         yield Rule(twice, path, "this web carries a counterweight already")
+        there = fixed.get(counterweight.web)
+        if there is not None:
+            other = (counterweight.mass_kg != there.mass_kg) | (
+                (counterweight.angle_deg - there.angle_deg) % 360.0 != 0.0
+            )
+            yield Rule(other, path, "the weight of this web is fixed in the machine, as another one")
         seen.add(counterweight.web)

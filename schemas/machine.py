@@ -119,6 +119,10 @@ class Rotor(Ruled):
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
         yield from catalogue_rules(self)
+        fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
+        if self.max_total_mass_kg is not None:
+            message = "the weights that are fixed are heavier"
+            yield Rule(fixed > self.max_total_mass_kg, ("max_total_mass_kg",), message)
 
 
 class ReciprocatingMachine(Rotor):
@@ -192,7 +196,7 @@ class ReciprocatingMachine(Rotor):
                 message = "this name is taken already; names of webs must be unique on all shafts"
                 yield Rule(web.name in taken, (*path, "name"), message)
                 yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
-                for name in ("catalogue_masses_kg", "hole_angles_deg"):
+                for name in ("catalogue_masses_kg", "hole_angles_deg", "fixed"):
                     yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
                 taken.add(web.name)
         message = "with balance shafts the total mass has no limit: limit the masses of the webs"

@@ -138,8 +138,14 @@ class MatchRequest(Ruled):
         both = self.choose_counterweights and bool(self.counterweights)
         yield Rule(both, ("counterweights",), "either they are on the machine or they are chosen")
         for k, web in enumerate(self.machine.webs):
-            endless = self.choose_counterweights and (web.max_mass_kg is None or web.max_mass_kg > _LARGEST)
+            endless = (
+                self.choose_counterweights
+                and web.fixed is None
+                and (web.max_mass_kg is None or web.max_mass_kg > _LARGEST)
+            )
             yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), "counterweights to be chosen need a limit here")
+            fixed = self.choose_counterweights and web.fixed is not None
+            yield Rule(fixed, ("machine", "webs", k, "fixed"), "not where counterweights are chosen with the parts")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), "parts are matched for force and moment of the first order")
         for name in _CEILINGS:

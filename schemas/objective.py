@@ -139,6 +139,12 @@ class Objective(Ruled):
     least_mass: Flag = Field(
         True, description="among all optima take the one with the least total mass", examples=[True]
     )
+    symmetric: Flag = Field(
+        True,
+        description="of equally good and equally light counterweights take the most symmetric: equal webs in equal"
+        " places get equal ones",
+        examples=[True],
+    )
 
     @property
     def of_the_shaft(self) -> bool:

@@ -68,9 +68,11 @@ class ParetoRequest(OptimizeRequest):
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
         yield from no_catalogue(self.machine, ("machine",), "a front")
         budgets = self.total_mass_budgets_kg or ()
+        fixed = sum((web.fixed.mass_kg for web in self.machine.webs if web.fixed is not None), 0.0)
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)
             yield Rule(budget in budgets[:index], path, "this budget is in the list already")
+            yield Rule(budget < fixed, path, "the weights that are fixed are heavier")
         together, places = self.points * len(budgets), self.points * max(1, len(budgets)) * len(self.machine.webs)
         points = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
         work = f"points times budgets times webs must be at most {MAX_PLACES}"
@@ -84,6 +86,9 @@ class ParetoRequest(OptimizeRequest):
                 message = "a front is of the first-order peaks: what the whole turn asks for needs responses"
                 yield Rule(True, ("objective", name), message)
             return
+        for k, web in enumerate(self.machine.webs):
+            fixed = web.fixed is not None
+            yield Rule(fixed, ("machine", "webs", k, "fixed"), "serves only the front of force and moment")
         for index, name in enumerate(self.responses):
             yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
         yield Rule(bool(self.objective.priorities), ("objective", "priorities"), "a front has no order of its goals")

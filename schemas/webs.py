@@ -7,7 +7,7 @@ from pydantic import ConfigDict, Field
 
 from schemas.base import Model
 from schemas.catalogue import Holes, Masses
-from schemas.quantities import Angle, Count, Length, MaxMass, Name, Position
+from schemas.quantities import Angle, Count, Length, Mass, MaxMass, Name, Position
 from schemas.rules import REQUIRED, Rule, Ruled
 from schemas.throws import MAX_THROWS
 from schemas.units import Unit, between, positive
@@ -55,12 +55,26 @@ class Envelope(Ruled):
         yield Rule(thin, ("inner_radius_m",), f"must be smaller than {_INNERMOST:g} of the outer radius")
 
 
+class FixedWeight(Model):
+    """A weight that is on the crank already and stays there."""
+
+    mass_kg: Mass = Field(description="its mass", examples=[12.5])
+    angle_deg: Angle = Field(description="its angle as drawn at shaft angle 0", examples=[180.0])
+    radius_m: Annotated[Length | None, Unit("m")] = Field(
+        None, description="radius of its centre of mass; null is the web's counterweight_radius_m", examples=[0.2]
+    )
+
+
 class Web(Ruled):
     """A place where a counterweight can sit: a crank web, a shaft end or a flywheel."""
 
     model_config = ConfigDict(
         json_schema_extra={
-            "anyOf": [{"required": ["counterweight_radius_m", "max_mass_kg"]}, {"required": ["envelope"]}]
+            "anyOf": [
+                {"required": ["counterweight_radius_m", "max_mass_kg"]},
+                {"required": ["envelope"]},
+                {"required": ["fixed"]},
+            ]
         }
     )
 
@@ -78,6 +92,12 @@ class Web(Ruled):
     envelope: Envelope | None = Field(
         None,
         description="the plate from which the counterweight is cut, in place of its radius and its largest mass",
+        examples=[None],
+    )
+    fixed: FixedWeight | None = Field(
+        None,
+        description="a weight that is there already: it counts in the total mass and in what remains, and nothing is"
+        " chosen for this web",
         examples=[None],
     )
     sector: Sector | None = Field(
@@ -101,12 +121,27 @@ class Web(Ruled):
     )
 
     @property
+    def radius_m(self) -> float | None:
+        """Radius of the centre of mass of what it carries; None where that follows from an envelope."""
+        if self.fixed is not None and self.fixed.radius_m is not None:
+            return self.fixed.radius_m
+        return self.counterweight_radius_m
+
+    @property
     def reach_m(self) -> float:
         """Radius to which a counterweight reaches at most: that of its centre of mass, where no more is known."""
-        return self.envelope.outer_radius_m if self.envelope else self.counterweight_radius_m or 0.0
+        return self.envelope.outer_radius_m if self.envelope else self.radius_m or 0.0
 
     def rules(self) -> Iterator[Rule]:
-        if self.envelope is None:
+        if self.fixed is not None:
+            yield Rule(self.radius_m is None, ("fixed", "radius_m"), REQUIRED)
+            if self.max_mass_kg is not None:
+                heavier = self.fixed.mass_kg > self.max_mass_kg
+                yield Rule(heavier, ("fixed", "mass_kg"), "more than max_mass_kg of this web")
+            for name in ("envelope", "sector", "catalogue_masses_kg", "hole_angles_deg"):
+                message = "nothing is chosen where a weight is fixed: leave it out"
+                yield Rule(getattr(self, name) is not None, (name,), message)
+        elif self.envelope is None:
             # left out, and not null: no limit has to be meant
             yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), REQUIRED)
             yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), REQUIRED)

@@ -42,7 +42,7 @@ SAME = 1e-9  # of a mass, relative, and of an angle in degrees: by which they ar
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
 MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
 #: an answer is held if these claims are, as far as they are made
-CENTRAL = {"counterweights", "max_mass", "sector", "max_total_mass", "ceilings", "objective", "lower_bound"}
+CENTRAL = {"counterweights", "max_mass", "sector", "max_total_mass", "ceilings", "objective", "lower_bound", "fixed"}
 CENTRAL |= {"status", "corner", "conflict", "reach", "request"}
 VERDICTS = ("held", "not covered", "broken")
 
@@ -122,7 +122,11 @@ def counterweights(machine: Machine, place: Place) -> Claims:
         figures = zip(("mass_radius_kg_m", "x_kg_m", "y_kg_m", "position_m", "radius_m"), exactly)
         yield from (near("counterweights", one / field, exact) for field, exact in figures if one / field)
         yield "max_mass", said, mass, abs(mass)
-        if web.limit is not None:
+        if web.fixed is not None:
+            yield near("fixed", said, web.fixed[0])
+            off = (Fraction(angle) - Fraction(web.fixed[1]) + 180) % 360 - 180
+            yield "fixed", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if mass.high > 0 else ONE, ONE
+        elif web.limit is not None:
             yield "max_mass", said, web.limit * real(1 + MASS) - mass, web.limit
         if web.sector is not None and mass.high > 0:
             turn, (centre, half) = Fraction(360), web.sector
@@ -173,7 +177,7 @@ def optimum(request: Place, answer: Place) -> Claims:
     after = machine.responses(found)
     yield near("total_mass", answer / "total_mass_kg", mass)
     yield from first_order("after", answer / "residual" / "after", after)
-    value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.before))
+    value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
     chosen = (asked / "catalogue") or (asked / "max_counterweights") or any(map(stocked, asked / "webs"))
     if chosen:
@@ -237,7 +241,7 @@ def lightest(
     """Nothing with rows up to these, which the answer keeps, and that counts as keeping the ceilings is lighter."""
     place, implied = proof / "mass_lower_bound_kg", proof / "implied_max_mass_kg"
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
-    least = place.number(0.0)
+    least = place.number(0.0) - statement.machine.fixed
     if least.high <= 0:
         yield "mass_lower_bound", place, -least if place else None, ONE
     else:
@@ -256,7 +260,12 @@ def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Nu
         limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
         cancelling = (statement.lightest(sizes), limited.lightest(statement.sizes))
         counts = min((one for one in cancelling if one is not None), key=lambda one: one.high, default=ZERO)
-        yield "yardstick", place, largest(mass, counts * real(MASS_SHARE)) * ABOUT_ONE - size, size
+        yield (
+            "yardstick",
+            place,
+            largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE - size,
+            size,
+        )
     if optimal:
         yield "status", least, size * real(MASS_GAP) - gap if least and place else None, size
 

@@ -67,7 +67,7 @@ def front(request: Place, answer: Place) -> Claims:
 def _scale(statement: Statement, place: Place) -> Claim:
     """The peak without counterweights, or where that is next to nothing at most what they could make it."""
     machine, said = statement.machine, place.number()
-    (rest,) = statement.values(machine.before).values()
+    (rest,) = statement.values(machine.laden).values()
     most = statement.reachable(Place({}))
     if rest.low > (said * real(1e-6)).high:
         return near("yardstick", place, rest)

@@ -45,6 +45,7 @@ class Web(NamedTuple):
     radius: Number
     limit: Optional[Number]
     sector: Optional[Tuple[float, float]]  # centre and half-angle, degrees
+    fixed: Optional[Tuple[Number, float]] = None  # mass and angle of a weight that is there already
 
 
 NAMES = {"force": "N", "moment": "Nm"}
@@ -87,7 +88,12 @@ class Machine:
         ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
         span = real(max(ends)) - real(min(ends))
         self.span = span if span.low > real(NOTHING).high else ONE
-        self.before = self.responses([])
+        #: what is there already: the program chooses beside it, within what it leaves of the budget
+        there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]
+        fixed = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
+        self.fixed = total(mass for _, mass, _ in there)
+        self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
+        self.before, self.laden = self.responses([]), self.responses(fixed)
 
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""
@@ -106,8 +112,12 @@ class Machine:
 def _web(place: Place) -> Web:
     most, sector = place / "max_mass_kg", place / "sector"
     edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
-    radius, limit = (place / "counterweight_radius_m").number(least=0), most.number(least=0) if most else None
-    return Web((place / "name").text(), (place / "position_m").number(), radius, limit, edges)
+    there = place / "fixed"
+    radius, limit = (there / "radius_m") or (place / "counterweight_radius_m"), most.number(least=0) if most else None
+    weight = ((there / "mass_kg").number(least=0), (there / "angle_deg").double()) if there else None
+    limit = ZERO if there else limit
+    name, where = (place / "name").text(), (place / "position_m").number()
+    return Web(name, where, radius.number(least=0), limit, edges, weight)
 
 
 def _unbalance(place: Place) -> list[Mass]:
@@ -192,11 +202,11 @@ class Statement:
         self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
         self.terms: dict[Key, Term] = {}
         for row, name, weight in ((r, name, weight) for r, each in rows.items() for name, weight in each.items()):
-            floor, lengths = self.peak(phasors(machine.before, name), weight)
+            floor, lengths = self.peak(phasors(machine.laden, name), weight)
             self.floor[row] = self.floor[row] + floor
             self.terms.update({(name, part): Term(row, name, *length) for part, length in lengths.items()})
         limits = {name: goal / field for name, field in CEILINGS.items() if capped}
-        start = {name: phasors(machine.before, name) for name in CEILINGS}
+        start = {name: phasors(machine.laden, name) for name in CEILINGS}
         #: ceiling less the phasor against the shaft, and the size of the ceiling
         self.caps = {n: most.number(least=0) - abs(start[n][1]) for n, most in limits.items() if most}
         self.sizes = {name: self._size(largest(abs(start[name][0]), abs(cap)), name) for name, cap in self.caps.items()}
@@ -234,13 +244,13 @@ class Statement:
         What the answer says that missing limits imply is believed, or shown to be of no account. Without rows
         of an objective the multipliers have those of the ceilings, and prove that they conflict.
         """
-        limits = {(name, "ceiling"): Term(name, name, phasors(self.machine.before, name)[0], ONE) for name in self.caps}
+        limits = {(name, "ceiling"): Term(name, name, phasors(self.machine.laden, name)[0], ONE) for name in self.caps}
         terms = {**self.terms, **limits}
         rows, y = self._multipliers(proof, terms)
         if cost is ZERO and total(rows.values()).low <= 0:
             return Bound(None, rows)
         machine = self.machine
-        price = cost + ((proof / "budget").number(0.0, least=0) if machine.budget else ZERO)
+        price = cost + ((proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO)
         free = {w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name)}
         if price.high == 0:
             free = self._balance(y, terms, [web for web in free.values() if web.sector is None])
@@ -259,17 +269,17 @@ class Statement:
             pull = -(slope["force"] + slope["moment"] * (web.position - machine.plane)) * machine.square
             gains[web.name] = web.radius * support(pull, web.sector)
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
-        share = _share((price, gains[name]) for name in free if price.low > 0 and not machine.budget)
+        share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
         for web in machine.webs:
             gain = gains[web.name] * share - price
-            if gain.high > 0 and (web.name not in free or (machine.budget and price.high > 0)):
+            if gain.high > 0 and (web.name not in free or (machine.left is not None and price.high > 0)):
                 limit = self.reach(web, implied if believed else Place(None))
                 if limit is None:
                     return Bound(None, rows)
                 least = least - Number(max(gain.low, 0), gain.high) * limit
-        if machine.budget:
-            least = least - (price - cost) * machine.budget
+        if machine.left is not None:
+            least = least - (price - cost) * machine.left
         return Bound(least, {name: row * share for name, row in rows.items()})
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
@@ -311,7 +321,7 @@ class Statement:
     def reach(self, web: Web, implied: Place) -> Number | None:
         """Largest mass of a web: its limit, the budget or what the answer says that they imply; None without."""
         said = (implied / web.name).number(least=0) if implied / web.name else None
-        limits = [limit for limit in (web.limit, self.machine.budget, said) if limit is not None]
+        limits = [limit for limit in (web.limit, self.machine.left, said) if limit is not None]
         return min(limits, key=lambda one: one.high) if limits else None
 
     def change(self, web: Web, row: str) -> Number:

@@ -6,6 +6,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.balance_rate import own_throws
+from optimizer.fixed import beside
 from optimizer.limits import WEB_LIMITS, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.envelope import Envelope
@@ -52,14 +53,16 @@ def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:
 
 
 def as_given(machine: Machine, counterweights: Sequence[FittedCounterweight | GivenCounterweight]) -> tuple[Real, Real]:
-    """Masses (..., K) [kg] and angles (..., K) [deg] of counterweights on webs; 0 where a web has none.
+    """Masses (..., K) [kg] and angles (..., K) [deg] of counterweights on webs and of fixed weights;
+    0 where a web has neither.
 
     Those on the webs of balance shafts stand behind those of the crankshaft.
     """
     given = {counterweight.web: counterweight for counterweight in counterweights}
     fitted = [given.get(web.name) for web in places(machine)]
     mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
-    return mass, np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
+    angle = np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
+    return beside(machine, mass, angle)
 
 
 def places(machine: Machine) -> tuple[Web, ...]:
@@ -93,7 +96,7 @@ def _placed(
     ratio : turns of the webs for one of the crankshaft.
     """
     touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
-    vectors = unbalance(mass_kg, angles_deg, stacked([web.counterweight_radius_m for web in machine.webs])).tolist()
+    vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs])).tolist()
     throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
     plates = envelopes(machine)
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
@@ -103,18 +106,19 @@ def _placed(
             mass_kg=mass,
             angle_deg=angle,
             position_m=web.position_m,
-            radius_m=web.counterweight_radius_m,
+            radius_m=web.radius_m,
             throw=throw,
             # twice, because a hair below 0 comes to 360
             angle_from_crank_deg=None
             if throw is None or mass == 0.0
             else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
-            mass_radius_kg_m=mass * web.counterweight_radius_m,
+            mass_radius_kg_m=mass * web.radius_m,
             x_kg_m=vector.real,
             y_kg_m=vector.imag,
-            centrifugal_force_N=mass * web.counterweight_radius_m * fastest**2,
-            active_limits=tuple(name for name, webs in touched.items() if webs[k]),
-            shape=_shape(plates[k], mass * web.counterweight_radius_m) if k in plates and mass > 0.0 else None,
+            centrifugal_force_N=mass * web.radius_m * fastest**2,
+            active_limits=() if web.fixed else tuple(name for name, webs in touched.items() if webs[k]),
+            fixed=web.fixed is not None,
+            shape=_shape(plates[k], mass * web.radius_m) if k in plates and mass > 0.0 else None,
         )
         for k, (web, mass, angle, vector, throw) in enumerate(
             zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, own, strict=True)

@@ -100,6 +100,8 @@ def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_s
         for name, limit in WEB_LIMITS.items()
     }
     for k, web in enumerate(machine.webs):
+        if web.fixed is not None:
+            continue
         for name, (unit, size, price) in of_webs.items():
             if size[k] < np.inf:
                 yield Priced(name, web.name, price[k], size[k], unit)

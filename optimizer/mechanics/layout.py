@@ -151,7 +151,7 @@ def _halves(value: Any) -> tuple[Any, Any]:
 def _webs(machine: Rotor) -> Webs:
     return Webs(
         position=stacked([web.position_m for web in machine.webs]),
-        radius=stacked([web.counterweight_radius_m for web in machine.webs]),
+        radius=stacked([web.radius_m for web in machine.webs]),
     )
 
 
@@ -161,7 +161,7 @@ def _balance_webs(machine: Rotor) -> BalanceWebs | None:
     webs = [(shaft, web) for shaft in machine.balance_shafts for web in shaft.webs]
     return BalanceWebs(
         position=stacked([web.position_m for _, web in webs]),
-        radius=stacked([web.counterweight_radius_m for _, web in webs]),
+        radius=stacked([web.radius_m for _, web in webs]),
         ratio=stacked([shaft.speed_ratio for shaft, _ in webs]),
         x=stacked([shaft.x_m for shaft, _ in webs]),
         y=stacked([shaft.y_m for shaft, _ in webs]),

@@ -100,7 +100,7 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
     turn : of the machine, where anything is asked of the whole turn.
     """
     asked = request.model_copy(update={"objective": alone(request.objective, names)})
-    case = Case(asked, scene.layout, (scene.responses,), turn)
+    case = Case(asked, scene.laden, (scene.responses,), turn)
     program = goals(asked, [case], scene.omega_squared).program
     groups = {"mass": Group((_mass(program),))} | {
         name: Group(

@@ -11,6 +11,7 @@ from optimizer.figures.counterweights import counterweights, masses_and_angles, 
 from optimizer.figures.first_order import first_order, floor
 from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, physical
+from optimizer.fixed import beside, fixed_masses
 from optimizer.optimize import finite_or_null, optimize
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
@@ -19,6 +20,7 @@ from optimizer.pareto.trade import Trade, trade
 from optimizer.pareto.trades import needed, traded_front
 from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
+from optimizer.program.symmetry import symmetric
 from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.scene import Prepared
 from schemas.answers import Timing
@@ -148,10 +150,15 @@ def _point(
     request: ParetoRequest, machine: Machine, scene: Prepared, traded: Trade, found: Front, point: Point
 ) -> ParetoPoint:
     solution, square, limits = point.solution, scene.omega_squared, traded.both.limits
-    masses, angles = masses_and_angles(machine, solution.unbalance, limits)
-    fitted, u = counterweights(machine, masses, angles), unbalance(masses, angles, limits.radius)
+    found_there = solution.unbalance
+    if request.objective.symmetric:
+        found_there = symmetric(traded.both.alone(), found_there[None])[0]
+    masses, angles = masses_and_angles(machine, found_there, limits)
+    u = unbalance(masses, angles, limits.radius)
+    on_crank = beside(machine, masses, angles)
+    fitted, together = counterweights(machine, *on_crank), unbalance(*on_crank, limits.radius)
     peaks = traded.peaks(u)
-    mass = float(sum(counterweight.mass_kg for counterweight in fitted))
+    fixed = float(np.sum(fixed_masses(machine)))
     judged = verdict(
         Claim(
             value=peaks,
@@ -159,13 +166,13 @@ def _point(
             rounding=traded.rounding(u),
             yardstick=found.size,
             excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
-            mass=np.asarray(mass),
+            mass=np.asarray(np.sum(masses)),
             mass_resolution=mass_resolution(traded.both, found.size),
             mass_lower_bound=np.asarray(solution.mass_lower_bound) if request.objective.least_mass else None,
         ),
         request.accuracy.relative_gap,
     )
-    plain = scene.first_order(u)
+    plain = scene.first_order(together)
     limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
     weighted: Real = peaks * square
     proven: Real = judged.lower_bound * square
@@ -176,15 +183,17 @@ def _point(
         moment_peak_Nm=float(plain.moment.peak),
         weighted_force_peak_N=float(weighted[0]),
         weighted_moment_peak_Nm=float(weighted[1]),
-        total_mass_kg=mass,
+        total_mass_kg=float(sum(counterweight.mass_kg for counterweight in fitted)),
         counterweights=fitted,
-        active_limits=touched_limits(machine, request.objective, scene.responses, masses, u, square),
+        active_limits=touched_limits(machine, request.objective, scene.responses, on_crank[0], u, square),
         certificate=CornerCertificate(
             force_N=finite_or_null(proven[0]),
             moment_Nm=finite_or_null(proven[1]),
             relative_gap=finite_or_null(judged.relative_gap),
             yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
-            mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound) if request.objective.least_mass else None,
+            mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + fixed)
+            if request.objective.least_mass
+            else None,
             mass_relative_gap=finite_or_null(judged.mass_gap) if request.objective.least_mass else None,
             mass_yardstick_kg=float(judged.mass_yardstick) if request.objective.least_mass else None,
             mass_force_limit_N=limit[0],

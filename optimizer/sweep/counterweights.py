@@ -7,6 +7,7 @@ import numpy as np
 from optimizer.arrays import Complex
 from optimizer.certified import certified
 from optimizer.figures.counterweights import as_given, unbalance
+from optimizer.fixed import beside, laden
 from optimizer.formulate import responses, shape_facts
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout as layout_of
@@ -33,31 +34,32 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     request : of columns (count,); its designs have one shape of program.
     multipliers : whether the proofs are wanted, as text.
     """
-    layout = layout_of(request.machine)
+    layout = laden(layout_of(request.machine), request.machine)
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
     best = certified(request, responses(layout, baseline), square, solver)
+    mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
     columns: Columns = {
         **best.certificate,
         "status": best.status,
         "message": np.where(best.status == "optimal", "", best.reason),
-        "total_mass_kg": np.sum(best.mass_kg, axis=-1),
+        "total_mass_kg": np.sum(mass, axis=-1),
     }
     if multipliers:
         columns[MULTIPLIERS] = multipliers_as_text(request, best)
     for k, web in enumerate(request.machine.webs):
-        columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = best.mass_kg[:, k], best.angle_deg[:, k]
+        columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
     columns = {
         name: np.where(best.found.unreachable, np.nan, column) if column.dtype == float else column
         for name, column in columns.items()
     }
-    return columns, best.unbalance
+    return columns, unbalance(mass, angle, layout.webs.radius)
 
 
 def given(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
     """Total mass, and the unbalance of the counterweights (count, webs) kg m."""
     mass, angle = as_given(request.machine, request.counterweights)
-    radius = stacked([web.counterweight_radius_m for web in request.machine.webs])
+    radius = stacked([web.radius_m for web in request.machine.webs])
     shape = (count, radius.shape[-1])
     columns: Columns = {
         "status": np.full(count, "analyzed"),

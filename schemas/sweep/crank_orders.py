@@ -122,7 +122,8 @@ def _turns_freely(machine: Machine) -> bool:
     """Whether nothing on the machine stands at an angle of its own."""
     rows = [row for throw in _throws(machine) for row in throw.rows]
     tabled = any(one.pressure is not None for row in rows for _, one in row_cylinders(row))
-    return not tabled and not machine.unbalances and all(web.sector is None for web in machine.webs)
+    free = all(web.sector is None and web.fixed is None for web in machine.webs)
+    return not tabled and not machine.unbalances and free
 
 
 def _same_in_a_mirror(machine: Machine, alike_across: bool) -> bool:
@@ -159,7 +160,7 @@ def _same_from_both_ends(machine: Machine) -> bool:
     ends = throws[0].position_m + throws[-1].position_m
     size = max(abs(throw.position_m) for throw in throws)
     given = machine.reference_plane_m
-    if machine.unbalances:
+    if machine.unbalances or any(web.fixed is not None for web in machine.webs):
         return False
     if given is not None and abs(2 * given - ends) > _NEAR * max(size, abs(given)):
         return False

@@ -189,7 +189,7 @@ def places(fitted: Sequence[Counterweight]) -> Table:
                         if one.mass_kg > 0
                         else ("none", *5 * (None,))
                     ),
-                    limits(one.active_limits) or "none",
+                    "fixed" if one.fixed else limits(one.active_limits) or "none",
                 )
                 for one in fitted
             ],

@@ -294,8 +294,10 @@ def _places(title: str, webs: Sequence[Web]) -> Table:
 def _place(web: Web) -> tuple[Cell | float, Cell | float]:
     """Radius and largest mass, or the plate that both follow from."""
     plate = web.envelope
+    if web.fixed is not None:
+        return web.radius_m or 0.0, f"fixed: {digits(web.fixed.mass_kg)} kg at {digits(web.fixed.angle_deg)}°"
     if plate is None:
-        return web.counterweight_radius_m or 0.0, "no limit" if web.max_mass_kg is None else web.max_mass_kg
+        return web.radius_m or 0.0, "no limit" if web.max_mass_kg is None else web.max_mass_kg
     cut = f"{plate.shape}, radii {digits(plate.inner_radius_m)} to {digits(plate.outer_radius_m)} m"
     return cut, f"{digits(plate.thickness_m)} m thick, half angle to {digits(plate.max_half_angle_deg)}°"
 

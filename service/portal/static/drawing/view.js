@@ -47,7 +47,7 @@ export function sense(centre, radius, rotation) {
 }
 
 // the radius to which a counterweight reaches, that of its centre of mass where no more is known
-export const reachOf = (web) => metres(web.envelope ? web.envelope.outer_radius_m : web.counterweight_radius_m);
+export const reachOf = (web) => metres(web.envelope?.outer_radius_m ?? web.fixed?.radius_m ?? web.counterweight_radius_m);
 
 export const radiiOf = (machine) => [
   ...(machine.throws ?? []).map((each) => 1.25 * metres(each.crank_radius_m)),

@@ -23,7 +23,7 @@ export function counterweightTable(counterweights, prices = []) {
       ...(one.mass_kg > 0
         ? [number(one.mass_kg), number(one.angle_deg), number(one.angle_from_crank_deg), number(one.mass_radius_kg_m)]
         : [{ number: true, text: "none" }, number(null), number(null), number(null)]),
-      one.active_limits.map((limit) => LIMITS[limit] ?? limit).join(", ") || "–",
+      one.fixed ? "fixed" : one.active_limits.map((limit) => LIMITS[limit] ?? limit).join(", ") || "–",
       ...(priced ? [{ number: true, text: of(one.web).map(worth).join(", ") || "–" }] : []),
     ]));
 }
