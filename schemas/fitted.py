@@ -68,8 +68,8 @@ def fitted_rules(
         yield Rule(twice, path, "this web carries a counterweight already")
         there = fixed.get(counterweight.web)
         if there is not None:
-            other = (counterweight.mass_kg != there.mass_kg) | (
-                (counterweight.angle_deg - there.angle_deg) % 360.0 != 0.0
-            )
-            yield Rule(other, path, "the weight of this web is fixed in the machine, as another one")
+            off = (counterweight.angle_deg - there.angle_deg) % 360.0
+            other = (counterweight.mass_kg != there.mass_kg) | (off != 0.0)
+            elsewhere = isinstance(counterweight, GivenCounterweight) and counterweight.radius_m is not None
+            yield Rule(other | elsewhere, path, "the weight of this web is fixed in the machine, as another one")
         seen.add(counterweight.web)
