@@ -1,6 +1,6 @@
 """Certified counterweights of many designs of one shape; one request is a batch of one."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -33,6 +33,7 @@ class Certified:
     certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null
     status: np.ndarray  # (N,)
     reason: np.ndarray  # (N,) a sentence
+    proven: Statement  # (N,) the program that the proofs speak of: in other unknowns where webs are grouped
 
 
 def certified(
@@ -53,15 +54,24 @@ def certified(
     return judged(request, program, found, omega_squared)
 
 
-def judged(request: OptimizeRequest, program: Statement, found: Optima, omega_squared: Real) -> Certified:
+def judged(
+    request: OptimizeRequest,
+    program: Statement,
+    found: Optima,
+    omega_squared: Real,
+    alike: Callable[[Real, Real], tuple[Real, Real]] | None = None,
+) -> Certified:
     """Counterweights as they are fitted, and what may be claimed of them.
 
     Parameters
     ----------
     program : (N,), over omega^2, of the machine of the request.
+    alike : masses and angles as they are fitted of those that were found; None is as they were found.
     """
     machine, goal, square = request.machine, request.objective, omega_squared
     mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
+    if alike is not None:
+        mass, angle = alike(mass, angle)
     u = unbalance(mass, angle, program.limits.radius)
     mass_bound = found.mass_lower_bound if goal.least_mass else None
     claimed = claim(program, u, np.sum(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
@@ -86,4 +96,4 @@ def judged(request: OptimizeRequest, program: Statement, found: Optima, omega_sq
     }
     status = np.where(found.unreachable, "infeasible", judged.status)
     reason = np.where(found.unreachable, INFEASIBLE, judged.reason)
-    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)
+    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason, program)

@@ -8,12 +8,12 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.discrete.options import Options
 from optimizer.errors import refuse
-from optimizer.figures.balance_rate import own_throws
+from optimizer.figures.balance_rate import crank_angles
 from optimizer.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
 from schemas.base import FieldProblem
 from schemas.catalogue import Catalogue, in_sector
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
 from schemas.webs import Web
 
 #: masses that agree this closely, relative, are one part number
@@ -42,7 +42,7 @@ def stock(machine: Machine) -> Stock:
     catalogue = machine.catalogue or Catalogue()
     problems: list[FieldProblem] = []
     held: list[tuple[Real, Real]] = []
-    cranks = _cranks(machine)
+    cranks = crank_angles(machine)
     free, centre, half_angle = sectors(machine)
     for k, (web, most) in enumerate(zip(machine.webs, largest_mass(machine).tolist(), strict=True)):
         angles, path = np.mod(np.array(web.hole_angles_deg or (), dtype=float), 360.0), ("machine", "webs", k)
@@ -77,13 +77,6 @@ def stock(machine: Machine) -> Stock:
         most_parts=catalogue.max_part_numbers,
     )
     return Stock(options, angle)
-
-
-def _cranks(machine: Machine) -> list[float | None]:
-    """Angle of the own crank of every web, deg; the eccentric of a scroll points along +x."""
-    if not isinstance(machine, ReciprocatingMachine):
-        return [0.0] * len(machine.webs)
-    return [None if throw is None else machine.throws[throw].crank_angle_deg for throw in own_throws(machine)]
 
 
 def _masses(web: Web, catalogue: Catalogue, most: float) -> Iterator[float]:

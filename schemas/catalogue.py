@@ -66,8 +66,9 @@ def stated(machine: "Rotor") -> Iterator[Path]:
 
 
 def no_catalogue(machine: "Rotor", path: Path, what: str) -> Iterator[Rule]:
-    """Refuses discrete choices where counterweights of any mass and angle are chosen."""
-    for field in stated(machine):
+    """Refuses discrete choices and groups where counterweights of any mass and angle are chosen one by one."""
+    grouped = (("web_groups",),) if machine.web_groups else ()
+    for field in (*stated(machine), *grouped):
         yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {what}")
 
 

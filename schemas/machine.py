@@ -17,7 +17,7 @@ from schemas.quantities import Angle, Count, Length, Mass, Name, Position, Speed
 from schemas.rules import Path, Rule, Ruled, larger
 from schemas.throws import MAX_THROWS, Row, Throw, row_cylinders
 from schemas.units import Unit
-from schemas.webs import Web
+from schemas.webs import Web, WebGroup
 
 MAX_ROWS_TOGETHER = 500
 MAX_WEBS = 500
@@ -88,6 +88,12 @@ class Rotor(Ruled):
         description="most webs that may have a counterweight, where they are chosen from a catalogue; null is no limit",
         examples=[None],
     )
+    web_groups: tuple[WebGroup, ...] = Field(
+        (),
+        max_length=MAX_WEBS,
+        description="webs that get identical castings, each in the same place on its own crank",
+        examples=[[]],
+    )
     unbalances: tuple[ShaftUnbalance, ...] = Field(
         (),
         max_length=MAX_UNBALANCES,
@@ -107,6 +113,21 @@ class Rotor(Ruled):
         for k, web in enumerate(self.webs):
             yield Rule(web.envelope is not None, ("webs", k, "envelope"), message)
 
+    def _group_rules(self) -> Iterator[Rule]:
+        """Every web of a group is there, in no other, and chosen."""
+        yield from _unique_names(("web_groups",), [group.name for group in self.web_groups])
+        webs, taken = {web.name: web for web in self.webs}, set[str]()
+        for i, group in enumerate(self.web_groups):
+            for j, name in enumerate(group.webs):
+                path = ("web_groups", i, "webs", j)
+                yield Rule(name not in webs, path, "the machine has no web of this name")
+                yield Rule(name in taken, path, "this web is in a group already")
+                taken.add(name)
+                web = webs.get(name)
+                if web is not None:
+                    yield Rule(web.fixed is not None, path, "the weight of this web is fixed: nothing is chosen")
+                    yield Rule(web.envelope is not None, path, "only webs with a counterweight_radius_m, no envelope")
+
     @property
     def discrete(self) -> bool:
         """Whether counterweights are chosen from what there is."""
@@ -119,6 +140,7 @@ class Rotor(Ruled):
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
         yield from catalogue_rules(self)
+        yield from self._group_rules()
         fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
         if self.max_total_mass_kg is not None:
             message = "the weights that are fixed are heavier"

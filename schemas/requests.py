@@ -105,6 +105,7 @@ class OptimizeRequest(Scene, Ruled):
         yield from scenario_rules(self)
         yield from self._shaft_rules()
         yield from self._catalogue_rules()
+        yield from self._group_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             scatters = self.tolerances.reciprocating_mass_relative > 0
             message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
@@ -131,6 +132,19 @@ class OptimizeRequest(Scene, Ruled):
         """Scenarios and tolerances that are given where only the machine as it is can be asked for."""
         yield Rule(bool(self.scenarios), ("scenarios",), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
+
+    def _group_rules(self) -> Iterator[Rule]:
+        """What does not go with identical castings."""
+        machine, place = self.machine, ("machine", "web_groups")
+        if not machine.web_groups:
+            return
+        yield from self.worst_case_rules("does not go with web_groups")
+        for name in self.objective.over_the_turn:
+            yield Rule(True, ("objective", name), "does not go with web_groups: of the first order only")
+        yield Rule(machine.discrete, place, "any mass at any angle only: not with a catalogue")
+        plates = any(web.envelope is not None for web in machine.webs)
+        yield Rule(plates, place, "not beside webs with an envelope")
+        yield from no_balance_shafts(machine, ("machine",), "a machine with web_groups")
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""

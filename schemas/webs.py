@@ -5,7 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import ConfigDict, Field
 
-from schemas.base import Model
+from schemas.base import Model, NotEmpty
 from schemas.catalogue import Holes, Masses
 from schemas.quantities import Angle, Count, Length, Mass, MaxMass, Name, Position
 from schemas.rules import REQUIRED, Rule, Ruled
@@ -14,6 +14,7 @@ from schemas.units import Unit, between, positive
 
 #: largest inner radius, as a share of the outer one
 _INNERMOST = 0.999
+MAX_GROUPED = 500
 
 
 class Sector(Model):
@@ -62,6 +63,15 @@ class FixedWeight(Model):
     angle_deg: Angle = Field(description="its angle as drawn at shaft angle 0", examples=[180.0])
     radius_m: Annotated[Length | None, Unit("m")] = Field(
         None, description="radius of its centre of mass; null is the web's counterweight_radius_m", examples=[0.2]
+    )
+
+
+class WebGroup(Model):
+    """Webs that get identical castings: the same weight, in the same place on their own cranks."""
+
+    name: Name = Field(description="name of the group, unique in the machine", examples=["cheeks"])
+    webs: Annotated[tuple[Name, ...], Field(max_length=MAX_GROUPED), NotEmpty()] = Field(
+        description="names of its webs, which are alike", examples=[["1a", "1b"]]
     )
 
 

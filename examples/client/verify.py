@@ -42,8 +42,18 @@ SAME = 1e-9  # of a mass, relative, and of an angle in degrees: by which they ar
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
 MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
 #: an answer is held if these claims are, as far as they are made
-CENTRAL = {"counterweights", "max_mass", "sector", "max_total_mass", "ceilings", "objective", "lower_bound", "fixed"}
-CENTRAL |= {"status", "corner", "conflict", "reach", "request"}
+CENTRAL = {
+    "counterweights",
+    "max_mass",
+    "sector",
+    "max_total_mass",
+    "ceilings",
+    "objective",
+    "lower_bound",
+    "fixed",
+    "web_groups",
+}
+CENTRAL |= {"fixed", "web_groups", "status", "corner", "conflict", "reach", "request"}
 VERDICTS = ("held", "not covered", "broken")
 
 #: kind of claim, where it stands, the room that is left (None: not covered), and what it is a share of
@@ -134,6 +144,16 @@ def counterweights(machine: Machine, place: Place) -> Claims:
             yield "sector", one / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
         total_mass = total_mass + mass
         turning.append(Mass(mass * web.radius, direction(angle), ZERO, web.position))
+    for group in machine.groups:
+        (first, crank), *others = group
+        same = by_name[machine.webs[first].name]
+        for k, angle in others:
+            one = by_name[machine.webs[k].name]
+            yield near("web_groups", one / "mass_kg", (same / "mass_kg").number())
+            ahead = Fraction((one / "angle_deg").double()) - Fraction((same / "angle_deg").double())
+            off = (ahead - Fraction(angle) + Fraction(crank) + 180) % 360 - 180
+            fitted = (one / "mass_kg").number().high > 0
+            yield "web_groups", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
     if machine.budget is not None:
         yield "max_total_mass", place, machine.budget * real(1 + MASS) - total_mass, machine.budget
     return turning, total_mass * machine.wide

@@ -88,6 +88,7 @@ class Machine:
         ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
         span = real(max(ends)) - real(min(ends))
         self.span = span if span.low > real(NOTHING).high else ONE
+        self.groups = _groups(place)
         #: what is there already: the program chooses beside it, within what it leaves of the budget
         there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]
         fixed = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
@@ -107,6 +108,26 @@ class Machine:
                 counter = counter + (mass.counter + self.blur) * size if mass.counter is not ZERO else counter
             found[name] = co, counter
         return found
+
+
+def _groups(place: Place) -> list[list[tuple[int, float]]]:
+    """Webs that get the same casting, by number, with the angles of their own cranks, degrees."""
+    names = [(web / "name").text() for web in place / "webs"]
+    throws = [((one / "position_m").double(), (one / "crank_angle_deg").double()) for one in place / "throws"]
+    found = []
+    for group in place / "web_groups":
+        found.append([(names.index(name), 0.0) for name in map(Place.text, group / "webs") if name in names])
+        if len(found[-1]) < len(list(group / "webs")):
+            raise NotCovered(group / "webs")
+        for n, (k, _) in enumerate(found[-1] if throws else ()):
+            web = list(place / "webs")[k]
+            at = (web / "position_m").double()
+            near = min(range(len(throws)), key=lambda t: abs(throws[t][0] - at))
+            named = int((web / "throw").double(float(near))) if web / "throw" else near
+            if named >= len(throws):
+                raise NotCovered(web / "throw")
+            found[-1][n] = k, throws[named][1]
+    return found
 
 
 def _web(place: Place) -> Web:
@@ -253,7 +274,8 @@ class Statement:
         price = cost + ((proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO)
         free = {w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name)}
         if price.high == 0:
-            free = self._balance(y, terms, [web for web in free.values() if web.sector is None])
+            grouped = {machine.webs[k].name for group in machine.groups for k, _ in group}
+            free = self._balance(y, terms, [w for w in free.values() if w.sector is None and w.name not in grouped])
         # |y| <= lambda holds by shortening all alike; what a ceiling costs is its own length, if it has no row
         most = {key: rows.get(one.row, ZERO) for key, one in terms.items()}
         most.update({key: Number(abs(y[key]).high, abs(y[key]).high) for key in limits if self.floor})
@@ -264,10 +286,7 @@ class Statement:
             slope[term.moves] = slope[term.moves] + y[key] * term.factor * share
         for name, _ in limits:
             least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
-        gains = {}
-        for web in machine.webs:
-            pull = -(slope["force"] + slope["moment"] * (web.position - machine.plane)) * machine.square
-            gains[web.name] = web.radius * support(pull, web.sector)
+        gains = self._gains(slope)
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
@@ -281,6 +300,22 @@ class Statement:
         if machine.left is not None:
             least = least - (price - cost) * machine.left
         return Bound(least, {name: row * share for name, row in rows.items()})
+
+    def _gains(self, slope: dict[str, Number]) -> dict[str, Number]:
+        """What a kilogram on each web takes off at most."""
+        machine = self.machine
+        gains, pulls = {}, []
+        for web in machine.webs:
+            pulls.append(-(slope["force"] + slope["moment"] * (web.position - machine.plane)) * machine.square)
+            gains[web.name] = web.radius * support(pulls[-1], web.sector)
+        for group in machine.groups:
+            # of identical castings a kilogram on each gains what it does on all together
+            first, crank = group[0]
+            back = [(pulls[k], direction(angle).conjugate() * direction(crank)) for k, angle in group]
+            pull = total(one * turned for one, turned in back) / real(len(group))
+            for k, _ in group:
+                gains[machine.webs[k].name] = machine.webs[k].radius * support(pull, machine.webs[first].sector)
+        return gains
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
         """Of the rows and of the terms, those that are not 0 and those that are to be given."""

@@ -48,6 +48,13 @@ def own_throws(machine: Machine) -> list[int | None]:
     return [throw if one else None for throw, one in zip(first, alone, strict=True)]
 
 
+def crank_angles(machine: Machine) -> list[float | None]:
+    """Angle of the own crank of every web, deg, None where it has none; the eccentric of a scroll points along +x."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return [0.0] * len(machine.webs)
+    return [None if throw is None else machine.throws[throw].crank_angle_deg for throw in own_throws(machine)]
+
+
 def cranks(machine: ReciprocatingMachine) -> Cranks:
     """Throws of a machine and their webs; its fields may hold columns (n,)."""
     masses = [

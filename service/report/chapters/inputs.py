@@ -28,7 +28,14 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
         blocks += _reciprocating(machine)
     else:
         blocks.append(_scroll(machine))
-    blocks += [*_unbalances(machine), _webs(machine), *_balance_shafts(machine), _objective(request), *asked(request)]
+    blocks += [
+        *_unbalances(machine),
+        _webs(machine),
+        *_groups(machine),
+        *_balance_shafts(machine),
+        _objective(request),
+        *asked(request),
+    ]
     return Chapter("Inputs", tuple(blocks))
 
 
@@ -258,6 +265,15 @@ def _unbalances(machine: Machine) -> Iterator[Block]:
             "Unbalances of the shaft itself",
             ["unbalance", "#plane z, m", "#x, kg m", "#y, kg m"],
             [(one.name, one.position_m, one.x_kg_m, one.y_kg_m) for one in machine.unbalances],
+        )
+
+
+def _groups(machine: Machine) -> Iterator[Block]:
+    if machine.web_groups:
+        yield table(
+            "Identical castings, each in the same place on its own crank",
+            ["group", "webs"],
+            [(group.name, ", ".join(group.webs)) for group in machine.web_groups],
         )
 
 
