@@ -21,7 +21,7 @@ from schemas.base import FieldProblem
 from schemas.machine import Machine
 
 #: what webs of a group have in common, beside their sectors as seen from their own cranks
-_ALIKE = ("counterweight_radius_m", "max_mass_kg")
+_ALIKE = ("counterweight_radius_m", "max_mass_kg", "max_centrifugal_force_N")
 
 
 @dataclass(frozen=True)

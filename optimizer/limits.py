@@ -110,6 +110,19 @@ def _largest_unbalances(machine: Machine) -> Real:
     )
 
 
+def _largest_force(machine: Machine) -> Real:
+    """Largest centrifugal force of every web (..., K), N."""
+    given = (web.max_centrifugal_force_N for web in machine.webs)
+    return stacked([np.inf if force is None else force for force in given])
+
+
+def _force_of_one_kg(machine: Machine) -> Real:
+    """Centrifugal force of a kilogram on every web (..., K) at the highest speed, N."""
+    fastest = machine.speed_rpm if machine.overspeed_rpm is None else machine.overspeed_rpm
+    omega = np.asarray(fastest) * (np.pi / 30.0)
+    return stacked([web.radius_m for web in machine.webs]) * np.square(omega)[..., None]
+
+
 #: of every web, as the answer calls them and in its order; one more is one more entry
 WEB_LIMITS: dict[WebLimit, Limit] = {
     "max_mass": MassLimit(
@@ -124,6 +137,7 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
         largest=_largest_unbalances,
         of_one_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
     ),
+    "max_centrifugal_force": MassLimit("N", _largest_force, _force_of_one_kg),
     "sector": _Sector(),
 }
 #: of the machine

@@ -12,6 +12,7 @@ from schemas.quantities import (
 WebLimit = Literal[
     "max_mass",
     "envelope",
+    "max_centrifugal_force",
     "sector",
 ]
 

@@ -218,7 +218,7 @@ class ReciprocatingMachine(Rotor):
                 message = "this name is taken already; names of webs must be unique on all shafts"
                 yield Rule(web.name in taken, (*path, "name"), message)
                 yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
-                for name in ("catalogue_masses_kg", "hole_angles_deg", "fixed"):
+                for name in ("catalogue_masses_kg", "hole_angles_deg", "fixed", "max_centrifugal_force_N"):
                     yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
                 taken.add(web.name)
         message = "with balance shafts the total mass has no limit: limit the masses of the webs"

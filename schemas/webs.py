@@ -110,6 +110,12 @@ class Web(Ruled):
         " chosen for this web",
         examples=[None],
     )
+    max_centrifugal_force_N: Annotated[Annotated[float, positive(1e30)] | None, Unit("N")] = Field(
+        None,
+        description="largest centrifugal force of the counterweight at overspeed_rpm, which its bolts bear; null is no"
+        " limit",
+        examples=[None],
+    )
     sector: Sector | None = Field(
         None,
         description="angles that the counterweight may take; null allows every angle",
@@ -148,7 +154,7 @@ class Web(Ruled):
             if self.max_mass_kg is not None:
                 heavier = self.fixed.mass_kg > self.max_mass_kg
                 yield Rule(heavier, ("fixed", "mass_kg"), "more than max_mass_kg of this web")
-            for name in ("envelope", "sector", "catalogue_masses_kg", "hole_angles_deg"):
+            for name in ("envelope", "sector", "catalogue_masses_kg", "hole_angles_deg", "max_centrifugal_force_N"):
                 message = "nothing is chosen where a weight is fixed: leave it out"
                 yield Rule(getattr(self, name) is not None, (name,), message)
         elif self.envelope is None:
@@ -159,3 +165,5 @@ class Web(Ruled):
             message = "follows from the envelope: leave it out"
             yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)
             yield Rule(self.max_mass_kg is not None, ("max_mass_kg",), message)
+            bolted = self.max_centrifugal_force_N is not None
+            yield Rule(bolted, ("max_centrifugal_force_N",), "not with an envelope: limit its opening")

@@ -142,10 +142,11 @@ KNOWN = (
     " moment_weight direction_weights x y force_ceiling_N force_ceiling_x_N force_ceiling_y_N moment_ceiling_Nm"
     " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap unbalances x_kg_m y_kg_m"
     " catalogue masses_kg mass_step_kg angle_step_deg max_part_numbers max_counterweights catalogue_masses_kg"
-    " hole_angles_deg fixed angle_deg radius_m web_groups "
+    " hole_angles_deg fixed angle_deg radius_m web_groups max_centrifugal_force_N"
+    " overspeed_rpm "
 )
 IDLE = (
-    " name description length_m throw overspeed_rpm friction flywheel bearings cylinder cylinders rotation_torque_Nm"
+    " name description length_m throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
     " tangential_gas_force_N drive_bearing pin_circle_radius_m time_limit_s outputs angles fidelity multipliers"
     " symmetric points total_mass_budgets_kg bearing_measure balance_quality grade_mm_s"
     " centre_of_mass_m plane_a_m plane_b_m gravity_deg "

@@ -78,7 +78,10 @@ class Machine:
         masses += [each for own in place / "unbalances" for each in _unbalance(own)]
         self.wide, self.blur = (ONE, ZERO) if exact else (ABOUT_ONE, BLUR)
         omega = (place / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
-        self.square, self.masses, self.webs = omega * omega, masses, [_web(web) for web in place / "webs"]
+        self.square, self.masses = omega * omega, masses
+        speed = (place / "speed_rpm").number(least=0)
+        faster = (place / "overspeed_rpm").number(least=0) / speed if place / "overspeed_rpm" else ONE
+        self.webs = [_web(web, self.square * faster * faster) for web in place / "webs"]
         if len({web.name for web in self.webs}) < len(self.webs):
             raise Unreadable((*place.path, "webs"), "names must be unique")
         self.budget = budget.number(least=0) if budget else None
@@ -130,13 +133,17 @@ def _groups(place: Place) -> list[list[tuple[int, float]]]:
     return found
 
 
-def _web(place: Place) -> Web:
+def _web(place: Place, fastest: Number) -> Web:
+    """``fastest``: square of the highest speed."""
     most, sector = place / "max_mass_kg", place / "sector"
     edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
     there = place / "fixed"
     radius, limit = (there / "radius_m") or (place / "counterweight_radius_m"), most.number(least=0) if most else None
     weight = ((there / "mass_kg").number(least=0), (there / "angle_deg").double()) if there else None
-    limit = ZERO if there else limit
+    limit, bolts = ZERO if there else limit, place / "max_centrifugal_force_N"
+    if bolts:
+        force = bolts.number(least=0) / (radius.number(least=0) * fastest)
+        limit = force if limit is None else min(limit, force, key=lambda one: one.high)
     name, where = (place / "name").text(), (place / "position_m").number()
     return Web(name, where, radius.number(least=0), limit, edges, weight)
 

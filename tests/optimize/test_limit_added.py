@@ -1,4 +1,4 @@
-"""A limit is added in one file of its own and a registration: here the largest centrifugal force of a counterweight.
+"""A limit is added in one file of its own and a registration: here what pulls at a web at the speed of the machine.
 
 One crank with a rotating mass, and one web opposite: the counterweight m R takes m R omega^2 from the force.
 """
@@ -18,7 +18,7 @@ from optimizer.sweep.counterweights import optimal
 from schemas.machine import Machine
 from schemas.requests import OptimizeRequest
 
-NAME = "max_centrifugal_force"
+NAME = "max_pull"
 RPM, OMEGA = 600.0, 20.0 * np.pi
 LARGEST = 1500.0  # N
 CRANK, RADIUS = 1.0, 0.2  # kg m of the rotating mass, m

@@ -48,6 +48,7 @@ _FIRST_ORDER = (
 _LIMITS = {
     "max_mass": "largest mass",
     "envelope": "envelope",
+    "max_centrifugal_force": "largest centrifugal force",
     "sector": "sector",
     "max_total_mass": "largest total mass",
     "force_ceiling": "ceiling of the force",

@@ -4,7 +4,7 @@ import { h, table } from "../dom.js";
 import { figure, number } from "../format.js";
 
 const LIMITS = {
-  max_mass: "mass", envelope: "envelope", sector: "sector", max_total_mass: "limit of the total mass",
+  max_mass: "mass", envelope: "envelope", max_centrifugal_force: "centrifugal force", sector: "sector", max_total_mass: "limit of the total mass",
   force_ceiling: "ceiling of the force", moment_ceiling: "ceiling of the moment",
   force_ceiling_x: "ceiling of the force along x", force_ceiling_y: "ceiling of the force along y",
   moment_ceiling_x: "ceiling of the moment along x", moment_ceiling_y: "ceiling of the moment along y",
