@@ -79,9 +79,9 @@ class Machine:
         self.wide, self.blur = (ONE, ZERO) if exact else (ABOUT_ONE, BLUR)
         omega = (place / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
         self.square, self.masses = omega * omega, masses
-        speed = (place / "speed_rpm").number(least=0)
-        faster = (place / "overspeed_rpm").number(least=0) / speed if place / "overspeed_rpm" else ONE
-        self.webs = [_web(web, self.square * faster * faster) for web in place / "webs"]
+        fastest = (place / "overspeed_rpm") or (place / "speed_rpm")
+        turning = fastest.number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
+        self.webs = [_web(web, turning * turning) for web in place / "webs"]
         if len({web.name for web in self.webs}) < len(self.webs):
             raise Unreadable((*place.path, "webs"), "names must be unique")
         self.budget = budget.number(least=0) if budget else None
@@ -142,7 +142,10 @@ def _web(place: Place, fastest: Number) -> Web:
     weight = ((there / "mass_kg").number(least=0), (there / "angle_deg").double()) if there else None
     limit, bolts = ZERO if there else limit, place / "max_centrifugal_force_N"
     if bolts:
-        force = bolts.number(least=0) / (radius.number(least=0) * fastest)
+        of_one_kg = radius.number(least=0) * fastest
+        if of_one_kg.low <= 0:
+            raise NotCovered(bolts)
+        force = bolts.number(least=0) / of_one_kg
         limit = force if limit is None else min(limit, force, key=lambda one: one.high)
     name, where = (place / "name").text(), (place / "position_m").number()
     return Web(name, where, radius.number(least=0), limit, edges, weight)
