@@ -16,6 +16,7 @@ Part = TypeVar("Part")
 
 #: a sum smaller than this share of the sum of the magnitudes of its terms is rounding error
 _ROUNDING = 16 * np.finfo(float).eps
+_ARRAYS = (np.ndarray, np.generic)
 #: nothing real is this small; below it quotients lose their digits and then overflow
 SMALLEST = 1e-250
 
@@ -26,7 +27,7 @@ def mapped(part: Part, function: Callable[[Any], Any]) -> Part:
 
 
 def _mapped(value: Any, function: Callable[[Any], Any]) -> Any:
-    if isinstance(value, np.ndarray | np.generic):
+    if isinstance(value, _ARRAYS):
         return function(value)
     return mapped(value, function) if is_dataclass(value) else value
 
@@ -45,6 +46,6 @@ def total(terms: Complex) -> Complex:
     -------
     (...) complex.
     """
-    value = np.sum(terms, axis=-1)
-    noise = np.maximum(_ROUNDING * np.sum(np.abs(terms), axis=-1), SMALLEST)
+    value = terms.sum(axis=-1)
+    noise = np.maximum(_ROUNDING * np.abs(terms).sum(axis=-1), SMALLEST)
     return np.where(np.abs(value) <= noise, 0.0, value)

@@ -1,8 +1,9 @@
 """Warnings of an answer: what is right as it stands and may still be taken for something else."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from functools import cache
-from typing import Any, NamedTuple
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from optimizer.figures.peaks import at_least, bearing_and_bending_curves, of_sha
 from optimizer.formulate import span
 from optimizer.mechanics.cylinders import without_gas
 from optimizer.scene import Prepared
-from schemas.answers import Certificate
+from schemas.answers import BalanceRate, Certificate
 from schemas.base import Model
 from schemas.caution import Caution, CautionCode
 from schemas.dynamics import MainBearings
@@ -38,13 +39,22 @@ _FRAGILE = 0.5
 _CANCELLED = 1e-9
 
 
-class Told(NamedTuple):
+@dataclass(frozen=True)
+class Told:
     """What there is to look at."""
 
     scene: Prepared
     unbalance: Complex | None  # (webs,) kg m; None where there are none to show
     fields: Mapping[str, Any]  # of the answer, by name: of its outputs
     proven: Mapping[str, Any]  # and of what is proven of the counterweights
+
+    @cached_property
+    def sizes(self) -> tuple[float, float]:
+        """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
+        masses, rows = self.scene.layout.rotating, self.scene.layout.reciprocating
+        unbalance = np.sum(masses.mass * masses.radius) + np.sum(rows.mass * rows.crank_radius)
+        force = float(unbalance) * self.scene.omega_squared
+        return force, force * float(span(self.scene.machine))
 
 
 def cautions(
@@ -63,14 +73,6 @@ def cautions(
 def _plain(value: float, digits: int = 4) -> str:
     """Some digits without an exponent, as forces and moments are read: 107600, not 1.076e+05."""
     return f"{float(f'{value:.{digits}g}'):.15g}"
-
-
-def _sizes(scene: Prepared) -> tuple[float, float]:
-    """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
-    masses, rows = scene.layout.rotating, scene.layout.reciprocating
-    unbalance = np.sum(masses.mass * masses.radius) + np.sum(rows.mass * rows.crank_radius)
-    force = float(unbalance) * scene.omega_squared
-    return force, force * float(span(scene.machine))
 
 
 def _no_gas(told: Told) -> Iterator[Caution]:
@@ -117,7 +119,7 @@ def _second_order(told: Told) -> Iterator[Caution]:
     first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
     if residual is None or first is None or second is None:
         return
-    force, moment = _sizes(told.scene)
+    force, moment = told.sizes
     for what, left, twice, size, unit in (
         ("force", first.force.peak_N, second.force.peak_N, force, "N"),
         ("moment", first.moment.peak_Nm, second.moment.peak_Nm, moment, "N m"),
@@ -139,15 +141,15 @@ def _bare_crank(told: Told) -> Iterator[Caution]:
     goal = request.objective
     if told.unbalance is None or not machine.webs or goal.of_the_shaft:
         return
-    rates = cranks(machine).rates(told.unbalance).real
-    bare = np.flatnonzero(rates < _BARE)
-    if bare.size:
-        least = int(bare[np.argmin(rates[bare])])
+    rates: tuple[BalanceRate, ...] = told.fields["balance_rate"]
+    bare = [(each.rate, each.throw) for each in rates if each.rate is not None and each.rate < _BARE]
+    if bare:
+        rate, least = min(bare)
         name = machine.throws[least].name or str(least + 1)
         yield Caution(
             code="bare_crank",
-            message=f"{bare.size} of {len(machine.throws)} throws have less than half of their rotating mass balanced "
-            f"by their own webs (throw {name}: {rates[least] + 0.0:.2f}). What leaves the machine needs no more, but "
+            message=f"{len(bare)} of {len(machine.throws)} throws have less than half of their rotating mass balanced "
+            f"by their own webs (throw {name}: {rate:.2f}). What leaves the machine needs no more, but "
             "its main bearings carry the rest: ask for main_bearings, or weigh them.",
             pointer="/objective",
         )
@@ -158,7 +160,7 @@ def _component_grows(told: Told) -> Iterator[Caution]:
     residual: Residual | None = told.fields.get("residual")
     if residual is None or residual.after is None:
         return
-    was, now, sizes = residual.before, residual.after, _sizes(told.scene)
+    was, now, sizes = residual.before, residual.after, told.sizes
     for what, unit, size, pairs in (
         ("force", "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
                                           "y": (was.force.peak_y_N, now.force.peak_y_N)}),
@@ -226,7 +228,7 @@ def _loads_grow(told: Told) -> Iterator[Caution]:
 
 def _not_closed(told: Told) -> Iterator[Caution]:
     """Peaks over the turn of which less is proven than a designer takes for granted."""
-    force, moment = _sizes(told.scene)
+    force, moment = told.sizes
     for output, field in told.fields.items():
         if not isinstance(field, Model) or not _bracketed(field.__class__):
             continue

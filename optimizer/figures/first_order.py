@@ -13,7 +13,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
-from schemas.first_order import FirstOrder, Floor, ForceEllipse, MomentEllipse, Residual, ResidualOrders
+from schemas.first_order import FirstOrder, Floor, Residual, ResidualOrders
 from schemas.outputs import Hodograph, Hodographs, Order
 from schemas.proof import BoundMultipliers
 
@@ -22,9 +22,13 @@ FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
-    force = {f"{name}_N" if name != "major_axis_deg" else name: value for name, value in _ellipse(wrench.force)}
-    moment = {f"{name}_Nm" if name != "major_axis_deg" else name: value for name, value in _ellipse(wrench.moment)}
-    return FirstOrder(force=ForceEllipse(**force), moment=MomentEllipse(**moment))
+    both = Phasors(np.array([pair.co for pair in wrench]), np.array([pair.counter for pair in wrench]))
+    figures = _ellipse(both)
+    force, moment = (
+        {name if name == "major_axis_deg" else f"{name}_{unit}": values[k] for name, values in figures.items()}
+        for k, unit in enumerate(("N", "Nm"))
+    )
+    return FirstOrder.model_validate({"force": force, "moment": moment})
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -104,17 +108,18 @@ def _hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
     )
 
 
-def _ellipse(pair: Phasors) -> tuple[tuple[str, float], ...]:
-    values = {
-        "peak": pair.peak,
-        "minor": pair.minor,
-        "major_axis_deg": pair.major_axis_deg,
-        "peak_x": pair.peak_along(np.asarray(1.0 + 0j)),
-        "peak_y": pair.peak_along(np.asarray(1j)),
-        "co_rotating": np.abs(pair.co),
-        "counter_rotating": np.abs(pair.counter),
+def _ellipse(pairs: Phasors) -> dict[str, list[float]]:
+    """Figures of ellipses (n,), by name."""
+    figures = {
+        "peak": pairs.peak,
+        "minor": pairs.minor,
+        "major_axis_deg": pairs.major_axis_deg,
+        "peak_x": pairs.peak_along(np.asarray(1.0 + 0j)),
+        "peak_y": pairs.peak_along(np.asarray(1j)),
+        "co_rotating": np.abs(pairs.co),
+        "counter_rotating": np.abs(pairs.counter),
     }
-    return tuple((name, float(value)) for name, value in values.items())
+    return {name: values.tolist() for name, values in figures.items()}
 
 
 RESIDUAL = Output(

@@ -96,8 +96,9 @@ def shadow_prices(
 def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_squared: float) -> Iterator[Priced]:
     """What every limit costs that is given, web by web, then of the machine."""
     of_webs = {
-        name: (limit.unit, limit.size(machine).tolist(), limit.price(machine, prices).tolist())
+        name: (limit.unit, size.tolist(), limit.price(machine, prices).tolist())
         for name, limit in WEB_LIMITS.items()
+        if np.any((size := limit.size(machine)) < np.inf)
     }
     for k, web in enumerate(machine.webs):
         if web.fixed is not None:

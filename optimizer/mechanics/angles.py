@@ -24,7 +24,7 @@ def direction(angle_deg: Real) -> Complex:
     turn = np.mod(np.asarray(angle_deg, dtype=float), 360.0)
     quadrant = np.floor(turn / 90.0)
     rest = turn - 90.0 * quadrant
-    cosine, sine = _cosine(rest), _cosine(90.0 - rest)
+    cosine, sine = _cosine(np.stack([rest, 90.0 - rest]))
     return (cosine + 1j * sine) * np.asarray([1, 1j, -1, -1j])[quadrant.astype(int) % 4]
 
 

@@ -84,8 +84,9 @@ def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     ----------
     unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
     """
-    couple, nothing = total(web_arms(layout) * unbalance), np.zeros_like(total(unbalance))
-    return Wrench(Phasors(total(unbalance), nothing), Phasors(couple, nothing))
+    force, couple = total(unbalance), total(web_arms(layout) * unbalance)
+    nothing = np.zeros_like(force)
+    return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
 
 
 def web_arms(layout: Layout) -> Real:

@@ -5,7 +5,9 @@ affine function of u whose minimum over the limits is a support function and a k
 So any multipliers give a rigorous bound; better ones give a better bound.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -39,15 +41,6 @@ class Multipliers:
     def times(self, factor: Real) -> "Multipliers":
         factor = np.asarray(factor)[..., None]
         return Multipliers(self.term * factor, self.row * factor, self.ceiling * factor)
-
-    def where(self, chosen: np.ndarray, other: "Multipliers") -> "Multipliers":
-        """These where ``chosen`` (...), those of another elsewhere."""
-        chosen = chosen[..., None]
-        return Multipliers(
-            np.where(chosen, self.term, other.term),
-            np.where(chosen, self.row, other.row),
-            np.where(chosen, self.ceiling, other.ceiling),
-        )
 
     def chosen(self, programs: "int | np.ndarray") -> "Multipliers":
         """Those of some of the programs of one leading axis."""
@@ -119,6 +112,19 @@ def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Rea
     minorant = _minorant(statement, usable, statement.ceilings.cap)
     least = _least_over_limits(minorant, 0.0, statement.limits)
     return np.where(known, minorant.constant + least - _rounding(statement, minorant.constant_size), -np.inf)
+
+
+def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Real, Multipliers]:
+    """The highest of the lower bounds (...) that several multipliers prove, and those that prove it: the first of equal
+    ones. All are evaluated at once, as many programs are."""
+    together = Multipliers(*(np.stack(parts) for parts in zip(*(vars(each).values() for each in proofs), strict=True)))
+    bound = objective_lower_bound(statement, together)
+    best = np.argmax(np.where(np.isnan(bound), -np.inf, bound), axis=0)[None]
+
+    def taken(of_all: Any) -> Any:
+        return np.take_along_axis(of_all, best.reshape(best.shape + (1,) * (of_all.ndim - best.ndim)), axis=0)[0]
+
+    return taken(bound), mapped(together, taken)
 
 
 def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Real) -> Real:

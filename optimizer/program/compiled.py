@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped
-from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
+from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.points import Points, excess_at, points_at
@@ -107,20 +107,14 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     """Of the points of both stages the ones to take, with their proofs."""
     smallest, lightest = solved.smallest, solved.lightest
     began = time.perf_counter()
-    proof = solved.proof
-    lower_bound = objective_lower_bound(statement, proof)
-    for each in resting_multipliers(statement):
-        bound = objective_lower_bound(statement, each)
-        better = bound > np.where(np.isnan(lower_bound), -np.inf, lower_bound)
-        lower_bound, proof = np.where(better, bound, lower_bound), each.where(better, proof)
+    lower_bound, proof = best_proof(statement, (solved.proof, *resting_multipliers(statement)))
     certify_s = time.perf_counter() - began
-    rest = points_at(statement, np.zeros_like(smallest))
-    best = _better(rest, points_at(statement, smallest))
+    rest, first, light = points_at(statement, np.stack([np.zeros_like(smallest), smallest, lightest])).each
+    best = _better(rest, first)
     target = np.maximum(best.objective, lower_bound + TARGET * share - statement.rounding(best.unbalance))
     counted, mass_proof = np.maximum(best.objective, lower_bound) + share, nothing_proven(statement)
     chosen, mass_bound = best, np.zeros_like(share)
     if least_mass:
-        light = points_at(statement, lightest)
         # what can be kept up to rounding is not traded for their tolerance
         kept = np.clip(light.excess, CEILING_ROUNDING, CEILING_TOLERANCE)
         nearer = _nearer(statement, light, best, target)

@@ -1,5 +1,6 @@
 """Points of many programs, and what they come to."""
 
+from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
@@ -15,6 +16,11 @@ class Points(NamedTuple):
     objective: Real  # (N,)
     mass: Real  # (N,) kg
     excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
+
+    @property
+    def each(self) -> "Iterator[Points]":
+        """One by one of the first of two leading axes, (n, N)."""
+        return (Points(*values) for values in zip(*self, strict=True))
 
     def where(self, kept: np.ndarray, other: "Points") -> "Points":
         """These where ``kept`` (N,), others elsewhere."""
@@ -38,7 +44,7 @@ class Points(NamedTuple):
 
 
 def points_at(statement: Statement, u: Complex) -> Points:
-    """What unbalances (N, K) [kg m] come to."""
+    """What unbalances (..., N, K) [kg m] come to."""
     return Points(u, statement.objective(u), statement.mass(u), excess_at(statement, u))
 
 

@@ -197,7 +197,8 @@ def _certified(found: object) -> Certified | None:
 
 def _resident() -> int:
     try:
-        pages = int(Path("/proc/self/statm").read_text().split()[1])
+        with open("/proc/self/statm", "rb", buffering=0) as file:
+            pages = int(file.read().split()[1])
     except OSError:
         return 0
     return pages * resource.getpagesize()

@@ -10,6 +10,7 @@ from optimizer.program.certificate import (
     Multipliers,
     _least_over_limits,
     _Minorant,
+    best_proof,
     mass_lower_bound,
     objective_lower_bound,
 )
@@ -40,6 +41,19 @@ def test_bounds_never_exceed_the_value_of_an_admissible_point(seed: int, case: t
         price = 10.0 ** rng.uniform(-3, 3)
         bound = mass_lower_bound(problem, multipliers.times(np.asarray(price)), np.asarray(value))
         assert bound <= float(problem.mass(u)) * (1 + 1e-12)
+
+
+@given(seed=st.integers(0, 10**6), case=st.sampled_from(COMBINATIONS))
+def test_the_best_of_several_proofs_is_the_best_one_by_one(seed: int, case: tuple) -> None:
+    problem, rng = random_statement(seed, *case), np.random.default_rng(seed + 1)
+    each = [_random_multipliers(rng, problem) for _ in range(4)]
+    # what went wrong proves nothing, wherever it stands
+    each.insert(int(rng.integers(5)), each[0].times(np.asarray(np.nan)))
+    # independent: bound by bound
+    single = [float(objective_lower_bound(problem, one)) for one in each]
+    bound, proof = best_proof(problem, each)
+    assert float(bound) == np.nanmax(single)
+    assert objective_lower_bound(problem, proof) == bound
 
 
 @pytest.mark.parametrize("budget", [False, True])
