@@ -173,16 +173,21 @@ class Environment(Model):
     cpus: int = Field(description="processors of the machine; every solve runs on one", examples=[2])
 
 
+Status = Literal["measured", "nothing_to_choose", "infeasible", "contradicted"]
+
+
 class AccuracyAnswer(Answer):
     """The ladders."""
 
-    status: Literal["measured", "nothing_to_choose", "infeasible"] = Field(
+    status: Status = Field(
         description="nothing_to_choose: no web can carry anything, or the objective is 0 without counterweights, and "
-        "the ladder is empty; infeasible: no counterweights satisfy the ceilings, and the ladder is empty",
+        "the ladder is empty; infeasible: no counterweights satisfy the ceilings, and the ladder is empty; "
+        "contradicted: a bound is above a value that was found, a fault of the service; nothing is measured from it",
         examples=["measured"],
     )
     reference: Reference | None = Field(
-        description="what errors are measured from; null if infeasible", examples=[{"objective": 41250.2}]
+        description="what errors are measured from; null if infeasible or contradicted",
+        examples=[{"objective": 41250.2}],
     )
     size: ProgramSize = Field(description="size of the program", examples=[{"webs": 4}])
     repeats: int = Field(description="rounds of timing", examples=[5])

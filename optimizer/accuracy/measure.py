@@ -1,10 +1,10 @@
 """From request to the ladders: what each method finds, how far it is off, and what it takes."""
 
+import logging
 import os
 import platform
 import time
 from importlib.metadata import version
-from typing import Literal
 
 import numpy as np
 
@@ -15,15 +15,18 @@ from optimizer.accuracy.peaks import peaks_ladder
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import formulate, limited, weights
 from optimizer.outputs import prepare
+from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.edge import Unreachable
 from optimizer.program.optima import optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.scene import Prepared
-from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference
+from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference, Status
 from schemas.machine import ReciprocatingMachine
 
+_LOG = logging.getLogger(__name__)
 #: gap asked of the reference
 _SHARPEST = 1e-9
 #: relative rounding of objectives and bounds of some hundred terms; nothing below it is told apart
@@ -42,7 +45,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     statement = whole.only(usable)
     task = Task(statement, _turn(request, scene).only(usable))
 
-    status: Literal["measured", "nothing_to_choose", "infeasible"] = "measured"
+    status: Status = "measured"
     reference: Reference | None = None
     rows: tuple[AccuracyRow, ...] = ()
     rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
@@ -51,10 +54,11 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
         status = "infeasible"
     elif rest == 0.0 or not np.any(usable):
         status = "nothing_to_choose"
-        reference = _reference(best.objective, min(best.lower_bound, best.objective), rest, scene.omega_squared)
+        reference, _ = _judged(task, [], best, rest, scene.omega_squared)
     else:
-        trials = _run(task, request.repeats)
-        reference, rows = _judged(task, trials, best.objective, best.lower_bound, rest, scene.omega_squared)
+        reference, rows = _judged(task, _run(task, request.repeats), best, rest, scene.omega_squared)
+    if reference is None and status != "infeasible":
+        status = "contradicted"
     return AccuracyAnswer(
         status=status,
         reference=reference,
@@ -93,13 +97,32 @@ def _run(task: Task, repeats: int) -> list[Trial]:
     return trials
 
 
+def _proven(statement: Statement, best: Solution, bounds: list[float], objective: float, excess: float) -> float:
+    """The sharpest bound; NaN where a value that was found is below it.
+
+    A value is known to its rounding, and counterweights that exceed ceilings within the tolerance may gain what these
+    cost, so a bound above the value by no more is lowered to it (docs/mathematics.md, section 5).
+    """
+    bound, slack = max(bounds), float(statement.rounding(best.unbalance))
+    if best.multipliers is not None:
+        over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
+        slack += float(ceiling_allowance(statement, best.multipliers, over))
+    if bound <= objective + slack:
+        return min(bound, objective)
+    _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
+    return np.nan
+
+
 def _judged(
-    task: Task, trials: list[Trial], objective: float, bound: float, rest: float, square: float
-) -> tuple[Reference, tuple[AccuracyRow, ...]]:
+    task: Task, trials: list[Trial], best: Solution, rest: float, square: float
+) -> tuple[Reference | None, tuple[AccuracyRow, ...]]:
     kept = [one for trial in trials for one in trial.judged if one.excess <= CEILING_TOLERANCE]
-    objective = min([objective, *(one.objective for one in kept)])
-    # a bound above a value that was reached is so by rounding
-    bound = min(max([bound, *(one.bound for trial in trials for one in trial.judged)]), objective)
+    objective = min([best.objective, *(one.objective for one in kept)])
+    bounds = [best.lower_bound, *(one.bound for trial in trials for one in trial.judged)]
+    excess = max([best.excess, *(one.excess for one in kept)])
+    bound = _proven(task.statement, best, bounds, objective, excess)
+    if np.isnan(bound):
+        return None, ()
     reference = _reference(objective, bound, rest, square)
     rows = [_row(trial, bound, rest, bool(task.statement.ceilings.names)) for trial in trials]
     points = [
@@ -112,10 +135,10 @@ def _judged(
         else (row.time_ms, row.relative_error)
         for row in rows
     ]
-    best = frontier(points, reference.resolution)
+    fastest = frontier(points, reference.resolution)
     return (
         reference,
-        tuple(row.model_copy(update={"on_frontier": on}) for row, on in zip(rows, best, strict=True)),
+        tuple(row.model_copy(update={"on_frontier": on}) for row, on in zip(rows, fastest, strict=True)),
     )
 
 

@@ -1,17 +1,20 @@
 """Rounds, frontier and judgement of the ladder."""
 
 import time
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.accuracy import ladder
+from optimizer.accuracy import ladder, measure
 from optimizer.accuracy.ladder import Clock, frontier, survey, time_rounds
 from optimizer.accuracy.measure import _judged, accuracy
 from optimizer.accuracy.methods import GAPS, POSITIONS, Found, Method, Run, Task, methods
 from optimizer.optimize import optimize
+from optimizer.program.solution import Solution
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
 from schemas.requests import OptimizeRequest
 from tests.accuracy.problems import body, random_task, request, single
@@ -120,7 +123,9 @@ def test_times_are_for_one_of_the_programs_of_a_run() -> None:
 
     trials = survey(task, [Method("m", "", lambda: run, programs=10)], Clock.of(60.0))
     time_rounds(task, trials, 3, Clock.of(60.0))
-    reference, (row,) = _judged(task, trials, 2.5, 2.5, 3.0, 1.0)
+    best = Solution(np.array([-0.5 + 0j]), 2.5, 2.5, 0.5, 0.0, -np.inf)
+    reference, (row,) = _judged(task, trials, best, 3.0, 1.0)
+    assert reference is not None
     assert row.time_ms is not None
     assert row.first_ms is not None
     assert 5.0 <= row.time_ms < 50.0
@@ -209,6 +214,22 @@ def test_no_ladder_where_there_is_nothing_to_choose_or_nothing_feasible() -> Non
     assert impossible.reference is None
     # effects need no counterweights
     assert impossible.effects_ladder
+
+
+def test_a_bound_that_a_value_contradicts_is_said_and_measures_nothing(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    honest = measure.optima
+
+    def too_sharp(*asked: Any) -> Any:
+        found = honest(*asked)
+        return replace(found, lower_bound=found.lower_bound * (1.0 + 1e-6))
+
+    monkeypatch.setattr(measure, "optima", too_sharp)
+    found = accuracy(request("2d12"))
+    assert (found.status, found.reference, found.ladder) == ("contradicted", None, ())
+    assert "a lower bound is above the value of an answer" in caplog.text
+    assert found.effects_ladder
 
 
 @pytest.mark.parametrize("limit", [None, 1e300])

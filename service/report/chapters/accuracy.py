@@ -23,6 +23,7 @@ _METHODS = {
 _EMPTY = {
     "nothing_to_choose": "No web can carry a counterweight, or the objective is 0 without any: nothing to measure.",
     "infeasible": "No counterweights satisfy the ceilings; `counterweight optimize` says why.",
+    "contradicted": "A bound is above a value that was found, a fault of the service: nothing is measured from it.",
 }
 
 

@@ -7,6 +7,7 @@ import { plot, series } from "../plots.js";
 const SYMBOLS = ["star", "circle", "square", "diamond", "triangle-up", "cross", "x", "hexagon2", "bowtie"];
 const WORDS = {
   infeasible: "No counterweights satisfy the ceilings: there is nothing to measure.",
+  contradicted: "A bound is above a value that was found, a fault of the service: nothing is measured from it.",
   nothing_to_choose: "There is nothing to choose on this machine: no web can carry anything, or nothing is out of balance.",
 };
 
