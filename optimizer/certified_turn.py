@@ -90,6 +90,7 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     shown = chosen(request, mass, angle)
     there, _ = beside(machine, mass, angle)
     values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
+    found = found.counting(float(values.goals[-1]))
     judged = _judged(request, asked.program, found, u, values, mass)
     late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
     ended = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. " if late else ""

@@ -15,6 +15,8 @@ from optimizer.program.statement import Statement
 
 #: shares of several sums, which are to sum to no more than 1
 _MEAN = 1.0 - 64 * np.finfo(float).eps
+#: for the rounding of a product
+_UP = 1.0 + 64 * np.finfo(float).eps
 
 
 @dataclass(frozen=True)
@@ -24,6 +26,7 @@ class Proof:
     charge : what the goals that are kept below a level are charged with: the bound of several goals is that of the
         statement, whose groups are those of all goals times their prices, less this.
     cuts : of every quantity, in the order of the statement.
+    price : of a bound of the mass, by which it falls where the last goal may come to one more, kg.
     """
 
     bound: float
@@ -31,6 +34,11 @@ class Proof:
     multipliers: Multipliers
     charge: float
     cuts: tuple[int, ...]
+    price: float = 0.0
+
+    def up_to(self, more: float) -> "Proof":
+        """That of the mass of all whose last goal comes to so much more."""
+        return replace(self, bound=max(self.bound - self.price * more * _UP, 0.0))
 
 
 def resting_proof(program: OverTurn, cuts: Cuts) -> Proof:
@@ -59,19 +67,23 @@ def proofs(
     counted : levels that the bound counts with, of all goals but the last; of all where the mass is to be small.
     """
     of_mass = counted.size == len(program.goals)
-    charge = float(np.sum(counted))
+    charge, prices = float(np.sum(counted)), 1.0
     if program.goal_of_case.size > 1:
         statement, found, charges = _charged(program, of_mass, statement, found)
         kept = program.goal_of_case < counted.size
         charge = float(np.sum(charges[kept] * counted[program.goal_of_case[kept]]))
+        prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
     sharper = mass_multipliers if of_mass else objective_multipliers
     for multipliers in sharper(statement, u, found):
+        price = 0.0
         if of_mass:
             bound = float(mass_lower_bound(statement, multipliers, np.asarray(charge)))
+            # of one sum the multipliers tell it; of several they sum to 1 and the groups have the prices
+            price = prices * float(multipliers.admissible(statement).price(statement))
         else:
             bound = float(objective_lower_bound(statement, multipliers)) - charge
         if np.isfinite(bound):
-            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)))
+            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)), price)
 
 
 def _charged(

@@ -75,6 +75,13 @@ class Found:
         """Of the objective."""
         return self.goals[-1].proof
 
+    def counting(self, value: float) -> "Found":
+        """With the mass proven for all that come to no more than this value: that of counterweights which rounding has
+        put above what was counted as an optimum."""
+        if self.mass_proof is None or value <= self.mass_target:
+            return self
+        return replace(self, mass_proof=self.mass_proof.up_to(value - self.mass_target), mass_target=value)
+
     @property
     def mass_gap(self) -> float:
         """Of the mass above its bound, relative to it; inf where nothing is proven."""

@@ -29,7 +29,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     ),
     _STAGES: ("optimizer.program.kernel.interior_point:solve",),
     "scaling, choice of the point": ("optimizer.program.optima:both_stages", "optimizer.program.optima:yardstick"),
-    "certificate": ("optimizer.program.compiled:objective_lower_bound", "optimizer.program.compiled:mass_lower_bound"),
+    "certificate": ("optimizer.program.compiled:best_proof", "optimizer.program.compiled:mass_lower_bound"),
     "reference solver": ("optimizer.program.optima:cascade",),
     "masses, angles, residuals": (
         "optimizer.certified:masses_and_angles",

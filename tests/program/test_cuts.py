@@ -98,6 +98,21 @@ def test_bounds_are_never_above_what_another_point_comes_to(seed: int, beside: b
 
 
 @pytest.mark.parametrize("seed", range(3))
+def test_a_mass_is_proven_for_all_that_come_to_more_at_its_price(seed: int) -> None:
+    best = found(bearings(seed, count=3, webs=3), 1e-4, least_mass=True)
+    assert best.mass_proof is not None
+    assert best.counting(0.5 * best.mass_target) is best
+    value = best.mass_target * (1.0 + 1e-6)
+    more = best.counting(value)
+    assert more.mass_target == value
+    assert more.mass_proof is not None
+    assert more.mass_proof.bound <= best.mass_proof.bound
+    # independent: by the same multipliers with the other target
+    again = float(mass_lower_bound(best.mass_proof.statement, best.mass_proof.multipliers, np.asarray(value)))
+    assert more.mass_proof.bound == pytest.approx(again, rel=1e-10)
+
+
+@pytest.mark.parametrize("seed", range(3))
 def test_brute_force_never_beats_the_bracket(seed: int) -> None:
     program = bearings(seed)
     best = found(program)
