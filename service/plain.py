@@ -11,3 +11,12 @@ _UNFIT = re.compile(
 def plain(text: str) -> str:
     """The text, with U+FFFD for every character that does not print or would reorder its neighbours."""
     return _UNFIT.sub("\ufffd", text)
+
+
+#: a spreadsheet takes a text that begins like this for a formula
+FORMULA = r"^[=+\-@\t\r]"
+
+
+def inert(text: str) -> str:
+    """The text of a cell of CSV: what a spreadsheet would run begins with an apostrophe."""
+    return f"'{text}" if re.match(FORMULA, text) else text

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from schemas.counterweights import Counterweight
 from service.drawings.drawn import DrawingSet
 from service.drawings.parts import Part
-from service.plain import plain
+from service.plain import inert, plain
 
 HEADS = (
     "part", "pieces", "web", "mass, kg", "plane z, mm", "angle as drawn, deg", "angle from its crank, deg",
@@ -16,8 +16,6 @@ HEADS = (
 )  # fmt: skip
 
 Cell = str | float | int | None
-#: a spreadsheet takes a text that begins like this for a formula
-_FORMULA = ("=", "+", "-", "@")
 
 
 def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
@@ -53,7 +51,7 @@ def as_csv(drawn: DrawingSet) -> bytes:
     writer = csv.writer(out, lineterminator="\r\n")
     writer.writerow(HEADS)
     for row in rows(drawn):
-        writer.writerow([f"'{cell}" if isinstance(cell, str) and cell.startswith(_FORMULA) else cell for cell in row])
+        writer.writerow([inert(cell) if isinstance(cell, str) else cell for cell in row])
     return out.getvalue().encode()
 
 

@@ -11,11 +11,11 @@ import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
+from service.plain import FORMULA
+
 Name = Literal["ndjson", "csv", "parquet", "arrow"]
 Batches = Iterable[pa.RecordBatch]
 
-#: a spreadsheet takes a cell that begins like this for a formula
-_FORMULA = r"^[=+\-@\t\r]"
 #: of rows that are written together, before they are compressed
 _GROUP_BYTES = 1_000_000
 
@@ -116,7 +116,7 @@ def _cells(column: pa.Array) -> pa.Array:
 
 
 def _harmless(texts: pa.Array) -> pa.Array:
-    return pc.if_else(pc.match_substring_regex(texts, _FORMULA), pc.binary_join_element_wise("'", texts, ""), texts)
+    return pc.if_else(pc.match_substring_regex(texts, FORMULA), pc.binary_join_element_wise("'", texts, ""), texts)
 
 
 def _ndjson(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:

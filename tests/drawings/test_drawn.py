@@ -21,6 +21,7 @@ from service.cli import app
 from service.drawings.archive import zipped
 from service.drawings.bill import HEADS
 from service.drawings.drawn import drawings
+from service.plain import inert
 from tests.drawings.exchange import File, names
 
 EXAMPLE = Path("examples/drawings/2d12-plates.json")
@@ -76,6 +77,13 @@ def test_a_counterweight_without_a_plate_is_in_the_bill_and_said_not_to_be_drawn
     (plain,) = [row for row in bill(files) if row["web"] == "1a"]
     assert (plain["part"], plain["drawing"]) == ("", "none: the web has no envelope")
     assert "Counterweight 1a" not in list(names(File(files["counterweights.step"]).products()))
+
+
+@pytest.mark.parametrize(
+    ("text", "cell"), [("=1", "'=1"), ("\t1", "'\t1"), ("@x", "'@x"), ("1a", "1a"), ("a=b", "a=b")]
+)
+def test_what_a_spreadsheet_would_run_is_text(text: str, cell: str) -> None:
+    assert inert(text) == cell
 
 
 def test_the_workbook_says_what_the_csv_says_and_runs_nothing() -> None:
