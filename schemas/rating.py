@@ -1,4 +1,4 @@
-"""The thermal design of a compressor as it is asked for. Equations (1-1) to (1-32) of seed 004."""
+"""The thermal design of a compressor as it is asked for. After the design calculation of the 2D12, (1-1) to (1-32)."""
 
 from collections.abc import Iterator
 from itertools import pairwise

@@ -1,4 +1,4 @@
-"""The thermal design of a compressor as it is answered. Equations (1-1) to (1-32) of seed 004."""
+"""The thermal design of a compressor as it is answered. After the design calculation of the 2D12, (1-1) to (1-32)."""
 
 from typing import Annotated, Literal
 

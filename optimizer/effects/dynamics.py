@@ -213,7 +213,7 @@ def _torque_errors(context: Context) -> TorqueErrors:
 def _flywheel(context: Context) -> FlywheelFigures:
     data = _reciprocating(context.machine).flywheel
     assert data is not None  # checked by the problems
-    # delta = dE / (J omega^2), seed 004 (2-28)
+    # delta = dE / (J omega^2), the design calculation of the 2D12 (2-28)
     ratio = context.given["torque_integrals"].fluctuation / context.layout.omega**2
     held = data.irregularity is not None
     given = np.broadcast_to(np.asarray(data.irregularity if held else data.inertia_kg_m2, dtype=float), ratio.shape)

@@ -122,7 +122,7 @@ def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce
     )
 
 
-#: rod force of every load case (seed 004 section 2.5)
+#: rod force of every load case (design calculation of the 2D12, section 2.5)
 _CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "sudden_stop": "rod_at_rest"}
 
 
@@ -192,7 +192,7 @@ def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
 
 
 def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
-    """Irregularity and inertia, J and MD^2 both (E004-18)."""
+    """Irregularity and inertia, J and MD^2 both; the source prints the latter as the former."""
     found = scene.results["flywheel"]
     return Flywheel(
         fluctuation_energy_J=float(scene.results["torque_integrals"].fluctuation),

@@ -1,8 +1,8 @@
-"""Classic partial balances of seed 002, to stand beside the optimum.
+"""Classic partial balances of the slides on balancing, to stand beside the optimum.
 
 A rule turns the share k of a reciprocating force by a quarter turn: counterweights that act against the
 co-rotating phasor with 2 k |co|. For a single row |co| = |counter| = F0/2, so k F0 is turned across and
-(1 - k) F0 stays along the cylinder (seed 002 lines 253-422); k = 1/2 removes the co-rotating phasor
+(1 - k) F0 stays along the cylinder (the slides, "one row"); k = 1/2 removes the co-rotating phasor
 altogether, which leaves a circle that turns against the shaft.
 """
 
@@ -57,7 +57,7 @@ def moment_rules(first: Phasors, square: float, span_m: float) -> tuple[RuleOfTh
     """Rules for their moments, stage IV: 15 % and 50 % where nearer the vertical, 50 % where nearer the horizontal.
 
     Two counterweights on opposite sides of the shaft in planes ``span_m`` apart make the couple
-    (seed 002 lines 424-574). The seed has no rule for moments that do not keep to one plane.
+    (the slides, "two rows in line"). They have no rule for moments that do not keep to one plane.
 
     Parameters
     ----------

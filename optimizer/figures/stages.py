@@ -1,9 +1,9 @@
-"""The eight balancing stages of seed 002 (lines 104-132), for any layout.
+"""The eight balancing stages of the slides on balancing, for any layout.
 
 What turns with the shaft can be balanced on the shaft, nothing else can. In every stage ``value`` is what the
 machine has without counterweights and ``remaining`` is what the counterweights leave of it.
 
-Superposition (stage VII of the seed) splits the phasor c of the counterweights, force and moment each for itself:
+Superposition (stage VII of the slides) splits the phasor c of the counterweights, force and moment each for itself:
 - the rotating masses R come first: they take the part of c that is opposed to R, at most -R;
 - the rest serves the first-order reciprocating masses (A1, B1).
 With c = -q R/|R| + c', where q is Re(-c conj(R))/|R| held within [0, |R|], stages I and II keep (|R| - q) R/|R|,

@@ -9,7 +9,7 @@ from optimizer.mechanics.kinematics import Motion
 def reciprocating_friction(motion: Motion, magnitude: Real) -> Real:
     """Friction force of the rows, N, positive in rod tension (..., rows, T).
 
-    Positive over the stroke to the shaft (0..pi), negative over the return (seed 004, 2-17), zero at
+    Positive over the stroke to the shaft (0..pi), negative over the return (the 2D12's calculation, 2-17), zero at
     the dead centres, where the piston stands still.
 
     Parameters
@@ -27,7 +27,7 @@ def share_of_losses(
     """Friction force of each row [N] and rotating friction torque [N m] from the mechanical efficiency.
 
     N_m = N_i (1/eta - 1); a row's share does its work over two strokes a turn, the rest turns with
-    the shaft: R_s = share N_m 60 / (2 S n), M_r = (1 - share) N_m / omega (seed 004, 2-17..2-19).
+    the shaft: R_s = share N_m 60 / (2 S n), M_r = (1 - share) N_m / omega (design calculation of the 2D12, 2-17..2-19).
     Of a row whose gas gives power the losses are its share 1 - eta.
 
     Parameters

@@ -4,7 +4,7 @@ Chamber axis: head and crank side of the first cylinder of the row, then of the 
 stepped), so that even ones are head sides; rows with fewer cylinders have chambers without area. A chamber's own
 travel is the piston's distance from the dead centre at which that chamber is smallest. Forces are positive in rod
 tension:
-head side -p A, crank side +p A (seed 004, 2-14 and 2-15).
+head side -p A, crank side +p A (design calculation of the 2D12, 2-14 and 2-15).
 """
 
 from collections.abc import Sequence
@@ -60,7 +60,7 @@ def gas_forces(chambers: Chambers, motion: Motion, layout: Layout, traces: Seque
     """Pressures and gas forces over the turn.
 
     Volume growing: re-expansion p_d (x_0 / (x + x_0))^m until p_s, then suction; volume shrinking:
-    compression p_s ((S + x_0) / (x + x_0))^n until p_d, then discharge (seed 004, 2-10..2-13).
+    compression p_s ((S + x_0) / (x + x_0))^n until p_d, then discharge (design calculation of the 2D12, 2-10..2-13).
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ class Wrench(NamedTuple):
 def rotating(layout: Layout) -> Wrench:
     """First-order force of the rotating masses, m r e^{jd}: co-rotating only.
 
-    Source: seed 000 eqs (12)-(18); docs/mathematics.md section 2.
+    Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
     forces = rotating_forces(layout)
     return _wrench(layout, forces.co, forces.counter, layout.rotating.position)
@@ -49,7 +49,7 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
 
     A row pushes along its axis g with m r A_k cos k(theta + s (d - g)), which is the pair
     co = (m r A_k / 2) e^{j(k d - (k-1) g)}, counter = (m r A_k / 2) e^{j((k+1) g - k d)}.
-    Source: seed 000 eqs (1)-(11); docs/mathematics.md section 2.
+    Source: Qian and Qu eqs (1)-(11); docs/mathematics.md section 2.
 
     Parameters
     ----------

@@ -28,12 +28,12 @@ class Motion:
 
     @property
     def tangential_factor(self) -> Real:
-        """sin(phi + beta) / cos beta: tangential force over piston force (seed 004, 2-22)."""
+        """sin(phi + beta) / cos beta: tangential force over piston force (design calculation of the 2D12, 2-22)."""
         return np.sin(self.crank_angle) + np.cos(self.crank_angle) * self.rod_angle_sine / self.rod_angle_cosine
 
     @property
     def radial_factor(self) -> Real:
-        """cos(phi + beta) / cos beta: radial force over piston force (seed 001 l. 13)."""
+        """cos(phi + beta) / cos beta: radial force over piston force (lecture slides on compressors)."""
         return np.cos(self.crank_angle) - np.sin(self.crank_angle) * self.rod_angle_sine / self.rod_angle_cosine
 
 
@@ -63,7 +63,7 @@ def motion(layout: Layout, shaft_angle: Real, exact: bool = True) -> Motion:
     u = cos beta + lam cos phi = (1 - lam^2) / (cos beta - lam cos phi).
     Cut off after the second order: x = r ((1 - cos phi) + lam/4 (1 - cos 2 phi)),
     c = r w (sin phi + lam/2 sin 2 phi), a = r w^2 (cos phi + lam cos 2 phi).
-    Source: seed 001 l. 3; seed 004 (2-5)..(2-9).
+    Source: lecture slides on compressors; design calculation of the 2D12 (2-5)..(2-9).
 
     Parameters
     ----------

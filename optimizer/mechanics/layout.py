@@ -83,7 +83,7 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
 
     A field may hold a column (N,), one value for each of N machines that differ in nothing else; what depends on it
     then has the leading axis (N,), the rest has none. Without columns there are no leading axes.
-    Source: seed 001 l. 4 and 7 (share of the rod), seed 002 l. 735.
+    Source: lecture slides on compressors and slides on balancing (share of the rod).
     """
     if isinstance(machine, ScrollMachine):
         turning, reciprocating, planes = _scroll(machine)

@@ -14,7 +14,7 @@ from optimizer.mechanics.layout import Layout
 class RodForces:
     """Forces that a piston force sends into the mechanism, over shaft angles (..., rows, T); worked out when asked for.
 
-    Source: seed 001 l. 11-16; seed 004, 2-21 and 2-22.
+    Source: lecture slides on compressors; design calculation of the 2D12, 2-21 and 2-22.
     """
 
     piston: Real  # P, N, tension positive

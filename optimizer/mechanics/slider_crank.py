@@ -50,7 +50,7 @@ def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
 def acceleration_harmonic_order_2(order: int, rod_ratio: Real) -> Real:
     """The same coefficient from the series cut off after the second order: 1, lam, 0, 0, ...
 
-    Source: seed 000 eq (1), seed 001 l. 3.
+    Source: Qian and Qu eq (1), lecture slides on compressors.
     """
     lam = np.asarray(rod_ratio, dtype=float)
     if order == 1:

@@ -91,7 +91,8 @@ def mean(turn: Turn, values: Real) -> Real:
 def fluctuation(turn: Turn, values: Real) -> Real:
     """Range of the running integral of values - mean over all turns (...).
 
-    For a torque that is the energy a flywheel has to take up and give back (seed 004, 2-27, E004-17).
+    For a torque that is the energy a flywheel has to take up and give back (design calculation of the
+    2D12, 2-27, whose areas do not close).
     The extremes lie at the ends of panels and where the value crosses its mean: roots of its interpolant, where the
     running integral of the interpolant is taken.
     """

@@ -1,7 +1,7 @@
 """Anti-rotation pins of a scroll: their loads over the turn, dead points and exact peaks.
 
 A pin at z = R e^{j psi} of the scroll pushes along the eccentric e^{j theta} with Q; its moment is Q a with the
-lever a = R sin(theta - psi). For evenly spaced pins (seed 003, equations (1) and (3); theory section 6)
+lever a = R sin(theta - psi). For evenly spaced pins (Liu, Zhao and Li, equations (1) and (3))
 
     Q_i = 2 T_R / (n R) sin(theta - 2 pi (i - 1) / n).
 
@@ -9,8 +9,8 @@ For any pattern the elastic distribution minimises sum Q^2 / (2 k) subject to su
 
     Q_i = T_R k_i d_i / sum k d^2,    d_i = a_i - sum k a / sum k = Im(e^{j theta} conj(w_i)),    w_i = z_i - z_mean.
 
-The seed's energy balance (2) fixes only the mean of the moment over the turn: with one pin or two, equation (1) gives
-2 T_R sin^2 theta (erratum E003-4). A rigid bearing of the drive carries the net force: without sum Q = 0 the scroll
+Their energy balance (2) fixes only the mean of the moment over the turn: with one pin or two, equation (1) gives
+2 T_R sin^2 theta. A rigid bearing of the drive carries the net force: without sum Q = 0 the scroll
 turns about its own centre, w_i = z_i. An elastic one is one more pin at the centre, whose lever is 0.
 
 A pattern holds no torque where all levers are equal; that happens only to pins (and a bearing that carries) on one
@@ -72,7 +72,7 @@ def gas_torques(tangential_force: Real, orbit_radius: Real) -> tuple[Real, Real]
     Assumption, usual for scroll compressors with equal wraps: the resultant of the tangential gas forces acts midway
     between the centres of orbiting and fixed scroll, which leaves the lever r/2 about the centre of the orbiting
     scroll. All of a scroll that does not turn moves with r omega, so by its power the same force resists the motor
-    with F_t r. Seed 003, section 3, names both moments and gives no formula.
+    with F_t r. Liu, Zhao and Li, section 3, names both moments and gives no formula.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def levers(place: Complex, angle_deg: Real) -> Real:
 
 
 def even_pin_loads(torque: Real, radius: Real, count: int, angle_deg: Real) -> Real:
-    """Loads of evenly spaced pins by the seed's formula, (..., n) N; instantaneous equilibrium needs n >= 3.
+    """Loads of evenly spaced pins by formula (3) of Liu, Zhao and Li, (..., n) N; in equilibrium for n >= 3.
 
     Parameters
     ----------
@@ -302,7 +302,7 @@ def _largest(shapes: LoadShapes, torque: PeriodicTable, tried: Real) -> tuple[Re
 
 
 def degrees_of_freedom(count: int) -> tuple[int, int, int, int]:
-    """Moving links, lower pairs, virtual constraints and F of a scroll on ``count`` pins (seed 003, section 1).
+    """Moving links, lower pairs, virtual constraints and F of a scroll on ``count`` pins (Liu, Zhao and Li, section 1).
 
     Shaft, scroll and z small cranks move; shaft in frame and scroll, every crank in frame and scroll: 2 z + 2 turning
     pairs. In parallelograms every crank after the first repeats a constraint. F = 3 n - (2 P_l - P').

@@ -1,7 +1,7 @@
 """The thermal design of a compressor of any number of stages: sizes, pressures, loads, powers.
 
 Pure functions of plain numbers in SI units, one group of formulas a file, numbered (1-1) to (1-32) as in chapter 1 of
-seed 004:
+the design calculation of the 2D12:
 
 p1, p2   pressure before and after a stage, absolute [Pa]; eps = p2/p1
 T1, T2   temperature before and after a stage [K]

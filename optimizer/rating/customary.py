@@ -8,11 +8,11 @@ from optimizer.rating.losses import DISCHARGE, SUCTION, mean_piston_speed
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingWarning
 
-#: section 1.3.2 of seed 004: first stage, other stages
+#: section 1.3.2 of the design calculation of the 2D12: first stage, other stages
 PRESSURE_COEFFICIENTS = ((0.95, 0.98), (0.98, 1.0))
-#: section 1.3.3 of seed 004
+#: section 1.3.3 of the design calculation of the 2D12
 TEMPERATURE_COEFFICIENTS = (0.935, 0.975)
-#: under (1-6) of seed 004 0.85 to 0.95, without lubrication; a lubricated cylinder is tighter
+#: under (1-6) of the calculation of the 2D12, 0.85 to 0.95, without lubrication; a lubricated cylinder is tighter
 LEAKAGE_COEFFICIENTS = (0.85, 0.98)
 #: a built capacity this close to the asked one passes for the same
 CAPACITY_TOLERANCE = 0.05

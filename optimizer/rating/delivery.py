@@ -5,10 +5,11 @@ from collections.abc import Sequence
 from schemas.rating import CompressionStage
 from schemas.rating_answer import DeliveryCoefficients
 
-#: table 1-3 of seed 004: up to this suction pressure [Pa], m = 1 + share (k - 1)
+#: table 1-3 of the design calculation of the 2D12: up to this suction pressure [Pa], m = 1 + share (k - 1)
 _EXPANSION = ((1.5e5, 0.5), (4e5, 0.62), (10e5, 0.75), (30e5, 0.88), (float("inf"), 1.0))
 
-#: section 1.3.2 of seed 004, ring valves with springs of medium strength: first stage, other stages
+#: section 1.3.2 of the design calculation of the 2D12, ring valves with springs of medium strength:
+#: first stage, other stages
 _PRESSURE = (0.97, 0.99)
 
 

@@ -26,13 +26,13 @@ class Readings:
         return self.low <= pressure <= self.high
 
 
-#: under (1-24) of seed 004: the losses of its two stages, read off a chart for 3.5 m/s and air
+#: under (1-24) of the calculation of the 2D12: the losses of its two stages, read off a chart for 3.5 m/s and air
 SUCTION = Readings(low=0.3e6, high=0.79e6, at_low=0.036, at_high=0.028)
 DISCHARGE = Readings(low=0.79e6, high=2.1e6, at_low=0.061, at_high=0.045)
 
 
 def mean_piston_speed(stroke: float, speed_rpm: float) -> float:
-    """C_m = S n / 30 [m/s]; seed 004 takes 4.0 from a table where its own stroke and speed make 4.667."""
+    """C_m = S n / 30 [m/s]; the 2D12's calculation takes 4.0 from a table where its own stroke and speed make 4.667."""
     return stroke * speed_rpm / 30.0
 
 

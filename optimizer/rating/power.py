@@ -24,7 +24,7 @@ def indicated_power(
 
 
 def shaft_power(indicated: float, mechanical_efficiency: float) -> float:
-    """N_z = N_i / eta_m [W], (1-31); table 2-1 of seed 004 prints the indicated power in its place."""
+    """N_z = N_i / eta_m [W], (1-31); table 2-1 of the 2D12's calculation prints the indicated power in its place."""
     return indicated / mechanical_efficiency
 
 

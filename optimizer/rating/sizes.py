@@ -75,7 +75,7 @@ class Piston:
 def nominal_bore(bore: float, series: str) -> float:
     """The bore [m] of a series of preferred numbers in millimetres that is nearest to ``bore`` [m].
 
-    Seed 004 rounds to 730 and 450 mm without naming a series; of ISO 3 only R80 holds both.
+    The design calculation of the 2D12 rounds to 730 and 450 mm without naming a series; of ISO 3 only R80 holds both.
     """
     if series == "none":
         return bore

@@ -21,8 +21,8 @@ _N = (
 def saturation_pressure(temperature: float) -> float:
     """Pressure [Pa] of saturated steam at a temperature [K] from 273.15 to 647.096.
 
-    IAPWS Industrial Formulation 1997, region 4, equation (30): closed form. It stands in for table 1-6 of seed 004,
-    which has misprints.
+    IAPWS Industrial Formulation 1997, region 4, equation (30): closed form. It stands in for table 1-6 of the 2D12's
+    calculation, which has misprints.
     """
     theta = temperature + _N[8] / (temperature - _N[9])
     a = theta**2 + _N[0] * theta + _N[1]
