@@ -114,6 +114,22 @@ def _document(suffix: str, media_type: str, write: Reference, styles: str = "", 
     return Form(media_type, write, suffix, headers, compressed)
 
 
+def _picture(name: str, what: str) -> Computation:
+    """A picture of the answer to an optimisation, drawn as the report draws it."""
+    return Computation(
+        name=f"picture_{name}",
+        path=f"/v1/pictures/{name}",
+        request="schemas.requests:OptimizeRequest",
+        answer=None,
+        compute=f"service.report.pictures:{name}",
+        summary=f"{what}, as SVG",
+        remark="With the counterweights that are found to be best, or those of the best compromise where none keep the "
+        "ceilings.",
+        tag="pictures",
+        forms=(Form("image/svg+xml", "service.report.pictures:svg", ".svg"),),
+    )
+
+
 COMPUTATIONS: dict[str, Computation] = {
     one.name: one
     for one in (
@@ -260,5 +276,10 @@ COMPUTATIONS: dict[str, Computation] = {
             ),
             examples="drawings",
         ),
+        _picture("front", "The machine from the front, with its counterweights"),
+        _picture("side", "The machine from the side, with its counterweights"),
+        _picture("force", "The hodograph of the first-order force, before and after"),
+        _picture("moment", "The hodograph of the first-order moment, before and after"),
+        _picture("bearings", "The loads of the main bearings as the shaft sees them, with their smallest circles"),
     )
 }

@@ -85,6 +85,11 @@ class Drawing:
             more |= {"stroke": "white", "stroke-width": "3", "stroke-linejoin": "round", "paint-order": "stroke"}
         self._add("text", x=x, y=y, fill=fill, **style, **more).text = plain(content)
 
+    def inset(self, drawing: "Drawing", corner: Point) -> None:
+        """Another drawing in this one, its upper left corner at a point."""
+        x, y = (_short(value) for value in corner)
+        self._add("g", transform=f"translate({x} {y})").extend(drawing._shapes)  # noqa: SLF001 - of the same class
+
     def svg(self, font: str | None = None) -> str:
         """The drawing as an SVG element, which stands alone as well as inside a page.
 
@@ -103,6 +108,17 @@ class Drawing:
         shape = ElementTree.Element(name, attributes)
         self._shapes.append(shape)
         return shape
+
+
+def beside(label: str, drawings: Sequence[Drawing]) -> Drawing:
+    """Drawings of one size, two to a row."""
+    width, height = max(one.width for one in drawings), max(one.height for one in drawings)
+    columns = min(2, len(drawings))
+    gap = PAGE_WIDTH - 2 * width if columns == 2 else 0.0
+    whole = Drawing(columns * width + gap, height * -(-len(drawings) // columns), label)
+    for number, one in enumerate(drawings):
+        whole.inset(one, ((width + gap) * (number % columns), height * (number // columns)))
+    return whole
 
 
 def shortened(text: str, most: int) -> str:

@@ -58,6 +58,10 @@ def test_a_report_is_written_as_its_name_says(
     assert written.read_bytes().startswith(begins)
 
 
+def test_a_picture_is_drawn(service: Any, request_2d12: dict[str, Any]) -> None:
+    assert service.picture("front", request_2d12).startswith("<svg ")
+
+
 def test_drawings_are_written(service: Any, tmp_path: Path) -> None:
     request = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
     with ZipFile(service.drawings(request, tmp_path / "drawings.zip")) as archive:

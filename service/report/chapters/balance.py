@@ -3,7 +3,6 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from optimizer.formulate import span
 from schemas.answers import OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.counterweights import Counterweight
@@ -11,7 +10,6 @@ from schemas.first_order import FirstOrder, Floor
 from schemas.machine import Machine
 from schemas.outputs import Hodographs, Stage
 from schemas.requests import OptimizeRequest
-from service.report import charts
 from service.report.blocks import (
     Block,
     Chapter,
@@ -24,6 +22,7 @@ from service.report.blocks import (
     table,
 )
 from service.report.chapters.orders import two_orders
+from service.report.first_order import hodographs
 from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
@@ -61,8 +60,6 @@ _LIMITS = {
     "specific_load_ceiling": "ceiling of the specific bearing loads",
     "bending_ceiling": "ceiling of the bending moments",
 }
-#: the hodographs reach at least to this share of force and moment without counterweights taken together
-_VISIBLE = 1e-3
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
@@ -268,18 +265,6 @@ def first_order(
         )
         for title, vector, name in _FIRST_ORDER
     ]
-    name = f"{label}: peak"
-    force, moment = was.force, was.moment
-    forces = [charts.before(force.peak_N, force.minor_N, force.major_axis_deg)]
-    moments = [charts.before(moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg)]
-    if left is not None:
-        force, moment = left.force, left.moment
-        forces.append(charts.after(name, force.peak_N, force.minor_N, force.major_axis_deg))
-        moments.append(charts.after(name, moment.peak_Nm, moment.minor_Nm, moment.major_axis_deg))
-    length = float(span(machine)) or 1.0
-    reach = _VISIBLE * (was.force.peak_N + was.moment.peak_Nm / length)
-    forces.append(charts.floor(floor.force_N))
-    moments.append(charts.floor(floor.moment_Nm))
     return Chapter(
         "First order before and after",
         (
@@ -287,10 +272,7 @@ def first_order(
             table("", ["quantity", "#without counterweights", f"#{label}", "#floor"], rows),
             beside,
             Figure(
-                (
-                    charts.hodograph("force", "N", forces, reach),
-                    charts.hodograph("moment", "N m", moments, reach * length),
-                ),
+                hodographs(machine, was, left, floor, label),
                 "Hodographs: the tips of first-order force and moment run along these ellipses once a turn. No "
                 "counterweight on the shaft brings a peak below the floor circle. Moments are couples in the plane of "
                 "the forces about the reference plane.",

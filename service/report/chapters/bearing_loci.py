@@ -16,11 +16,7 @@ _MOST = 4
 
 def bearing_loci(machine: Machine, found: MainBearings) -> Iterator[Figure]:
     """Pictures, two to a row."""
-    worst = sorted(found.bearings, key=lambda one: -max(each.peak_N for each in (one.before, one.after) if each))[
-        :_MOST
-    ]
-    sense = 1.0 if machine.rotation == "ccw" else -1.0
-    drawn = [_drawn(one, found.angle_deg, sense) for one in found.bearings if one in worst]
+    drawn = loci(machine, found)
     words = (
         "Loads of the main bearings as the shaft sees them, each with the smallest circle around it. Counterweights "
         "move curve and circle together and change neither, so that no peak, the distance of the farthest point from "
@@ -30,6 +26,13 @@ def bearing_loci(machine: Machine, found: MainBearings) -> Iterator[Figure]:
         words += f" Drawn are the {_MOST} of {len(found.bearings)} with the largest loads."
     for first in range(0, len(drawn), 2):
         yield Figure(tuple(drawn[first : first + 2]), words if first == 0 else "")
+
+
+def loci(machine: Machine, found: MainBearings) -> list[Drawing]:
+    """A picture of each bearing, of those with the largest loads where they are many."""
+    worst = sorted(found.bearings, key=lambda one: -max(load.peak_N for load in _loads(one)))[:_MOST]
+    sense = 1.0 if machine.rotation == "ccw" else -1.0
+    return [_drawn(one, found.angle_deg, sense) for one in found.bearings if one in worst]
 
 
 def _drawn(one: MainBearing, angle_deg: Sequence[float], sense: float) -> Drawing:

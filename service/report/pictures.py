@@ -1,0 +1,76 @@
+"""Pictures for pages that show a machine beside something of their own: the drawings of the report, one at a time."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+from optimizer.errors import OutOfRange
+from optimizer.optimize import optimize
+from schemas.answers import OptimizeAnswer
+from schemas.base import FieldProblem
+from schemas.outputs import OutputName
+from schemas.requests import OptimizeRequest
+from service.drawings.svg import Drawing, beside
+from service.report.chapters.balance import shown, which
+from service.report.chapters.bearing_loci import loci
+from service.report.first_order import hodographs
+from service.report.front import front as drawn_front
+from service.report.side import side as drawn_side
+
+#: what a picture without a page around it is written in
+_FONT = "sans-serif"
+
+
+@dataclass(frozen=True)
+class Picture:
+    """A picture: called with a request, it is drawn with the best counterweights, or with the best compromise.
+
+    outputs : what the answer must hold.
+    draw : request, answer -> drawing.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what the picture, or the objective, needs.
+    OutOfRange
+        if there is nothing to draw.
+    """
+
+    outputs: tuple[OutputName, ...]
+    draw: Callable[[OptimizeRequest, OptimizeAnswer], Drawing]
+
+    def __call__(self, request: OptimizeRequest) -> Drawing:
+        return self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+
+
+def _front(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    return drawn_front(request.machine, shown(answer)[0])
+
+
+def _side(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    return drawn_side(request.machine, shown(answer)[0], answer.reference_plane_m)
+
+
+def _hodograph(number: int, request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    left = shown(answer)[1]
+    return hodographs(request.machine, answer.residual.before, left, answer.floor, which(answer))[number]
+
+
+def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    found = answer.main_bearings
+    if found is None:
+        raise OutOfRange([FieldProblem(("machine",), "there are no loads of main bearings to draw")])
+    words = "loads of the main bearings as the shaft sees them, each with its smallest circle"
+    return beside(words, loci(request.machine, found))
+
+
+front = Picture(("residual",), _front)
+side = Picture(("residual",), _side)
+force = Picture(("residual",), partial(_hodograph, 0))
+moment = Picture(("residual",), partial(_hodograph, 1))
+bearings = Picture(("main_bearings",), _bearings)
+
+
+def svg(drawing: Drawing) -> bytes:
+    """The picture, in UTF-8."""
+    return drawing.svg(_FONT).encode()

@@ -1,0 +1,68 @@
+"""Pictures one at a time: those of the report, and nothing in them that a page would have to fear."""
+
+from xml.etree import ElementTree
+
+import pytest
+from starlette.testclient import TestClient
+
+from service.app import create_app
+from service.computations import COMPUTATIONS
+from service.report.blocks import Figure
+from service.report.document import report
+from service.settings import Settings
+from tests.report_document.conftest import AT, asked
+
+_SVG = "{http://www.w3.org/2000/svg}"
+NAMES = sorted(name.removeprefix("picture_") for name in COMPUTATIONS if name.startswith("picture_"))
+#: all that a picture may be made of: no scripts, no styles, no references
+_SHAPES = {"svg", "g", "path", "circle", "text"}
+
+
+def made(name: str, machine: str) -> ElementTree.Element:
+    one = COMPUTATIONS[f"picture_{name}"]
+    drawing = one.function(asked(machine))
+    return ElementTree.fromstring(drawing.svg())
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_picture_is_shapes_alone_and_says_what_it_shows(name: str) -> None:
+    found = made(name, "2d12")
+    assert {each.tag.removeprefix(_SVG) for each in found.iter()} <= _SHAPES
+    assert found.get("aria-label")
+    attributes = {key for each in found.iter() for key in each.keys()}  # noqa: SIM118 - of an element, not of a mapping
+    assert not {key for key in attributes if key.startswith("on") or "href" in key or key == "style"}
+
+
+@pytest.mark.parametrize("name", ["front", "side", "force", "moment"])
+def test_it_is_the_one_of_the_report(name: str) -> None:
+    one = COMPUTATIONS[f"picture_{name}"]
+    of_report = [
+        drawing.svg()
+        for chapter in report(asked("2d12"), AT).chapters
+        for block in chapter.blocks
+        if isinstance(block, Figure)
+        for drawing in block.drawings
+    ]
+    assert one.function(asked("2d12")).svg() in of_report
+
+
+def test_bearings_stand_two_to_a_row() -> None:
+    found = made("bearings", "2d12")
+    corners = [each.get("transform") for each in found if each.tag == f"{_SVG}g"]
+    # analytic: half a page and half of the gap of 12; the height of a picture
+    assert corners == ["translate(0 0)", "translate(326 0)", "translate(0 360)"]
+    assert found.get("width") == "640"
+
+
+def test_it_comes_by_post_and_what_is_missing_is_named() -> None:
+    client = TestClient(create_app(Settings(), warm=False))
+    with client:
+        body = asked("2d12").model_dump(mode="json")
+        found = client.post("/v1/pictures/front", json=body)
+        assert (found.status_code, found.headers["content-type"]) == (200, "image/svg+xml")
+        assert ElementTree.fromstring(found.content).get("font-family") == "sans-serif"
+        body["machine"].pop("bearings")
+        refused = client.post("/v1/pictures/bearings", json=body)
+        assert refused.status_code == 422
+        assert refused.json()["errors"][0]["pointer"] == "/machine/bearings"
+        assert client.post("/v1/pictures/rear", json=body).status_code == 404
