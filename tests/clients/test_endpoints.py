@@ -1,0 +1,91 @@
+"""The client knows every endpoint that the service describes."""
+
+import re
+from types import ModuleType
+from typing import Any
+
+import pytest
+
+from service.app import create_app
+
+
+@pytest.fixture(scope="module")
+def described() -> set[tuple[str, str]]:
+    """Method and path of every operation below /v1."""
+    paths = create_app(warm=False).openapi()["paths"]
+    return {
+        (method.upper(), path) for path, operations in paths.items() if path.startswith("/v1/") for method in operations
+    }
+
+
+class _Sent(Exception):
+    """Something was sent; there is no answer."""
+
+
+def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[tuple[str, str]], tmp_path: Any) -> None:
+    sent: set[tuple[str, str]] = set()
+
+    class Recorder(counterweight.Service):  # type: ignore[misc, name-defined]
+        def _send(self, method: str, path: str, *_: Any) -> Any:
+            sent.add((method, "/" + path.lstrip("/").partition("?")[0]))
+            raise _Sent
+
+    service, job = Recorder(), {"links": {"self": "/v1/sweeps/{id}", "results": "/v1/sweeps/{id}/results"}}
+    calls: list[tuple[Any, ...]] = [
+        (service.version,),
+        (service.effects,),
+        (service.examples,),
+        (service.example, "{name}"),
+        *((call, {}) for call in (service.optimize, service.analyze, service.pareto, service.match, service.rating)),
+        *((call, {}) for call in (service.pin_loads, service.accuracy, service.sweep)),
+        (service.verify, {}, {}),
+        (service.report, {}, tmp_path / "report.pdf"),
+        (service.drawings, {}, tmp_path / "drawings.zip"),
+        (service.later, "v1/match", {}),
+        (lambda: next(service.sweeps()),),
+        *((call, job) for call in (service.state, service.result, service.metadata, service.resume, service.end)),
+        (lambda: next(service.rows(job)),),
+        (lambda: next(service.events(job)),),
+    ]
+    for call, *given in calls:
+        with pytest.raises(_Sent):
+            call(*given)
+    assert described <= sent, sorted(described - sent)
+    # and nothing that is not there
+    known = {re.sub(r"[{].*?[}]", "{}", path) for _, path in described}
+    assert {re.sub(r"[{].*?[}]", "{}", path) for _, path in sent} <= known
+
+
+def test_a_computation_is_answered_later(counterweight: ModuleType, url: str) -> None:
+    service = counterweight.Service(url)
+    request = service.example("2d12")
+    job = service.later("v1/optimize", request)
+    # the last state ends the events
+    assert [state["state"] for state in service.events(job)][-1] == "done"
+    now = service.optimize(request)
+    assert service.result(job)["certificate"]["objective"] == pytest.approx(now["certificate"]["objective"], rel=1e-9)
+    assert service.metadata(job) == {"kind": "optimize"}
+    assert service.resume(job)["state"] == "done"
+    assert service.end(job) is None
+    with pytest.raises(counterweight.Refused, match="404"):
+        service.state(job)
+
+
+def test_an_answer_is_verified(counterweight: ModuleType, url: str) -> None:
+    service = counterweight.Service(url)
+    request = service.example("single-horizontal")
+    assert service.verify(request, service.optimize(request))["verdict"] == "held"
+
+
+def test_the_effects_and_the_version_are_told(counterweight: ModuleType, url: str) -> None:
+    service = counterweight.Service(url)
+    assert service.effects()["effects"]
+    assert service.version()["version"]
+
+
+def test_sweeps_are_listed_page_by_page(counterweight: ModuleType, url: str) -> None:
+    service = counterweight.Service(url)
+    base = service.example("single-horizontal")
+    axes = [{"path": "/machine/speed_rpm", "values": [300.0]}]
+    started = {service.sweep({"base": base, "axes": axes})["id"] for _ in range(3)}
+    assert started <= {one["id"] for one in service.sweeps(limit=2)}
