@@ -2,27 +2,29 @@
 
 import { beside as tables } from "./beside.js";
 import { h, table } from "./dom.js";
-import { front } from "./drawing/front.js";
-import { side } from "./drawing/side.js";
+import { pair } from "./drawing/pair.js";
 import { reports } from "./files.js";
 import { beside, figure, number, share } from "./format.js";
 import { ofTheShaft, refusal, weighed } from "./objective.js";
+import { order } from "./order.js";
 import { scales } from "./scales.js";
 
 export function showAnswer(place, request, answer, outputs) {
-  const fitted = answer.counterweights.length ? answer.counterweights : answer.infeasibility?.closest.counterweights ?? [];
+  const { counterweights: fitted, balance_shafts: shafts } = found(answer);
   place.replaceChildren(
     h("h2", { class: `status ${answer.status}` }, headline(answer)),
+    ...(fitted.length ? [order(fitted)] : []),
+    ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name)),
+    h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m)),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
     ...comparison(request, answer),
     ...tables(answer),
-    h("div", { class: "drawings" },
-      h("figure", {}, front(request.machine, fitted), h("figcaption", {}, "From the front, shaft angle 0")),
-      h("figure", {}, side(request.machine, fitted, answer.reference_plane_m),
-        h("figcaption", {}, "Along the shaft; what stands towards you is drawn down and to the left"))),
     reports(request, outputs));
 }
+
+// what was found, or the closest compromise where the ceilings cannot be met
+const found = (answer) => (answer.counterweights.length ? answer : answer.infeasibility?.closest ?? answer);
 
 function headline(answer) {
   const { status, total_mass_kg: mass, residual } = answer;

@@ -2,17 +2,17 @@
 
 import { s } from "../dom.js";
 import { figure, nameOf } from "../format.js";
-import { arc, circle, degrees, line, metres, points, polar, radiiOf, reachOf, sense, text, WIDTH } from "./view.js";
+import { labels } from "./labels.js";
+import { carried, disc, outline } from "./outline.js";
+import { arc, circle, degrees, line, metres, points, polar, radians, radiiOf, reachOf, sense, text, WIDTH } from "./view.js";
 
 const MIDDLE = [WIDTH / 2, WIDTH / 2];
-const WIDEST = 55;
-const THICK = 0.36;
 const MOST_NAMES = 16;
 
 export function front(machine, counterweights) {
   const reach = Math.max(...radiiOf(machine), 1e-12);
   const scale = (0.36 * WIDTH) / reach;
-  const fitted = counterweights.filter((one) => one.mass_kg > 0);
+  const fitted = carried(counterweights);
   const names = fitted.map((one) => `${one.web} ${figure(one.mass_kg, 3)} kg at ${figure(one.angle_deg, 4)}°`);
   return s("svg", {
     viewBox: `0 0 ${WIDTH} ${WIDTH}`, class: `drawing front${(machine.throws?.length ?? 0) > MOST_NAMES ? " many" : ""}`, role: "img",
@@ -21,10 +21,11 @@ export function front(machine, counterweights) {
   axes(),
   (machine.throws ?? []).flatMap((each) => rows(each)),
   (machine.webs ?? []).map((web) => allowed(web, scale)),
-  grouped(machine, fitted).map((group) => counterweight(group, fitted, scale)),
+  shapes(machine, fitted, scale),
   machine.kind === "scroll" ? scroll(machine, scale) : cranks(machine, scale),
   circle(MIDDLE, 5, { class: "shaft" }),
-  sense(MIDDLE, 0.47 * WIDTH, machine.rotation));
+  sense(MIDDLE, 0.47 * WIDTH, machine.rotation),
+  labels([...cranksNamed(machine, scale), ...websNamed(fitted, scale)], [WIDTH, WIDTH]));
 }
 
 function axes() {
@@ -51,48 +52,60 @@ function allowed(web, scale) {
     s("title", {}, `${web.name} may carry its counterweight here`));
 }
 
-// those that hide each other are drawn as one with all names
-function grouped(machine, fitted) {
-  const reach = new Map((machine.webs ?? []).map((web) => [web.name, reachOf(web)]));
-  const groups = new Map();
-  for (const one of fitted) {
-    const radius = one.radius_m ?? reach.get(one.web);
-    const place = `${Math.round(one.angle_deg)} ${radius}`;
-    groups.set(place, [...(groups.get(place) ?? []), { ...one, radius }]);
-  }
-  return [...groups.values()];
-}
-
-function counterweight(group, fitted, scale) {
-  const heaviest = Math.max(...fitted.map((one) => one.mass_kg));
-  const [first] = group;
-  const radius = scale * first.radius;
-  const [inner, outer] = [radius * (1 - THICK / 2), radius * (1 + THICK / 2)];
-  const shapes = group.map((one) => {
-    const half = Math.max(2, (WIDEST * one.mass_kg) / heaviest);
-    const outline = [...arc(MIDDLE, outer, one.angle_deg - half, one.angle_deg + half),
-      ...arc(MIDDLE, inner, one.angle_deg + half, one.angle_deg - half)];
-    return s("polygon", { class: "counterweight", points: points(outline) },
-      s("title", {}, `${one.web}: ${figure(one.mass_kg)} kg at ${figure(one.angle_deg)}°`));
+// true to shape where the shape is known; else a disc about the centre of mass. The largest lie below the smaller.
+function shapes(machine, fitted, scale) {
+  const webs = new Map((machine.webs ?? []).map((web) => [web.name, web]));
+  return [...fitted].sort((one, other) => other.mass_kg - one.mass_kg).map((one) => {
+    const known = outline(one, webs.get(one.web) ?? {});
+    const title = s("title", {}, `${one.web}: ${figure(one.mass_kg)} kg at ${figure(one.angle_deg)}°, radius ${figure(one.radius_m)} m`);
+    const attributes = { class: `counterweight${one.fixed ? " fixed" : ""}${known ? "" : " unknown"}` };
+    if (!known) return s("g", attributes, circle(polar(MIDDLE, scale * one.radius_m, one.angle_deg), Math.max(3, scale * disc(one, fitted)), {}), title);
+    const direction = radians(one.angle_deg);
+    const placed = known.map(([along, across]) => [
+      MIDDLE[0] + scale * (along * Math.cos(direction) - across * Math.sin(direction)),
+      MIDDLE[1] - scale * (along * Math.sin(direction) + across * Math.cos(direction))]);
+    return s("g", attributes, s("polygon", { points: points(placed) }), title);
   });
-  const [x, y] = polar(MIDDLE, radius, first.angle_deg);
-  const names = group.length > 4 ? `${group.length} webs` : group.map((one) => one.web).join(", ");
-  return s("g", {}, shapes, fitted.length <= MOST_NAMES ? text(x, y + 4, names, { class: "name centred" }) : null);
 }
 
-function cranks(machine, scale) {
+const together = (names, many) => (names.length > 4 ? `${names.length} ${many}` : names.join(", "));
+
+// those in the same place have one label
+function websNamed(fitted, scale) {
   const places = new Map();
-  machine.throws.forEach((each, index) => {
+  for (const one of fitted) {
+    const place = `${Math.round(one.angle_deg)} ${one.radius_m.toPrecision(2)}`;
+    places.set(place, [...(places.get(place) ?? []), one]);
+  }
+  return places.size > MOST_NAMES ? [] : [...places.values()].map((group) => {
+    const [first] = group;
+    const [x, y] = polar(MIDDLE, scale * (first.shape?.outer_radius_m ?? first.radius_m + disc(first, fitted)) + 16, first.angle_deg);
+    return { x, y, content: together(group.map((one) => one.web), "webs"), class: "web" };
+  });
+}
+
+function placesOf(machine) {
+  const places = new Map();
+  (machine.throws ?? []).forEach((each, index) => {
     const place = `${degrees(each.crank_angle_deg)} ${metres(each.crank_radius_m)}`;
     places.set(place, { each, names: [...(places.get(place)?.names ?? []), nameOf(each, index)] });
   });
-  return [...places.values()].map(({ each, names }) => {
+  return [...places.values()];
+}
+
+function cranks(machine, scale) {
+  return placesOf(machine).map(({ each, names }) => {
     const pin = polar(MIDDLE, scale * metres(each.crank_radius_m), each.crank_angle_deg);
-    const label = polar(MIDDLE, scale * metres(each.crank_radius_m) + 19, each.crank_angle_deg);
     return s("g", { class: "throw" }, line(MIDDLE, pin), circle(pin, 7),
-      places.size <= MOST_NAMES
-        ? text(label[0], label[1] + 4, names.length > 4 ? `${names.length} throws` : names.join(", "), { class: "name centred" }) : null,
       s("title", {}, `throw ${names.join(", ")} at ${figure(degrees(each.crank_angle_deg))}°`));
+  });
+}
+
+function cranksNamed(machine, scale) {
+  const places = placesOf(machine);
+  return places.length > MOST_NAMES ? [] : places.map(({ each, names }) => {
+    const [x, y] = polar(MIDDLE, scale * metres(each.crank_radius_m), each.crank_angle_deg);
+    return { x, y: y - 17, content: together(names, "throws") };
   });
 }
 

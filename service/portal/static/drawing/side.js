@@ -2,10 +2,12 @@
 
 import { s } from "../dom.js";
 import { figure, nameOf } from "../format.js";
-import { circle, line, metres, points, radians, radiiOf, reachOf, text } from "./view.js";
+import { carried, extent } from "./outline.js";
+import { circle, line, metres, points, radians, radiiOf, text } from "./view.js";
 
 const WIDTH = 560;
-const HEIGHT = 322;
+const BOTTOM = 260;
+const LINE = 15;
 const MIDDLE = 142;
 // what stands towards the viewer is drawn down and to the left, shortened
 const DEPTH = [-0.32, 0.26];
@@ -24,17 +26,19 @@ export function side(machine, counterweights, reference) {
     return [z(place) + DEPTH[0] * depth, MIDDLE - height + DEPTH[1] * depth];
   };
   const late = z(reference) > WIDTH - 150;
+  const named = names(planes, z);
+  const height = BOTTOM + 32 + LINE * Math.max(2, named.lines);
   return s("svg", {
-    viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: `drawing side${planes.length > MOST_NAMES ? " many" : ""}`, role: "img",
+    viewBox: `0 0 ${WIDTH} ${height}`, class: `drawing side${planes.length > MOST_NAMES ? " many" : ""}`, role: "img",
     "aria-label": `From the side: ${planes.map((plane) => `${plane.name} at ${figure(plane.z)} m`).join(", ")}.`,
   },
-  line([z(reference), 14], [z(reference), HEIGHT - 64], { class: "reference" }),
+  line([z(reference), 14], [z(reference), BOTTOM - 2], { class: "reference" }),
   text(z(reference) + (late ? -4 : 4), 20, "reference plane", { class: `name faint${late ? " end" : ""}` }),
   weights(machine, counterweights, at, z),
   line([24, MIDDLE], [WIDTH - 24, MIDDLE], { class: "shaft" }),
   machine.kind === "scroll" ? scroll(machine, at) : throws(machine, at),
   bearings(machine, z),
-  names(planes, z));
+  named.drawn);
 }
 
 function planesOf(machine) {
@@ -59,24 +63,24 @@ function throws(machine, at) {
   });
 }
 
-// a plate at the radius of its centre of mass, as wide as its mass asks for; a faint cross where there is none
+// a plate from its inner to its outer radius and as thick as it is; where no shape is known, one about the centre of
+// mass, as wide as its mass asks for; a short line where there is nothing
 function weights(machine, counterweights, at, z) {
-  const masses = new Map(counterweights.map((one) => [one.web, one]));
-  const heaviest = Math.max(...counterweights.map((one) => one.mass_kg), 1e-300);
-  return (machine.webs ?? []).map((web) => {
-    const fitted = masses.get(web.name);
+  const fitted = carried(counterweights);
+  const masses = new Map(fitted.map((one) => [one.web, one]));
+  const heaviest = Math.max(...fitted.map((one) => one.mass_kg), 1e-300);
+  return (machine.webs ?? []).filter((web) => Number.isFinite(metres(web.position_m))).map((web) => {
+    const one = masses.get(web.name);
     const place = metres(web.position_m);
-    if (!fitted || !(fitted.mass_kg > 0)) {
-      return s("g", { class: "free" }, line([z(place), MIDDLE - 7], [z(place), MIDDLE + 7]), s("title", {}, `${web.name}: nothing`));
-    }
-    const angle = radians(fitted.angle_deg);
-    const radius = fitted.radius_m ?? reachOf(web);
-    const half = 3 + 9 * (fitted.mass_kg / heaviest);
-    const [inner, outer] = [at(place, 0.82 * radius, angle), at(place, 1.18 * radius, angle)];
+    if (!one) return s("g", { class: "free" }, line([z(place), MIDDLE - 7], [z(place), MIDDLE + 7]), s("title", {}, `${web.name}: nothing`));
+    const angle = radians(one.angle_deg);
+    const known = extent(one, web);
+    const half = known ? (z(place + metres(web.envelope?.thickness_m ?? 0)) - z(place)) / 2 : 3 + 9 * (one.mass_kg / heaviest);
+    const [inner, outer] = (known ?? [0.82 * one.radius_m, 1.18 * one.radius_m]).map((radius) => at(place, radius, angle));
     const plate = [[inner[0] - half, inner[1]], [inner[0] + half, inner[1]], [outer[0] + half, outer[1]], [outer[0] - half, outer[1]]];
-    return s("g", {}, line(at(place, 0, 0), inner, { class: "arm" }),
-      s("polygon", { class: "counterweight", points: points(plate) }),
-      s("title", {}, `${web.name}: ${figure(fitted.mass_kg)} kg at ${figure(fitted.angle_deg)}°, plane ${figure(place)} m`));
+    return s("g", { class: `counterweight${one.fixed ? " fixed" : ""}${known ? "" : " unknown"}` }, line(at(place, 0, 0), inner, { class: "arm" }),
+      s("polygon", { points: points(plate) }),
+      s("title", {}, `${one.web}: ${figure(one.mass_kg)} kg at ${figure(one.angle_deg)}°, plane ${figure(place)} m`));
   });
 }
 
@@ -96,14 +100,17 @@ function bearings(machine, z) {
 
 // names stand below their planes, each on the first line where there is room
 function names(planes, z) {
-  const lines = [-Infinity, -Infinity, -Infinity];
-  if (planes.length > MOST_NAMES) return null;
-  return [...planes].sort((one, other) => one.z - other.z).map((plane) => {
+  if (planes.length > MOST_NAMES) return { lines: 0, drawn: null };
+  /** @type {number[]} */
+  const lines = [];
+  const drawn = [...planes].sort((one, other) => one.z - other.z).map((plane) => {
     const half = 4.3 * plane.name.length + 3;
     const x = Math.min(Math.max(z(plane.z), half), WIDTH - half);
-    const row = Math.max(0, lines.findIndex((end) => end < x - half));
+    const free = lines.findIndex((end) => end < x - half);
+    const row = free < 0 ? lines.length : free;
     lines[row] = x + half;
-    return [line([z(plane.z), HEIGHT - 62], [z(plane.z), HEIGHT - 56], { class: "tick" }),
-      text(x, HEIGHT - 41 + 15 * row, plane.name, { class: `name centred${plane.web ? " web" : ""}` })];
+    return [line([z(plane.z), BOTTOM], [z(plane.z), BOTTOM + 6], { class: "tick" }),
+      text(x, BOTTOM + 21 + LINE * row, plane.name, { class: `name centred${plane.web ? " web" : ""}` })];
   });
+  return { lines: lines.length, drawn };
 }

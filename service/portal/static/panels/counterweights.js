@@ -29,7 +29,7 @@ export function counterweightTable(counterweights, prices = []) {
 }
 
 export const counterweights = {
-  id: "counterweights", title: "Counterweights", open: true,
+  id: "counterweights", title: "Counterweights, their limits and what these cost", open: true,
   draw(body, { answer }) {
     const prices = answer.shadow_prices ?? [];
     const whole = prices.filter((price) => !price.web);
