@@ -12,10 +12,12 @@ from time import thread_time
 
 import numpy as np
 
+from optimizer.alike_plates import alike
 from optimizer.arrays import Complex, Real
 from optimizer.certified import Certified, certified, judged
 from optimizer.formulate import formulate
 from optimizer.mechanics.envelope import Envelope
+from optimizer.plate_pieces import Webs, chords, pieces, tangents
 from optimizer.program.certificate import mass_lower_bound
 from optimizer.program.limits import Limits
 from optimizer.program.optima import Optima, optima
@@ -23,6 +25,7 @@ from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.program.symmetry import symmetric
+from optimizer.program.verdict import yardstick
 from optimizer.response import Response
 from optimizer.shapes import envelopes, fitted
 from schemas.requests import OptimizeRequest
@@ -33,10 +36,11 @@ _FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 33)))
 _KEPT, _ROUNDS = 9, 12
 #: nodes are laid on both sides of one this share nearer than those that were there
 _NARROWER = 0.25
-#: tangents reach no less far than chords, whatever the rounding of their pieces
-_REACHES = 1.0 + 1e-13
 #: nodes that are nearer than this share of the largest half-angle are one
 _SAME = 1e-9
+
+#: openings that agree this closely, relative, are equal: what rounding leaves
+_EQUAL = 1e-14
 
 #: half-angles of every plate, from 0 to the largest, rad
 _Nodes = Mapping[int, Real]
@@ -63,6 +67,12 @@ def certified_shapes(
         asked, found, called_for = _round(request, whole, plates, nodes, responses, omega_squared, solver)
         if best is None or _gap(found) <= _gap(best[1]):
             best = asked, found
+        if found.status[0] == "optimal":
+            even = _alike(request, whole, plates, nodes, found.found)
+            if np.array_equal(even.unbalance, found.found.unbalance):
+                return asked, found
+            best = _cut(request, whole, plates, even, responses, omega_squared)
+            return best if best[1].status[0] == "optimal" else (asked, found)
         if found.status[0] != "inaccurate":
             return asked, found
         if thread_time() > end:
@@ -87,32 +97,64 @@ def _round(
     solver: Solver,
 ) -> tuple[OptimizeRequest, Certified, Mapping[int, float]]:
     """What is found and what tangents prove, and the half-angles that the tangents call for."""
-    goal, square = request.objective, omega_squared
-    webs = range(len(request.machine.webs))
+    goal, webs = request.objective, range(len(request.machine.webs))
     owner = np.repeat(np.array(webs), [nodes[k].size - 1 if k in plates else 1 for k in webs])
 
-    def optimum(laid: Callable[[Envelope, Real], _Webs]) -> tuple[Statement, Optima, Complex]:
-        program = _pieces(whole, owner, {k: laid(plate, nodes[k]) for k, plate in plates.items()})
+    def optimum(laid: Callable[[Envelope, Real], Webs]) -> tuple[Statement, Optima, Complex]:
+        program = pieces(whole, owner, {k: laid(plate, nodes[k]) for k, plate in plates.items()})
         found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
         carried = np.zeros(len(webs), complex)
         np.add.at(carried, owner, found.unbalance[0])
         return program, found, carried
 
-    tangents, proven, called_for = optimum(_tangents)
+    program, proven, called_for = optimum(tangents)
     u, spent = called_for, proven.certify_s
     if np.isfinite(whole.limits.max_total_mass[0]) and not proven.unreachable[0]:
         # what tangents call for may be heavier than the budget, what chords find is not
-        _, feasible, u = optimum(_chords)
-        proven = _up_to(tangents, proven, whole.objective(u) + whole.rounding(u))
+        _, feasible, u = optimum(chords)
+        proven = _up_to(program, proven, whole.objective(u) + whole.rounding(u))
         spent = spent + feasible.certify_s
     if goal.symmetric:
         # no worse in any term, so that what is proven of those that were found holds
         u = symmetric(whole, u[None], _kinds(request))[0]
-    asked = request.model_copy(update={"machine": fitted(request.machine, _opened(plates, u))})
-    program = formulate(asked.machine, goal, responses, square)
-    program = replace(program, limits=_limits(program.limits, whole.limits, plates))
-    found = judged(asked, program, replace(proven, unbalance=u[None], certify_s=spent), square)
+    proven = replace(proven, unbalance=u[None], certify_s=spent)
+    asked, found = _cut(request, whole, plates, proven, responses, omega_squared)
     return asked, found, _opened(plates, called_for)
+
+
+def _alike(
+    request: OptimizeRequest, whole: Statement, plates: Mapping[int, Envelope], nodes: _Nodes, proven: Optima
+) -> Optima:
+    """The same with plates opened alike, where what is proven still holds."""
+    goal, lower_bound = request.objective, float(proven.lower_bound[0])
+    largest = lower_bound + float(request.accuracy.relative_gap * yardstick(whole)[0])
+    least_mass = np.inf
+    if goal.least_mass:
+        largest, least_mass = min(largest, float(proven.mass_target[0])), float(proven.mass_lower_bound[0])
+    u = alike(whole, plates, nodes, _kinds(request), proven.unbalance[0], (lower_bound, largest), least_mass)
+    return replace(proven, unbalance=u[None])
+
+
+def _cut(
+    request: OptimizeRequest,
+    whole: Statement,
+    plates: Mapping[int, Envelope],
+    proven: Optima,
+    responses: Sequence[Response],
+    omega_squared: Real,
+) -> tuple[OptimizeRequest, Certified]:
+    """The request with the radii of what is cut, and what may be claimed of it."""
+    opened, same = _opened(plates, proven.unbalance[0]), np.arange(len(request.machine.webs))
+    kinds = _kinds(request)
+    for k, angle in opened.items():
+        # to the last digit
+        same[k] = next(j for j in plates if kinds[j] == kinds[k] and abs(opened[j] - angle) <= _EQUAL * angle)
+    alike_to = {k: opened[int(same[k])] for k in plates}
+    asked = request.model_copy(update={"machine": fitted(request.machine, alike_to)})
+    program = formulate(asked.machine, request.objective, responses, omega_squared)
+    program = replace(program, limits=_limits(program.limits, whole.limits, plates))
+    found = judged(asked, program, proven, omega_squared, lambda mass, angle: (mass[..., same], angle))
+    return asked, found
 
 
 def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:
@@ -143,43 +185,6 @@ def _limits(stated: Limits, reached: Limits, plates: Mapping[int, Envelope]) -> 
     plain = [k for k in range(most.shape[-1]) if k not in plates]
     most[..., plain] = reached.max_mass[..., plain]
     return replace(stated, max_mass=most)
-
-
-#: radii and largest masses of webs, m and kg
-_Webs = tuple[Real, Real]
-
-
-def _chords(plate: Envelope, nodes: Real) -> _Webs:
-    mass = np.diff(plate.mass(nodes))
-    return np.diff(plate.unbalance(nodes)) / mass, mass
-
-
-def _tangents(plate: Envelope, nodes: Real) -> _Webs:
-    """Webs no heavier than the plate: its tangents at all nodes but the last, as far as each is the highest."""
-    unbalance, slope = plate.unbalance(nodes), 1.0 / plate.lever(nodes[:-1])
-    at = unbalance[:-1]
-    height = plate.mass(nodes[:-1]) - slope * at
-    rise = np.diff(slope)
-    crossing = np.where(rise > 0, -np.diff(height) / np.where(rise > 0, rise, 1.0), at[1:])
-    ends = np.concatenate([[0.0], np.clip(crossing, at[:-1], at[1:]), unbalance[-1:]])
-    return 1.0 / slope, np.diff(ends) * slope * _REACHES
-
-
-def _pieces(whole: Statement, owner: np.ndarray, webs: Mapping[int, _Webs]) -> Statement:
-    """The program with some webs in place of each plate."""
-    limits = whole.limits
-    parts = {
-        name: getattr(limits, name)[..., owner].copy()
-        for name in ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
-    }
-    for k, (radius, mass) in webs.items():
-        parts["radius"][..., owner == k], parts["max_mass"][..., owner == k] = radius, mass
-    return replace(
-        whole,
-        norms=whole.norms.only(owner),
-        ceilings=whole.ceilings.only(owner),
-        limits=Limits(**parts, max_total_mass=limits.max_total_mass),
-    )
 
 
 def _nodes(inner: Real, most: float) -> Real:

@@ -190,6 +190,27 @@ def test_what_a_thicker_plate_would_gain(shape: str) -> None:
     assert objectives[0] - objectives[1] == pytest.approx(gained, rel=2e-3)
 
 
+@pytest.mark.parametrize("thickness", [0.03, 0.06])
+@pytest.mark.parametrize("shape", SHAPES)
+def test_plates_that_are_all_but_full_are_full_and_alike(shape: str, thickness: float) -> None:
+    # three of the four pull at their limits; the least mass would leave one a hundredth of a degree short
+    found = answered(asked(shape, thickness_m=thickness))
+    full = [one for one in found.counterweights if "envelope" in one.active_limits]
+    assert found.status == "optimal"
+    assert len(full) == 3
+    assert [one.shape.half_angle_deg for one in full if one.shape] == pytest.approx([75.0] * 3, abs=1e-12)
+    assert len({one.mass_kg for one in full}) == 1
+
+
+def test_plates_that_cannot_be_alike_within_what_is_certified_stay_apart() -> None:
+    # analytic: the last degrees before 90 weigh without pulling; all alike would be 4e-4 heavier
+    found = answered(asked("sector", max_half_angle_deg=90))
+    assert found.status == "optimal"
+    assert found.certificate is not None
+    assert found.certificate.mass_relative_gap is not None
+    assert found.certificate.mass_relative_gap < 1e-4
+
+
 def test_ceilings_that_plates_cannot_keep() -> None:
     body = asked("segment")
     body["objective"] = {"moment_ceiling_Nm": 10.0}
