@@ -154,6 +154,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         lifespan=lifespan,
         redirect_slashes=False,
     )
+    app.state.frame_origins = chosen.frame_origins
     app.state.readiness = readiness
     app.state.desk = desk
     app.state.pool = pool

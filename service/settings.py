@@ -4,7 +4,7 @@ import os
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AliasChoices, BeforeValidator, Field
+from pydantic import AliasChoices, BeforeValidator, Field, StringConstraints
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS
@@ -25,6 +25,9 @@ def _split(value: Any) -> Any:
 
 
 Names = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_split)]
+#: no wildcards: a page that frames another sees what its user does there
+Origin = Annotated[str, StringConstraints(pattern=r"^https?://([A-Za-z0-9.-]+|\[[0-9A-Fa-f:]+\])(:[0-9]{1,5})?$")]
+Origins = Annotated[tuple[Origin, ...], NoDecode, BeforeValidator(_split)]
 
 
 class _Network(BaseSettings):
@@ -132,6 +135,11 @@ class _Access(BaseSettings):
         "comma-separated; * is any",
     )
     cors_origins: Names = Field((), description="origins whose pages may ask, comma-separated; * is any")
+    frame_origins: Origins = Field(
+        (),
+        description="origins whose pages may show the page in a frame and speak with it, such as "
+        "https://portal.example.com, comma-separated",
+    )
     hsts_s: int = Field(0, ge=0, description="Strict-Transport-Security of answers over https [s]; 0 sends none")
 
 

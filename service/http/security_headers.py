@@ -5,15 +5,16 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 _HEADERS = {
     "X-Content-Type-Options": "nosniff",
-    "X-Frame-Options": "DENY",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Opener-Policy": "same-origin",
     "Cross-Origin-Resource-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
+#: nobody shows it in a frame
+_UNFRAMED = "frame-ancestors 'none'"
 #: what is no page loads nothing; pages come with a policy of their own
-_NO_PAGE = "default-src 'none'; frame-ancestors 'none'"
-_PAGE = "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'self'"
+_NO_PAGE = f"default-src 'none'; {_UNFRAMED}"
+_PAGE = f"default-src 'self'; img-src 'self' data:; {_UNFRAMED}; base-uri 'none'; form-action 'self'"
 
 
 class SecurityHeaders:
@@ -40,6 +41,9 @@ class SecurityHeaders:
                     headers.setdefault(name, value)
                 page = headers.get("content-type", "").startswith(("text/html", "image/svg"))
                 headers.setdefault("Content-Security-Policy", _PAGE if page else _NO_PAGE)
+                # the older header knows no origins but its own
+                if _UNFRAMED in headers["Content-Security-Policy"]:
+                    headers.setdefault("X-Frame-Options", "DENY")
                 if self._hsts_s and scope.get("scheme") == "https":
                     headers.setdefault("Strict-Transport-Security", f"max-age={self._hsts_s}; includeSubDomains")
             await send(message)

@@ -1,7 +1,7 @@
 """The files of the page: our own, and the plotting library of an installed package."""
 
 import hashlib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
@@ -16,6 +16,7 @@ MEDIA_TYPES: Mapping[str, str] = {
 PLOTS = "plotly.min.js"
 _STATIC = Path(__file__).parent / "static"
 _MODULES = b"<!-- modules -->"
+_FRAMES = b"<!-- frames -->"
 
 
 class UnknownAsset(LookupError):
@@ -63,10 +64,15 @@ def release() -> str:
     return digest.hexdigest()[:12]
 
 
-@cache
-def page() -> bytes:
-    """The page, with the addresses of this release and all modules announced at once."""
+def page(origins: Sequence[str] = ()) -> bytes:
+    """The page, with the addresses of this release and all modules announced at once.
+
+    Parameters
+    ----------
+    origins : whose pages may show it in a frame, and are listened to.
+    """
     modules = (name for name in names() if name.endswith(".js") and name != PLOTS)
     announced = "".join(f'<link rel="modulepreload" href="portal/{name}">\n' for name in modules).encode()
-    content = (_STATIC / "index.html").read_bytes().replace(_MODULES, announced)
+    framed = f'<meta name="frame-origins" content="{" ".join(origins)}">'.encode()
+    content = (_STATIC / "index.html").read_bytes().replace(_MODULES, announced).replace(_FRAMES, framed)
     return content.replace(b'="portal/', f'="portal/{release()}/'.encode())

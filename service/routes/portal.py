@@ -16,14 +16,15 @@ router = APIRouter(include_in_schema=False)
 _POLICY = (
     "default-src 'none'; script-src 'self'; connect-src 'self'; img-src 'self' data: blob:; "
     "style-src 'self' 'sha256-47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU='; "
-    "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    "base-uri 'none'; form-action 'none'; frame-ancestors "
 )
 
 
 @router.get("/")
 async def home(request: Request) -> Response:
     """One page that asks the service what everyone can ask."""
-    return _page().answer(request, **{"Content-Security-Policy": _POLICY})
+    origins: tuple[str, ...] = request.app.state.frame_origins
+    return _page(origins).answer(request, **{"Content-Security-Policy": _POLICY + (" ".join(origins) or "'none'")})
 
 
 @router.get("/portal/{of}/{name:path}")
@@ -37,8 +38,8 @@ async def file(request: Request, of: str, name: str) -> Response:
 
 
 @cache
-def _page() -> Kept:
-    return Kept(page(), "text/html")
+def _page(origins: tuple[str, ...]) -> Kept:
+    return Kept(page(origins), "text/html")
 
 
 @cache

@@ -7,8 +7,11 @@ import urllib.request
 from email.message import Message
 
 import pytest
+from starlette.testclient import TestClient
 
+from service.app import create_app
 from service.portal.assets import PLOTS, asset, names, page, release
+from service.settings import Settings
 
 
 def _get(url: str, **headers: str) -> tuple[int, Message, bytes]:
@@ -30,6 +33,18 @@ def test_the_page_may_load_from_its_own_service_alone(url: str) -> None:
     # every address is relative, and nothing is inline
     assert not re.search(rb'(src|href)="(https?:|//|/)', body)
     assert not re.search(rb"<style|style=|<script(?![^>]* src=)|\son\w+=", body)
+
+
+def test_nobody_may_frame_it_unless_the_operator_says_who(url: str) -> None:
+    _, headers, body = _get(f"{url}/")
+    assert (headers["x-frame-options"], b'name="frame-origins" content=""' in body) == ("DENY", True)
+    assert headers["content-security-policy"].endswith("frame-ancestors 'none'")
+    client = TestClient(create_app(Settings(frame_origins=("https://a.example", "https://b.example:8443")), warm=False))
+    page, api = client.get("/"), client.get("/healthz")
+    assert page.headers["content-security-policy"].endswith("frame-ancestors https://a.example https://b.example:8443")
+    assert 'name="frame-origins" content="https://a.example https://b.example:8443"' in page.text
+    # the page alone: answers, and documents that the service writes, stay as they are
+    assert ("x-frame-options" in page.headers, api.headers["x-frame-options"]) == (False, "DENY")
 
 
 def test_nothing_in_our_files_writes_markup() -> None:

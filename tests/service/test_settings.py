@@ -41,6 +41,9 @@ def test_environment(monkeypatch: pytest.MonkeyPatch) -> None:
         ("PORT", "70000"),
         ("COUNTERWEIGHT_CONCURRENT_SOLVES", "0"),
         ("COUNTERWEIGHT_MAX_BODY_BYTES", "0"),
+        ("COUNTERWEIGHT_FRAME_ORIGINS", "*"),
+        ("COUNTERWEIGHT_FRAME_ORIGINS", "https://portal.example.com/"),
+        ("COUNTERWEIGHT_FRAME_ORIGINS", 'https://portal.example.com"; script-src *'),
     ],
 )
 def test_wrong_settings_are_refused(monkeypatch: pytest.MonkeyPatch, name: str, value: str) -> None:

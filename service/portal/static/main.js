@@ -3,6 +3,7 @@
 import { get, post, Problem } from "./api.js";
 import { showAnswer } from "./answer.js";
 import { byId, h } from "./dom.js";
+import { Embedding } from "./embed.js";
 import { Form } from "./form.js";
 import { accuracy } from "./panels/accuracy.js";
 import { counterweights } from "./panels/counterweights.js";
@@ -35,8 +36,11 @@ const panels = new Panels(byId("panels"), PANELS, {
   toggled: () => keepLink(), blamed: (errors) => form?.blame(errors),
 });
 
+const embedding = new Embedding({ take: (request) => take(request, null), request: () => state.request });
+
 function edited() {
   state.example = null;
+  embedding.edited();
   // a sweep goes on and is still to be found; the points of the front are no longer the same
   delete state.kept.point;
   byId("example").value = "";
@@ -91,6 +95,7 @@ async function run() {
     results.classList.remove("stale", "empty");
     progress.textContent = `Answered in ${Math.round(performance.now() - started)} ms.`;
     keepLink();
+    embedding.say("answer", { request, answer });
     await panels.show({ request, answer, number, schema, model: MODEL, keep, kept: state.kept, call: { method: "POST", path: "v1/optimize", body } });
     if (number === runs) Object.assign(results.dataset, { drawn: number, ms: Math.round(performance.now() - started) });
   } catch (error) {
@@ -104,6 +109,7 @@ async function run() {
 }
 
 async function complain(error) {
+  embedding.failed(error);
   byId("results").classList.add("stale");
   await schema.catch(() => null);
   const homeless = form ? form.blame(error.errors ?? []) : error.errors ?? [];

@@ -1,0 +1,126 @@
+"""The page in the frame of a portal on another origin: machine in; answer, picture and errors out; no strangers."""
+
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import BrowserContext, Page
+
+from tests.browser.portal import ARTEFACTS, ask
+from tests.browser.serving import serving
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "portal"
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - the name is the library's
+        pass
+
+
+@contextmanager
+def _site() -> Iterator[str]:
+    """Another origin, with the example's page."""
+    with ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=str(EXAMPLE))) as server:
+        thread = threading.Thread(target=server.serve_forever)
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}"
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+@pytest.fixture(scope="module")
+def sites(tmp_path_factory: pytest.TempPathFactory) -> Iterator[tuple[str, str, str]]:
+    """A service, the portal that it knows, and one that it does not know."""
+    with (
+        _site() as known,
+        _site() as stranger,
+        serving(tmp_path_factory.mktemp("service"), frame_origins=known) as url,
+    ):
+        yield url, known, stranger
+
+
+@pytest.fixture
+def page(context: BrowserContext) -> Iterator[Page]:
+    page = context.new_page()
+    yield page
+    page.close()
+
+
+def _open(page: Page, portal: str, url: str) -> None:
+    page.goto(f"{portal}/?service={url}")
+    page.wait_for_selector("#send:enabled")
+
+
+def test_a_portal_gives_a_machine_and_takes_answer_and_picture(page: Page, sites: tuple[str, str, str]) -> None:
+    url, known, _ = sites
+    troubles: list[str] = []
+    page.on("console", lambda said: troubles.append(said.text) if said.type in ("error", "warning") else None)
+    _open(page, known, url)
+    page.click("#send")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')")
+    page.wait_for_function("document.getElementById('picture').naturalWidth > 0")
+    frame = page.frame_locator("#service")
+    assert frame.locator("body > header").is_hidden()
+    frame.locator("#results[data-drawn]").wait_for()
+    shown = page.locator("#verdict").inner_text()
+    machine = {
+        "kind": "reciprocating",
+        "speed_rpm": 980,
+        "throws": [
+            {
+                "position_m": 0, "crank_radius_m": 0.08, "crank_angle_deg": 0, "rotating_mass_kg": 6,
+                "rows": [{"axis_deg": 90, "reciprocating_mass_kg": 5}],
+            }
+        ],
+        "webs": [
+            {"name": "left", "position_m": -0.1, "counterweight_radius_m": 0.12, "max_mass_kg": 8},
+            {"name": "right", "position_m": 0.1, "counterweight_radius_m": 0.12, "max_mass_kg": 8},
+        ],
+    }  # fmt: skip
+    # independent: the same machine without the page
+    assert shown == f"optimal: {ask(url, '/v1/optimize', {'machine': machine})['total_mass_kg']:.2f} kg"
+    # the frame is as high as the page in it, which scrolls no more
+    page.wait_for_function(
+        "() => Math.abs(document.getElementById('service').clientHeight - "
+        "parseFloat(document.getElementById('service').style.height)) <= 2"
+    )
+    ARTEFACTS.mkdir(parents=True, exist_ok=True)
+    page.screenshot(path=ARTEFACTS / "embedded.png", full_page=True)
+    assert troubles == []
+
+
+def test_what_is_wrong_with_the_machine_is_said_to_the_portal(page: Page, sites: tuple[str, str, str]) -> None:
+    url, known, _ = sites
+    _open(page, known, url)
+    page.fill("#speed", "-1")
+    page.click("#send")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('Refused: ')")
+
+
+def test_the_page_hears_nobody_but_its_portal(page: Page, sites: tuple[str, str, str]) -> None:
+    url, known, _ = sites
+    _open(page, known, url)
+    (frame,) = [one for one in page.frames if one.url.startswith(url)]
+    frame.wait_for_selector("#results[data-drawn]")
+    before = frame.locator("#results").get_attribute("data-drawn")
+    # from within the frame itself, whose origin is not the portal's
+    frame.evaluate("() => postMessage({type: 'counterweight.machine', machine: {kind: 'scroll'}}, location.origin)")
+    # the next message comes after it, and is answered
+    page.click("#send")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')")
+    frame.wait_for_selector(f"#results[data-drawn='{int(before or 0) + 1}']")
+    assert frame.locator("#problem").inner_text() == ""
+
+
+def test_a_stranger_may_not_frame_it(page: Page, sites: tuple[str, str, str]) -> None:
+    url, _, stranger = sites
+    with page.expect_console_message(lambda said: "frame-ancestors" in said.text):
+        page.goto(f"{stranger}/?service={url}")
+    assert page.locator("#send").is_disabled()
+    assert not [one for one in page.frames if one.url.startswith(url)]
