@@ -49,6 +49,10 @@ class RowLoad(RowSeries):
         description="what moves along the axis, with its share of the rod", examples=[303.6]
     )
     rod_rotating_mass_kg: Kilograms = Field(description="the rest of the rod, at the crank pin", examples=[60.2])
+    rotating_mass_kg: Kilograms = Field(
+        description="all that turns at the crank pin in the plane of the row: that, and its turning parts",
+        examples=[60.2],
+    )
     largest_gas_N: Newtons = Field(description="largest gas force among the samples, magnitude", examples=[239491.5])
     largest_inertia_N: Newtons = Field(
         description="largest inertia force among the samples, magnitude", examples=[139833.0]
@@ -88,13 +92,19 @@ class ThrowMass(Model):
 
 
 class BearingWeight(Model):
-    """Weight on a main bearing."""
+    """Weight on a main bearing: its static share."""
 
     name: str = Field(description="name of the bearing", examples=["A"])
     weight_N: Newtons = Field(
-        description="from rotating masses and the rods' turning parts; the shaft itself has no mass here",
+        description="of what turns: masses at the cranks, shaft_parts, counterweights; with gravity_deg also of what "
+        "reciprocates, by the part of its weight along the axis, the rest of which lies on the guide",
         examples=[410.0],
     )
+    x_N: Newtons | None = Field(
+        description="along x; the same as x and y of the bearings' loads, and null without gravity_deg",
+        examples=[0.0],
+    )
+    y_N: Newtons | None = Field(description="along y", examples=[-410.0])
 
 
 class Loads(Model):
@@ -123,5 +133,10 @@ class Loads(Model):
     )
     bearing_weights: tuple[BearingWeight, ...] = Field(
         description="weights on the main bearings", examples=[[{"name": "A"}]]
+    )
+    foundation_weight_N: Newtons | None = Field(
+        description="weight of the machine: all of that, what reciprocates, and stationary_mass_kg; null without the "
+        "latter",
+        examples=[None],
     )
     gravity_deg: Degrees | None = Field(description="direction of gravity used", examples=[None])

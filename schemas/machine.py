@@ -13,6 +13,7 @@ from schemas.catalogue import Catalogue, catalogue_rules, stated
 from schemas.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
 from schemas.drive_bearing import DriveBearing
 from schemas.over_turn import ForceOverTurn, PinRadius, TorqueOverTurn
+from schemas.parts import MAX_PARTS, ShaftPart
 from schemas.quantities import Angle, Count, Length, Mass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled, larger
 from schemas.throws import MAX_THROWS, Row, Throw, row_cylinders
@@ -165,8 +166,20 @@ class ReciprocatingMachine(Rotor):
     )
     gravity_deg: Annotated[Angle | None, Unit("deg")] = Field(
         None,
-        description="direction in which weight acts across the shaft, as drawn; needed only by the guides of loads",
+        description="direction in which weight acts across the shaft, as drawn; needed only by the guides and "
+        "weights of loads",
         examples=[270.0],
+    )
+    shaft_parts: tuple[ShaftPart, ...] = Field(
+        (),
+        max_length=MAX_PARTS,
+        description="parts of the shaft that are balanced in themselves; needed only by the weights of loads",
+        examples=[[]],
+    )
+    stationary_mass_kg: Annotated[Mass | None, Unit("kg")] = Field(
+        None,
+        description="what stands still: frame, cylinders, covers; needed only by the weight on the foundation of loads",
+        examples=[None],
     )
     bearings: tuple[Bearing, ...] = Field(
         (),
@@ -203,6 +216,7 @@ class ReciprocatingMachine(Rotor):
                 path = ("balance_shafts", n, "webs", k, "envelope")
                 yield Rule(web.envelope is not None, path, "a balance shaft's weights have a known radius")
         yield from _bearing_rules(self.bearings)
+        yield from _unique_names(("shaft_parts",), [part.name for part in self.shaft_parts])
         if self.balance_shafts:
             yield from self._shaft_rules()
 

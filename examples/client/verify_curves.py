@@ -6,7 +6,7 @@ from math import isfinite, isqrt
 from typing import Dict, Iterator, NamedTuple, Tuple
 
 from verify_numbers import BITS, ONE, ZERO, J, NotCovered, Number, Place, direction, largest, real, total
-from verify_program import NAMES, Machine
+from verify_program import NAMES, Machine, over, row_masses
 
 
 class Row(NamedTuple):
@@ -108,18 +108,10 @@ def _rows(asked: Place, loads: bool) -> Iterator[Row]:
             for gas in ("cylinder", "cylinders"):
                 if loads and row / gas:
                     raise NotCovered(row / gas)
-            weight = (row / "reciprocating_mass_kg").number()
-            weight = weight + (rod / "reciprocating_share").number(1 / 3) * (rod / "mass_kg").number(0.0)
+            weight = row_masses(row)[0]
             ratio = over(radius, (rod / "length_m").number(), rod) if rod / "length_m" else ZERO
             where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
             yield Row(weight * radius, crank, direction((row / "axis_deg").double()), ratio, where)
-
-
-def over(number: Number, by: Number, place: Place) -> Number:
-    """A quotient; what cannot be told from 0 divides nothing."""
-    if by.low <= 0:
-        raise NotCovered(place)
-    return number / by
 
 
 def _root(number: Number) -> Number:

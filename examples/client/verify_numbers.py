@@ -143,13 +143,13 @@ KNOWN = (
     " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap unbalances x_kg_m y_kg_m"
     " catalogue masses_kg mass_step_kg angle_step_deg max_part_numbers max_counterweights catalogue_masses_kg"
     " hole_angles_deg fixed angle_deg radius_m web_groups max_centrifugal_force_N"
-    " overspeed_rpm "
+    " overspeed_rpm parts motion centre_of_mass_m length_m "
 )
 IDLE = (
-    " name description length_m throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
+    " name description throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
     " tangential_gas_force_N drive_bearing pin_circle_radius_m time_limit_s outputs angles fidelity multipliers"
     " symmetric points total_mass_budgets_kg bearing_measure balance_quality grade_mm_s"
-    " centre_of_mass_m plane_a_m plane_b_m gravity_deg "
+    " plane_a_m plane_b_m gravity_deg shaft_parts stationary_mass_kg "
 )
 
 

@@ -173,14 +173,39 @@ def _throws(place: Place) -> tuple[list[Mass], list[float], list[float]]:
         planes.append((throw / "position_m").double())
         masses.append(Mass((throw / "rotating_mass_kg").number(0.0) * radius, crank, ZERO, real(planes[-1])))
         for row in throw / "rows":
-            rod, where = row / "connecting_rod", real(planes[-1]) + (row / "offset_m").number(0.0)
-            share, weight = (rod / "reciprocating_share").number(1 / 3), (rod / "mass_kg").number(0.0)
-            moving = ((row / "reciprocating_mass_kg").number() + share * weight) * radius
-            masses.append(_moving(moving, crank, (row / "axis_deg").double(), where))
-            masses.append(Mass((ONE - share) * weight * radius, crank, ZERO, where))
+            where = real(planes[-1]) + (row / "offset_m").number(0.0)
+            moving, turning = row_masses(row)
+            masses.append(_moving(moving * radius, crank, (row / "axis_deg").double(), where))
+            masses.append(Mass(turning * radius, crank, ZERO, where))
     if not planes:
         raise Unreadable((*place.path, "throws"), "must hold at least one item")
     return masses, planes, planes
+
+
+def row_masses(row: Place) -> Tuple[Number, Number]:
+    """What moves along the axis of a row, and what turns with the crank pin, kg."""
+    rod = row / "connecting_rod"
+    moving = (row / "reciprocating_mass_kg").number(0.0 if row / "parts" else None)
+    weight = (rod / "mass_kg").number(0.0)
+    if rod / "centre_of_mass_m":
+        share = over((rod / "centre_of_mass_m").number(), (rod / "length_m").number(), rod / "length_m")
+    else:
+        share = (rod / "reciprocating_share").number(1 / 3)
+    moving, turning = moving + share * weight, (ONE - share) * weight
+    for part in row / "parts":
+        mass = (part / "mass_kg").number()
+        if (part / "motion").text("reciprocating", "rotating", default="reciprocating") == "rotating":
+            turning = turning + mass
+        else:
+            moving = moving + mass
+    return moving, turning
+
+
+def over(number: Number, by: Number, place: Place) -> Number:
+    """A quotient; what cannot be told from 0 divides nothing."""
+    if by.low <= 0:
+        raise NotCovered(place)
+    return number / by
 
 
 def _scroll(place: Place) -> tuple[list[Mass], list[float], list[float]]:

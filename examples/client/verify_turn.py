@@ -27,7 +27,7 @@ from verify import (
     near,
     optimum,
 )
-from verify_curves import Turn, over
+from verify_curves import Turn
 from verify_numbers import (
     ABOUT_ONE,
     ONE,
@@ -41,7 +41,7 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Statement, support
+from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Statement, over, support
 
 #: fields of an objective that look at the whole turn and are known here
 FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"

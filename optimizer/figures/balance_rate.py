@@ -57,15 +57,7 @@ def crank_angles(machine: Machine) -> list[float | None]:
 
 def cranks(machine: ReciprocatingMachine) -> Cranks:
     """Throws of a machine and their webs; its fields may hold columns (n,)."""
-    masses = [
-        throw.rotating_mass_kg
-        + sum(
-            (1.0 - row.connecting_rod.reciprocating_share) * row.connecting_rod.mass_kg
-            for row in throw.rows
-            if row.connecting_rod is not None
-        )
-        for throw in machine.throws
-    ]
+    masses = [throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows) for throw in machine.throws]
     radii = stacked([throw.crank_radius_m for throw in machine.throws])
     crank = direction(stacked([throw.crank_angle_deg for throw in machine.throws]))
     return Cranks(stacked(masses) * radii * crank, shares(machine))

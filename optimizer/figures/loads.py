@@ -1,7 +1,6 @@
 """Loads as a designer of parts asks for them, from the forces over the turn."""
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion, own_angle
 from optimizer.mechanics.layout import stacked
-from optimizer.mechanics.weight import on_bearings, on_guide
+from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
 from optimizer.scene import Prepared
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
@@ -22,7 +21,7 @@ from schemas.machine import ReciprocatingMachine
 from schemas.throws import row_cylinders
 
 
-def _figure(scene: Prepared, _fitted: Complex | None) -> Loads:
+def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
     machine = scene.machine
     assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
     found, integrals = scene.results["torque"], scene.results["torque_integrals"]
@@ -32,7 +31,7 @@ def _figure(scene: Prepared, _fitted: Complex | None) -> Loads:
         angle_deg=scene.angles,
         rows=tuple(_rows(scene, machine)),
         throws=tuple(
-            ThrowMass(throw=t, rotating_mass_kg=throw.rotating_mass_kg + sum(map(_rod_rotating, throw.rows)))
+            ThrowMass(throw=t, rotating_mass_kg=throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows))
             for t, throw in enumerate(machine.throws)
         ),
         driver_Nm=float(integrals.mean),
@@ -41,7 +40,8 @@ def _figure(scene: Prepared, _fitted: Complex | None) -> Loads:
         shared_base_peak_Nm=float(np.max(np.abs(beyond))),
         # J eps is what the constant torque of the driver leaves over
         angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
-        bearing_weights=tuple(_weights(scene, machine)),
+        bearing_weights=tuple(_weights(scene, machine, fitted)),
+        foundation_weight_N=_whole_weight(scene, machine, fitted),
         gravity_deg=machine.gravity_deg,
     )
 
@@ -58,11 +58,6 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
     return float(scene.results["torque_integrals"].fluctuation / (allowed * scene.omega_squared))
 
 
-def _rod_rotating(row: Any) -> float:
-    rod = row.connecting_rod
-    return 0.0 if rod is None else float((1.0 - rod.reciprocating_share) * rod.mass_kg)
-
-
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
     piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
@@ -75,11 +70,13 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
             "inertia": float(np.max(np.abs(forces.inertia[k]))),
             "running": float(piston.lower[k]),
         }
+        link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield RowLoad(
             **labels,
             reciprocating_mass_kg=float(masses[k]),
-            rod_rotating_mass_kg=_rod_rotating(rows[k]),
+            rod_rotating_mass_kg=0.0 if link is None else float(link.rotating_kg),
+            rotating_mass_kg=float(rows[k].rotating_kg),
             largest_gas_N=three["gas"],
             largest_inertia_N=three["inertia"],
             largest_piston_force_N=three["running"],
@@ -149,15 +146,49 @@ def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] |
     ]
 
 
-def _weights(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[BearingWeight]:
+def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> tuple[Real, Real]:
+    """Planes [m] and masses [kg] of all that turns with the shaft, with counterweights (webs,) kg m."""
+    parts = [(throw.position_m, throw.rotating_mass_kg) for throw in machine.throws]
+    parts += [(throw.position_m + row.offset_m, row.rotating_kg) for throw in machine.throws for row in throw.rows]
+    parts += [(part.position_m, part.mass_kg) for part in machine.shaft_parts]
+    places, masses = (stacked(each) for each in zip(*parts, strict=True))
+    if fitted is None:
+        return places, masses
+    webs = scene.layout.webs
+    return np.append(places, webs.position), np.append(masses, np.abs(fitted) / webs.radius)
+
+
+def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[BearingWeight]:
     if not machine.bearings:
         return
-    parts = [(throw.position_m, throw.rotating_mass_kg) for throw in machine.throws]
-    parts += [(throw.position_m + row.offset_m, _rod_rotating(row)) for throw in machine.throws for row in throw.rows]
-    places, masses = (stacked(each) for each in zip(*parts, strict=True))
+    places, masses = _turning(scene, machine, fitted)
+    # without a direction they have one all the same, whichever it is
+    down = direction(np.asarray(0.0 if machine.gravity_deg is None else machine.gravity_deg))
+    load = masses * GRAVITY * down
+    if machine.gravity_deg is not None:
+        rows = scene.layout.reciprocating
+        places = np.append(places, rows.position)
+        load = np.append(load, along_axis(rows.mass, rows.axis, down))
     influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
-    for bearing, weight in zip(machine.bearings, on_bearings(influence, masses), strict=True):
-        yield BearingWeight(name=bearing.name, weight_N=float(weight))
+    for bearing, weight in zip(machine.bearings, (influence @ load).tolist(), strict=True):
+        yield BearingWeight(
+            name=bearing.name,
+            weight_N=abs(weight),
+            x_N=None if machine.gravity_deg is None else weight.real,
+            y_N=None if machine.gravity_deg is None else weight.imag,
+        )
+
+
+def _whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> float | None:
+    """Weight of the machine on its foundation, N; None where it is not said what stands still."""
+    if machine.stationary_mass_kg is None:
+        return None
+    _, turning = _turning(scene, machine, fitted)
+    shafts = 0.0
+    if scene.layout.balance is not None and scene.shafts is not None:
+        shafts = float(np.sum(np.abs(scene.shafts) / scene.layout.balance.radius))
+    moving = float(np.sum(turning) + np.sum(scene.layout.reciprocating.mass)) + shafts
+    return (machine.stationary_mass_kg + moving) * GRAVITY
 
 
 LOADS = Output(

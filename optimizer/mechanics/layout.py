@@ -182,15 +182,14 @@ def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], Reciprocat
         radius, angle, plane = throw.crank_radius_m, throw.crank_angle_deg, throw.position_m
         turning.append((throw.rotating_mass_kg, radius, angle, plane))
         for row in throw.rows:
-            mass: Any = row.reciprocating_mass_kg
             ratio, rest = np.nan, 0.0
             if row.connecting_rod is not None:
                 rod = row.connecting_rod
-                mass = mass + rod.reciprocating_share * rod.mass_kg
                 ratio, rest = (0.0, 0.0) if rod.length_m is None else quotient(radius, rod.length_m)
+            if row.connecting_rod is not None or row.parts:
                 # the big end turns in the plane of its own row, not in that of the throw
-                turning.append(((1.0 - rod.reciprocating_share) * rod.mass_kg, radius, angle, plane + row.offset_m))
-            moving.append((mass, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
+                turning.append((row.rotating_kg, radius, angle, plane + row.offset_m))
+            moving.append((row.reciprocating_kg, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
     return turning, _reciprocating_table(moving), [throw.position_m for throw in machine.throws]
 
 

@@ -36,12 +36,16 @@ def on_guide(side: Real, axis: Complex, sense: Real, mass: Real, down: Complex) 
     return towards[..., None] * side + weight[..., None], weight
 
 
-def on_bearings(influence: Real, mass: Real) -> Real:
-    """Weights of masses on the shaft at the bearings, (..., B) N.
+def along_axis(mass: Real, axis: Complex, down: Complex) -> Complex:
+    """What a row's weight presses on its crank: the part along the axis, (..., rows) N; the guide bears the rest.
+
+    The rod leans, but over the turn as much to one side as to the other, so that this is its mean.
 
     Parameters
     ----------
-    influence : (..., B, L) load on every bearing for one unit in every plane.
-    mass : (..., L) kg.
+    mass : (..., rows) kg that reciprocates.
+    axis : (..., rows) direction of the cylinder axes.
+    down : (...) direction of gravity.
     """
-    return np.asarray(np.sum(influence * mass[..., None, :], axis=-1) * GRAVITY)
+    found: Complex = mass * GRAVITY * (np.conj(axis) * np.asarray(down)[..., None]).real * axis
+    return found

@@ -150,6 +150,22 @@ def tolerances(draw: Draw, body: Body) -> Body:
     return body
 
 
+def parts(draw: Draw, body: Body) -> Body:
+    """Rows made of parts, and rods with a centre of mass."""
+    for throw in body["machine"]["throws"]:
+        for row in throw["rows"]:
+            row["parts"] = [
+                {"name": str(k), "mass_kg": draw.size(-15, 15, (1, 50), zero=True), "motion": motion}
+                for k, motion in enumerate(draw.rng.choices(("reciprocating", "rotating"), k=draw.rng.randint(1, 4)))
+            ]
+            if draw.rng.random() < 0.7:
+                del row["reciprocating_mass_kg"]
+            rod = row["connecting_rod"]
+            if rod is not None and rod["length_m"] is not None:
+                rod["centre_of_mass_m"] = rod["length_m"] * draw.one_of(1e-6, 1 / 3, 1.0, draw.rng.uniform(0.1, 0.9))
+    return body
+
+
 def match(draw: Draw, body: Body) -> Body:
     """Parts and nuts for the rows, on counterweights that are there or are chosen."""
     machine, rng = body["machine"], draw.rng
@@ -191,6 +207,7 @@ FEATURES: Mapping[str, tuple[Callable[[Draw, Body], Body], bool]] = {
     "axis ceilings": (axis_ceilings, True),
     "scenarios": (scenarios, True),
     "tolerances": (tolerances, True),
+    "parts": (parts, False),
     "match": (match, False),
 }
 

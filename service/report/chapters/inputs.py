@@ -121,6 +121,12 @@ def _reciprocating(machine: ReciprocatingMachine) -> Iterator[Block]:
                 for throw, name, plane, row in rows
             ],
         )  # fmt: skip
+    parts = [(name, part.name, part.mass_kg, part.motion) for _, name, _, row in rows for part in row.parts]
+    if parts:
+        yield table("Parts of the rows", ["row", "part", "#mass, kg", "motion"], parts)
+    if machine.shaft_parts:
+        turning = [(part.name, part.position_m, part.mass_kg) for part in machine.shaft_parts]
+        yield table("Balanced parts of the shaft", ["part", "#plane z, m", "#mass, kg"], turning)
     cylinders = [
         (name if at == ("cylinder",) else f"{name}, {getattr(one, 'name', None) or f'cylinder {int(at[-1]) + 1}'}", one)
         for _, name, _, row in rows
@@ -135,7 +141,7 @@ def _rod(row: Row) -> tuple[Cell | float | None, float | None, float | None]:
     rod = row.connecting_rod
     if rod is None:
         return None, None, None
-    return "infinite" if rod.length_m is None else rod.length_m, rod.mass_kg, rod.reciprocating_share
+    return "infinite" if rod.length_m is None else rod.length_m, rod.mass_kg, rod.share
 
 
 def _cylinders(cylinders: list[tuple[str, Cylinder]]) -> Iterator[Block]:

@@ -17,8 +17,9 @@ def loads(machine: Machine, found: Loads) -> Chapter:
 
 def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
     named = [(row_name(machine, row.throw, row.row), row) for row in found.rows]
-    heads = ["row", "#reciprocating, kg", "#turning part of the rod, kg"]
-    yield table("Masses", heads, [(name, row.reciprocating_mass_kg, row.rod_rotating_mass_kg) for name, row in named])
+    heads = ["row", "#reciprocating, kg", "#turning, kg", "#of the rod, kg"]
+    masses = [(name, row.reciprocating_mass_kg, row.rotating_mass_kg, row.rod_rotating_mass_kg) for name, row in named]
+    yield table("Masses", heads, masses)
     heads = [
         "row", "#gas, N", "#inertia, N", "#running, N", "#piston rod and pin, N", "governed by", "#crosshead pin, N",
     ]  # fmt: skip
@@ -67,11 +68,12 @@ def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
             ("mean torque, that of the driver, N m", found.driver_Nm),
             ("largest torque on a base of the machine's own, N m", found.own_base_peak_Nm),
             ("largest on a base shared with the driver, N m", found.shared_base_peak_Nm),
+            ("weight of the machine on its foundation, N", found.foundation_weight_N),
         ],
     )
     if found.bearing_weights:
-        weights = [(one.name, one.weight_N) for one in found.bearing_weights]
-        yield table("Weight on the main bearings", ["bearing", "#weight, N"], weights)
+        weights = [(one.name, one.weight_N, one.x_N, one.y_N) for one in found.bearing_weights]
+        yield table("Weight on the main bearings", ["bearing", "#weight, N", "#along x, N", "#along y, N"], weights)
     lines = [Line("torque less its mean", found.shared_base_Nm)]
     caption = "What leaves a base that machine and driver share; by Newton also the torque of the turning masses."
     yield figure("torque on a shared base", "N m", found.angle_deg, lines, caption)
