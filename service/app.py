@@ -15,6 +15,7 @@ from schemas.version import package_version
 from service.guard.access import Access
 from service.guard.hosts import Hosts
 from service.guard.keys import keys
+from service.guard.looks import Looks
 from service.guard.rates import RateLimits
 from service.guard.shares import Shares
 from service.guard.threads import Threads
@@ -159,6 +160,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app.state.desk = desk
     app.state.pool = pool
     app.state.threads = threads
+    app.state.looks = Looks()
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)

@@ -74,6 +74,11 @@ class OwnerJobs:
         self._parts, self._owner, self._sees_all = parts, owner, sees_all
 
     @property
+    def view(self) -> tuple[str | None, bool]:
+        """Whose jobs are seen: all with the same view see the same."""
+        return self._owner, self._sees_all
+
+    @property
     def closing(self) -> Event:
         """Set when the service is about to stop."""
         return self._parts.closing

@@ -1,8 +1,9 @@
 """Sweeps, and the other jobs that are answered later."""
 
+import json
 from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
-from typing import Annotated, Any, BinaryIO, Literal
+from typing import Annotated, BinaryIO, Literal
 
 from fastapi import APIRouter, Depends, Query
 from starlette.requests import Request
@@ -12,6 +13,7 @@ from optimizer.sweep.plan import plan
 from schemas.sweep import SweepEstimate, SweepRequest, SweepState
 from service.guard.access import needs
 from service.guard.keys import still_admitted
+from service.guard.looks import looked
 from service.guard.shares import holding
 from service.guard.threads import in_threads, threads_of
 from service.http.accept import liked
@@ -78,18 +80,23 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     operation_id="list_sweeps",
     dependencies=_SEES,
     summary="All sweeps, newest first",
+    response_model=SweepPage,
     responses=problems(404, 422, 503),
 )
-@in_threads
-def list_sweeps(
+async def list_sweeps(
     request: Request,
     desk: Jobs,
     limit: Annotated[int, Query(ge=1, le=200, description="how many at most")] = 50,
     before: Annotated[str | None, Query(description="id of the sweep after which to go on", max_length=64)] = None,
-) -> SweepPage:
-    jobs = desk.page(limit + 1, before)
-    more = f"{prefix(request)}/v1/sweeps?limit={limit}&before={jobs[limit - 1].id}" if len(jobs) > limit else None
-    return SweepPage(sweeps=tuple(desk.state(job, prefix(request)) for job in jobs[:limit]), next=more)
+) -> Response:
+    where = prefix(request)
+
+    def page() -> str:
+        jobs = desk.page(limit + 1, before)
+        more = f"{where}/v1/sweeps?limit={limit}&before={jobs[limit - 1].id}" if len(jobs) > limit else None
+        return SweepPage(sweeps=tuple(desk.state(job, where) for job in jobs[:limit]), next=more).model_dump_json()
+
+    return _json(await looked(request, (page.__qualname__, desk.view, where, limit, before), page))
 
 
 @router.get(
@@ -100,9 +107,13 @@ def list_sweeps(
     response_model=SweepState,
     responses=problems(404, 503),
 )
-@in_threads
-def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
-    return _state(request, desk, desk.get(id))
+async def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
+    where = prefix(request)
+
+    def state() -> str:
+        return desk.state(desk.get(id), where).model_dump_json()
+
+    return _json(await looked(request, (state.__qualname__, desk.view, where, id), state))
 
 
 @router.delete(
@@ -117,7 +128,9 @@ def read_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
 def delete_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """A cancelled sweep keeps the rows that are finished; delete it once more to remove them."""
     cancelled = desk.end(id)
-    return Response(status_code=204) if cancelled is None else _state(request, desk, cancelled)
+    if cancelled is None:
+        return Response(status_code=204)
+    return _json(desk.state(cancelled, prefix(request)).model_dump_json())
 
 
 @router.post(
@@ -143,11 +156,15 @@ def resume_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A0
     response_class=JSONResponse,
     responses=problems(404, 503),
 )
-@in_threads
-def describe_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
+async def describe_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noqa: A002
     """What a file of Parquet or Arrow holds itself, for CSV and NDJSON."""
-    job = desk.get(id)
-    return JSONResponse(description(desk.schema(job)) if job.kind == "sweep" else {"kind": job.kind})
+
+    def described() -> str:
+        job = desk.get(id)
+        about = description(desk.schema(job)) if job.kind == "sweep" else {"kind": job.kind}
+        return json.dumps(about, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+
+    return _json(await looked(request, (described.__qualname__, desk.view, id), described))
 
 
 @router.get(
@@ -239,7 +256,7 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     def look() -> News:
         return news(desk, desk.get(id), where)
 
-    first = await threads_of(request).run(holding(request).who, look)
+    first = await looked(request, (look.__qualname__, desk.view, where, id), look)
     job = first.job
     seen = request.headers.get("last-event-id", "")
     last = int(seen) if seen.isascii() and seen.isdecimal() and len(seen) < 19 else None
@@ -260,8 +277,7 @@ async def watch_sweep(request: Request, desk: Jobs, id: str) -> Response:  # noq
     return StreamingResponse(told, headers=headers, media_type="text/event-stream")
 
 
-def _state(request: Request, desk: OwnerJobs, job: Job) -> Response:
-    content: Any = desk.state(job, prefix(request)).model_dump_json()
+def _json(content: str) -> Response:
     return Response(content, media_type="application/json", headers=_NO_STORE)
 
 

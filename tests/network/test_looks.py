@@ -1,0 +1,107 @@
+"""Looks: one answers all who ask meanwhile, and none is older than the question."""
+
+import asyncio
+import threading
+from collections.abc import Callable, Coroutine
+from typing import Any
+
+from service.guard.looks import Looks
+
+
+class Slow:
+    """A look that takes until it is let go."""
+
+    def __init__(self) -> None:
+        self.taken = 0
+        self.begun, self.go = threading.Event(), threading.Event()
+
+    def __call__(self) -> int:
+        self.taken += 1
+        found = self.taken
+        self.begun.set()
+        assert self.go.wait(180)
+        return found
+
+
+def run(work: Callable[[], Coroutine[Any, Any, Any]]) -> Any:
+    async def timed() -> Any:
+        async with asyncio.timeout(180):
+            return await work()
+
+    return asyncio.run(timed())
+
+
+async def waiting(looks: Looks, look: Slow, count: int) -> list[asyncio.Task[int]]:
+    """So many who ask for the same, all of them waiting."""
+    asking = [asyncio.create_task(looks.at("me", "state", look)) for _ in range(count)]
+    await asyncio.sleep(0)
+    return asking
+
+
+def test_those_who_ask_while_one_is_taken_share_the_next() -> None:
+    async def found() -> list[int]:
+        looks, look = Looks(), Slow()
+        first = await waiting(looks, look, 1)
+        await asyncio.to_thread(look.begun.wait, 180)
+        later = await waiting(looks, look, 300)
+        look.go.set()
+        return await asyncio.gather(*first, *later)
+
+    # nobody is told what was found before he asked
+    assert run(found) == [1, *[2] * 300]
+
+
+def test_a_client_looks_at_one_thing_at_a_time_and_keeps_nobody_else_waiting() -> None:
+    async def found() -> tuple[int, str, bool]:
+        looks, look = Looks(), Slow()
+        many = [asyncio.create_task(looks.at("many", k, look)) for k in range(100)]
+        await asyncio.to_thread(look.begun.wait, 180)
+        other = await looks.at("other", 0, lambda: "seen")
+        taken, waits = look.taken, not any(each.done() for each in many)
+        look.go.set()
+        assert sorted(await asyncio.gather(*many)) == list(range(1, 101))
+        return taken, other, waits
+
+    assert run(found) == (1, "seen", True)
+
+
+def test_who_leaves_takes_nothing_from_the_others() -> None:
+    async def found() -> int:
+        looks, look = Looks(), Slow()
+        gone, stays = await waiting(looks, look, 2)
+        gone.cancel()
+        look.go.set()
+        return await stays
+
+    assert run(found) == 1
+
+
+def test_what_goes_wrong_is_told_to_all_and_the_next_look_is_another() -> None:
+    def fails() -> int:
+        raise KeyError("gone")
+
+    async def found() -> list[object]:
+        looks = Looks()
+        told: list[object] = list(
+            await asyncio.gather(*(looks.at("me", "state", fails) for _ in range(3)), return_exceptions=True)
+        )
+        return [*map(repr, told), await looks.at("me", "state", lambda: 1)]
+
+    assert run(found) == ["KeyError('gone')"] * 3 + [1]
+
+
+def test_after_its_looks_a_client_is_forgotten() -> None:
+    async def left() -> tuple[int, int]:
+        looks = Looks()
+        for k in range(5):
+            await asyncio.gather(*(looks.at(f"client {k}", 0, lambda: None) for _ in range(3)))
+        while looks._own:
+            await asyncio.sleep(0.01)
+        return len(looks._own), len(looks._asked)
+
+    assert run(left) == (0, 0)
+
+
+def test_the_looks_of_a_loop_that_has_ended_are_gone_with_it() -> None:
+    looks = Looks()
+    assert [run(lambda: looks.at("me", "state", lambda: 1)) for _ in range(3)] == [1, 1, 1]
