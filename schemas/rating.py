@@ -8,6 +8,7 @@ from pydantic import Field, Strict
 
 from schemas.base import Model, NotEmpty
 from schemas.quantities import Count, Fraction, Name
+from schemas.rating_tables import MAX_CHOICES, LossCurve, Motor, PistonRod, TemperatureCurve, choice_rules
 from schemas.rules import Rule, Ruled
 from schemas.units import Unit
 
@@ -52,8 +53,10 @@ class CompressionStage(Ruled):
     acting: Literal["double", "head", "crank"] = Field(
         "double", description="which sides of the piston compress gas", examples=["double"]
     )
-    piston_rod_diameter_m: RodDiameter = Field(
-        description="diameter of the piston rod, on the crank side only; 0 where there is none", examples=[0.11]
+    piston_rod_diameter_m: Annotated[RodDiameter | None, Unit("m")] = Field(
+        description="diameter of the piston rod, on the crank side only; 0 where there is none, null chooses from "
+        "piston_rods",
+        examples=[0.11],
     )
     bore_m: Annotated[Bore | None, Unit("m")] = Field(
         None, description="bore as built; null is the calculated bore, rounded to the series", examples=[0.73]
@@ -82,7 +85,12 @@ class CompressionStage(Ruled):
         description="pressure coefficient of the delivery; null is 0.97 in the first stage and 0.99 in the others",
         examples=[0.97],
     )
-    temperature_coefficient: Share = Field(0.96, description="temperature coefficient of the delivery", examples=[0.96])
+    temperature_coefficient: Share | None = Field(
+        None,
+        description="temperature coefficient of the delivery; null reads it off temperature_curve, without which it is "
+        "0.96",
+        examples=[0.96],
+    )
     leakage_coefficient: Share | None = Field(
         None, description="leakage coefficient of the delivery, in place of the leaks", examples=[0.945]
     )
@@ -100,17 +108,19 @@ class CompressionStage(Ruled):
     suction_pressure_loss: Loss | None = Field(
         None,
         description="relative pressure loss at suction, for air at a mean piston speed of 3.5 m/s; "
-        "null is the power law through the readings in the design calculation of the 2D12-90/2-20 compressor",
+        "null reads it off suction_loss_curve, without which it is the power law through the readings in the design "
+        "calculation of the 2D12-90/2-20 compressor",
         examples=[0.036],
     )
     discharge_pressure_loss: Loss | None = Field(
-        None, description="the same at discharge; null likewise", examples=[0.061]
+        None, description="the same at discharge; null likewise, off discharge_loss_curve", examples=[0.061]
     )
 
     def rules(self) -> Iterator[Rule]:
         unclear = (self.leakage_coefficient is None) == (self.relative_leaks is None)
         yield Rule(unclear, ("leakage_coefficient",), "give either the leakage coefficient or the relative leaks")
-        thick = self.bore_m is not None and self.piston_rod_diameter_m >= self.bore_m
+        rod, bore = self.piston_rod_diameter_m, self.bore_m
+        thick = rod is not None and bore is not None and rod >= bore
         yield Rule(thick, ("piston_rod_diameter_m",), "must be smaller than the bore")
 
 
@@ -201,7 +211,38 @@ class RatingRequest(Ruled):
         None, description="power of the motor that is there; if it is too small the answer warns", examples=[450000.0]
     )
 
+    piston_rods: tuple[PistonRod, ...] = Field(
+        (),
+        max_length=MAX_CHOICES,
+        description="standard piston rods, the thinnest first; a stage whose diameter is null gets the thinnest that "
+        "bears its gas force, which is found by doing the design over",
+        examples=[[{"diameter_m": 0.09, "largest_force_N": 160000}, {"diameter_m": 0.11, "largest_force_N": 250000}]],
+    )
+    motors: tuple[Motor, ...] = Field(
+        (),
+        max_length=MAX_CHOICES,
+        description="motors, the weakest first; of those within 5 percent of speed_rpm the weakest that suffices is "
+        "chosen, and the machine runs at its speed",
+        examples=[[{"power_W": 1400000, "speed_rpm": 496}]],
+    )
+    suction_loss_curve: LossCurve | None = Field(
+        None, description="pressure losses at suction of stages that do not say theirs", examples=[None]
+    )
+    discharge_loss_curve: LossCurve | None = Field(
+        None, description="pressure losses at discharge of stages that do not say theirs", examples=[None]
+    )
+    temperature_curve: TemperatureCurve | None = Field(
+        None, description="temperature coefficients of stages that do not say theirs", examples=[None]
+    )
+
     def rules(self) -> Iterator[Rule]:
+        yield from choice_rules(self.piston_rods, self.motors)
+        both = bool(self.motors) and self.installed_motor_power_W is not None
+        yield Rule(both, ("installed_motor_power_W",), "give either the motor that is there or motors to choose from")
+        for index, stage in enumerate(self.stages):
+            unsaid = stage.piston_rod_diameter_m is None and not self.piston_rods
+            path = ("stages", index, "piston_rod_diameter_m")
+            yield Rule(unsaid, path, "give it, or piston_rods to choose from")
         falls = self.discharge_pressure_Pa <= self.suction_pressure_Pa
         yield Rule(falls, ("discharge_pressure_Pa",), "must be above the suction pressure")
         if self.interstage_pressures_Pa is not None and not falls:

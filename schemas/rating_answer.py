@@ -17,6 +17,7 @@ CubicMetres = Annotated[float, Unit("m3")]
 CubicMetresPerMinute = Annotated[float, Unit("m3/min")]
 MetresPerSecond = Annotated[float, Unit("m/s")]
 Watts = Annotated[float, Unit("W")]
+RevolutionsPerMinute = Annotated[float, Unit("rpm")]
 
 
 class StageState(Model):
@@ -76,6 +77,14 @@ class PressureLosses(Model):
     discharge: float = Field(description="at discharge", examples=[0.0797])
 
 
+class CoefficientSources(Model):
+    """Where coefficients are from: the request, or what the curve that was read says of itself."""
+
+    suction_pressure_loss: str = Field(description="of the pressure loss at suction", examples=["request"])
+    discharge_pressure_loss: str = Field(description="of the pressure loss at discharge", examples=["request"])
+    temperature_coefficient: str = Field(description="of the temperature coefficient", examples=["request"])
+
+
 class StageRating(Model):
     """One stage, from the nominal pressures to the power."""
 
@@ -124,10 +133,37 @@ class StageRating(Model):
     actual_loads: GasLoads = Field(
         description="gas forces of the actual size at the pressures in the cylinder", examples=[{"largest_N": 239491}]
     )
+    sources: CoefficientSources = Field(
+        description="where coefficients of the stage are from", examples=[{"temperature_coefficient": "request"}]
+    )
     indicated_power_W: Watts = Field(description="indicated power of all cylinders of the stage", examples=[608300.0])
     cylinder: Cylinder = Field(
         description="gas data of one cylinder, as a row of a machine takes them", examples=[{"bore_m": 0.73}]
     )
+
+
+class ChoiceStep(Model):
+    """One design on the way to rods and motor that suffice."""
+
+    speed_rpm: RevolutionsPerMinute = Field(description="speed of the shaft", examples=[496.0])
+    piston_rod_diameters_m: tuple[Metres, ...] = Field(description="rods of the stages", examples=[[0.09, 0.09]])
+    rod_loads_N: tuple[Newtons, ...] = Field(
+        description="largest gas forces of the stages with them", examples=[[236000.0, 234000.0]]
+    )
+    motor_power_W: Watts = Field(description="motor needed, with its margin", examples=[1394074.0])
+
+
+class Choice(Model):
+    """What was chosen from the tables of the request."""
+
+    speed_rpm: RevolutionsPerMinute = Field(description="speed of the shaft: that of the motor", examples=[496.0])
+    piston_rod_diameters_m: tuple[Metres, ...] = Field(
+        description="rods of the stages, chosen or given", examples=[[0.11, 0.11]]
+    )
+    motor_power_W: Watts | None = Field(
+        description="power of the motor; null where there were none to choose from", examples=[1400000.0]
+    )
+    steps: tuple[ChoiceStep, ...] = Field(description="designs on the way, the last with these", examples=[[]])
 
 
 class RatingWarning(Model):
@@ -167,6 +203,9 @@ class RatingAnswer(Answer):
     indicated_power_W: Watts = Field(description="indicated power of all stages", examples=[1191300.0])
     shaft_power_W: Watts = Field(description="indicated power over mechanical efficiency", examples=[1267340.0])
     motor_power_W: Watts = Field(description="motor needed, with its margin", examples=[1394074.0])
+    choice: Choice | None = Field(
+        None, description="rods and motor from the tables of the request; null without such", examples=[None]
+    )
     warnings: tuple[RatingWarning, ...] = Field(
         description="figures that leave their customary range", examples=[[{"code": "capacity"}]]
     )

@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from optimizer.errors import refuse
+from optimizer.rating.curves import discharge_losses, suction_losses
 from optimizer.rating.design import StageDesign, delivery
-from optimizer.rating.losses import DISCHARGE, SUCTION, corrected_loss, mean_piston_speed, pressures_in_cylinder
+from optimizer.rating.losses import corrected_loss, mean_piston_speed, pressures_in_cylinder
 from optimizer.rating.ratios import stage_state
 from optimizer.rating.sizes import nominal_bore, pressure_correction
 from schemas.base import FieldProblem
@@ -51,11 +52,11 @@ def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageB
     corrections = [1.0, *inner, 1.0]
     corrected = [_corrected(one, *corrections[i : i + 2]) for i, one in enumerate(designs)]
     refuse(_order_problems(corrected))
-    reference = [_reference_losses(one) for one in designs]
+    reference = [_reference_losses(request, one) for one in designs]
     losses = [_losses(request, one) for one in reference]
     refuse(_loss_problems(losses))
     in_cylinder = [_in_cylinder(one, state, loss) for one, state, loss in zip(designs, corrected, losses, strict=True)]
-    coefficients = delivery(request.stages, in_cylinder, [one.m for one in designs])
+    coefficients = delivery(request, in_cylinder, [one.m for one in designs])
     return [
         StageBuilt(
             size=sizes[i],
@@ -95,11 +96,11 @@ def _in_cylinder(one: StageDesign, state: StageState, losses: PressureLosses) ->
     return stage_state(p_s, p_d, one.given.suction_temperature_K, one.n)
 
 
-def _reference_losses(one: StageDesign) -> PressureLosses:
+def _reference_losses(request: RatingRequest, one: StageDesign) -> PressureLosses:
     suction, discharge = one.given.suction_pressure_loss, one.given.discharge_pressure_loss
     return PressureLosses(
-        suction=SUCTION.at(one.nominal.suction_pressure_Pa) if suction is None else suction,
-        discharge=DISCHARGE.at(one.nominal.discharge_pressure_Pa) if discharge is None else discharge,
+        suction=suction_losses(request).at(one.nominal.suction_pressure_Pa) if suction is None else suction,
+        discharge=discharge_losses(request).at(one.nominal.discharge_pressure_Pa) if discharge is None else discharge,
     )
 
 

@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 
 from optimizer.rating.built import StageBuilt
+from optimizer.rating.curves import discharge_losses, suction_losses, temperature_coefficients
 from optimizer.rating.design import StageDesign
-from optimizer.rating.losses import DISCHARGE, SUCTION, mean_piston_speed
+from optimizer.rating.losses import mean_piston_speed
 from schemas.rating import RatingRequest
 from schemas.rating_answer import RatingWarning
 
@@ -35,9 +36,13 @@ def stage_warnings(
             yield RatingWarning(code="pressure_coefficient", message=message, stage=number)
         if message := _outside(c.temperature, *TEMPERATURE_COEFFICIENTS):
             yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
+        curve = temperature_coefficients(request)
+        if one.given.temperature_coefficient is None and curve and not curve.covers(one.nominal.pressure_ratio):
+            message = f"it is extrapolated beyond the readings to a pressure ratio of {one.nominal.pressure_ratio:.4g}"
+            yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
         if message := _outside(c.leakage, *LEAKAGE_COEFFICIENTS):
             yield RatingWarning(code="leakage_coefficient", message=message, stage=number)
-        if sides := " and ".join(_extrapolated(one)):
+        if sides := " and ".join(_extrapolated(request, one)):
             message = f"the loss at {sides} is extrapolated beyond the readings of the chart; give it"
             yield RatingWarning(code="pressure_losses", message=message, stage=number)
         rated = request.rated_rod_load_N
@@ -65,8 +70,9 @@ def _outside(value: float, low: float, high: float) -> str:
     return "" if low <= value <= high else f"{value:.4g} is not within the customary {low:.4g} to {high:.4g}"
 
 
-def _extrapolated(one: StageDesign) -> Iterator[str]:
-    if one.given.suction_pressure_loss is None and not SUCTION.cover(one.nominal.suction_pressure_Pa):
+def _extrapolated(request: RatingRequest, one: StageDesign) -> Iterator[str]:
+    given, nominal = one.given, one.nominal
+    if given.suction_pressure_loss is None and not suction_losses(request).covers(nominal.suction_pressure_Pa):
         yield "suction"
-    if one.given.discharge_pressure_loss is None and not DISCHARGE.cover(one.nominal.discharge_pressure_Pa):
+    if given.discharge_pressure_loss is None and not discharge_losses(request).covers(nominal.discharge_pressure_Pa):
         yield "discharge"

@@ -4,6 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from optimizer.errors import refuse
+from optimizer.rating.curves import TEMPERATURE_COEFFICIENT, Curve, temperature_coefficients
 from optimizer.rating.delivery import (
     coefficients,
     expansion_exponent,
@@ -45,8 +46,8 @@ def suction_per_capacity(request: RatingRequest) -> float:
     return at_suction(p, T, p1, T1)
 
 
-def design(request: RatingRequest) -> list[StageDesign]:
-    """Every stage between its nominal pressures, (1-1) to (1-12) and (1-17).
+def design(request: RatingRequest, rods: Sequence[float]) -> list[StageDesign]:
+    """Every stage between its nominal pressures, (1-1) to (1-12) and (1-17), with rods of these diameters [m].
 
     Raises
     ------
@@ -66,7 +67,7 @@ def design(request: RatingRequest) -> list[StageDesign]:
         stage.expansion_exponent or expansion_exponent(p1, request.isentropic_exponent)
         for stage, p1 in zip(stages, pressures[:-1], strict=True)
     ]
-    found = delivery(stages, nominal, expansion)
+    found = delivery(request, nominal, expansion)
     saturation = _saturation(request)
     condensate = [1.0] * len(stages)
     if saturation is not None:
@@ -77,7 +78,7 @@ def design(request: RatingRequest) -> list[StageDesign]:
         share = condensate[i] * stage.side_flow_coefficient
         temperatures = stages[0].suction_temperature_K, stage.suction_temperature_K
         here = stage_flow(flow, pressures[0], pressures[i], *temperatures, share)
-        piston = Piston(stage.cylinders, stage.acting, stage.piston_rod_diameter_m, request.stroke_m)
+        piston = Piston(stage.cylinders, stage.acting, rods[i], request.stroke_m)
         bore = piston.bore(swept_volume(here, request.speed_rpm, found[i].delivery))
         designs.append(
             StageDesign(
@@ -97,7 +98,7 @@ def design(request: RatingRequest) -> list[StageDesign]:
 
 
 def delivery(
-    stages: Sequence[CompressionStage], states: Sequence[StageState], expansion: Sequence[float]
+    request: RatingRequest, states: Sequence[StageState], expansion: Sequence[float]
 ) -> list[DeliveryCoefficients]:
     """Delivery coefficients of every stage between these pressures, (1-4) to (1-6).
 
@@ -106,6 +107,7 @@ def delivery(
     OutOfRange
         if a clearance leaves nothing to take in.
     """
+    stages, curve = request.stages, temperature_coefficients(request)
     volumetric = [
         volumetric_coefficient(stage.relative_clearance, state.pressure_ratio, m)
         for stage, state, m in zip(stages, states, expansion, strict=True)
@@ -120,9 +122,21 @@ def delivery(
     )
     leakage = leakage_coefficients(stages)
     return [
-        coefficients(volumetric[i], pressure_coefficient(stage, i), stage.temperature_coefficient, leakage[i])
+        coefficients(
+            volumetric[i],
+            pressure_coefficient(stage, i),
+            _temperature_coefficient(stage, curve, states[i].pressure_ratio),
+            leakage[i],
+        )
         for i, stage in enumerate(stages)
     ]
+
+
+def _temperature_coefficient(stage: CompressionStage, curve: Curve | None, ratio: float) -> float:
+    """lam_T as given, read off the curve at a pressure ratio, or customary."""
+    if stage.temperature_coefficient is not None:
+        return stage.temperature_coefficient
+    return TEMPERATURE_COEFFICIENT if curve is None else curve.at(ratio)
 
 
 def _saturation(request: RatingRequest) -> list[float] | None:

@@ -1,14 +1,24 @@
 """The thermal design of a compressor, from the request to the answer."""
 
+from collections.abc import Sequence
+
 from optimizer.rating.built import StageBuilt, build, piston_speed
+from optimizer.rating.choice import chosen
+from optimizer.rating.curves import (
+    GIVEN,
+    TEMPERATURE_SOURCE,
+    discharge_losses,
+    suction_losses,
+    temperature_coefficients,
+)
 from optimizer.rating.customary import machine_warnings, stage_warnings
 from optimizer.rating.design import StageDesign, design, suction_per_capacity
 from optimizer.rating.loads import gas_loads
 from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
 from optimizer.rating.ratios import discharge_temperature
 from schemas.cylinder import Cylinder
-from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingAnswer, StageRating
+from schemas.rating import CompressionStage, RatingRequest
+from schemas.rating_answer import CoefficientSources, RatingAnswer, StageRating
 
 
 def rate(request: RatingRequest) -> RatingAnswer:
@@ -19,7 +29,16 @@ def rate(request: RatingRequest) -> RatingAnswer:
     OutOfRange
         if no machine can do what is asked; names the fields.
     """
-    designs = design(request)
+    given = [stage.piston_rod_diameter_m for stage in request.stages]
+    diameters = [one for one in given if one is not None]
+    if request.motors or len(diameters) < len(given):
+        return chosen(request, _rated)
+    return _rated(request, diameters)
+
+
+def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
+    """The machine at the speed of the request, with piston rods of these diameters [m]."""
+    designs = design(request, rods)
     built = build(request, designs)
     stages = tuple(_stage(request, one, actual) for one, actual in zip(designs, built, strict=True))
     capacity = suction_flow(
@@ -73,6 +92,7 @@ def _stage(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Stag
         actual_loads=gas_loads(
             inside.suction_pressure_Pa, inside.discharge_pressure_Pa, ambient, given.acting, actual.size
         ),
+        sources=_sources(request, given),
         indicated_power_W=indicated_power(
             inside.suction_pressure_Pa,
             actual.size.swept_volume_m3,
@@ -85,11 +105,21 @@ def _stage(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Stag
     )
 
 
+def _sources(request: RatingRequest, given: CompressionStage) -> CoefficientSources:
+    curve = temperature_coefficients(request)
+    customary = TEMPERATURE_SOURCE if curve is None else curve.source
+    return CoefficientSources(
+        suction_pressure_loss=suction_losses(request).source if given.suction_pressure_loss is None else GIVEN,
+        discharge_pressure_loss=discharge_losses(request).source if given.discharge_pressure_loss is None else GIVEN,
+        temperature_coefficient=customary if given.temperature_coefficient is None else GIVEN,
+    )
+
+
 def _cylinder(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Cylinder:
     """One cylinder as a row of a machine takes it: pressures in the cylinder, exponents of the thermal design."""
     return Cylinder(
         bore_m=actual.size.bore_m,
-        piston_rod_diameter_m=one.given.piston_rod_diameter_m,
+        piston_rod_diameter_m=one.piston.rod,
         acting=one.given.acting,
         suction_pressure_Pa=actual.in_cylinder.suction_pressure_Pa,
         discharge_pressure_Pa=actual.in_cylinder.discharge_pressure_Pa,

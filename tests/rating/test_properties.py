@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.rating.losses import DISCHARGE, SUCTION
+from optimizer.rating.curves import DISCHARGE, SUCTION
 from optimizer.rating.power import indicated_power
 from optimizer.rating.rate import rate
 from optimizer.rating.sizes import Piston, nominal_bore

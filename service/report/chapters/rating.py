@@ -1,9 +1,9 @@
 """The thermal design of a compressor: the stages side by side, the totals, the warnings."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 
 from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingAnswer, StageRating
+from schemas.rating_answer import Choice, RatingAnswer, StageRating
 from service.report.blocks import Chapter, Paragraph, facts, table
 
 _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
@@ -43,7 +43,7 @@ _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
 
 def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
     """Stages, totals and warnings."""
-    names = (one.name or str(place) for place, one in enumerate(answer.stages, 1))
+    names = [one.name or str(place) for place, one in enumerate(answer.stages, 1)]
     rows = [(name, level, *map(figure, answer.stages)) for name, level, figure in _FIGURES]
     yield Chapter("Stages", (table("", ["", "", *(f"#{name}" for name in names)], rows),))
     totals = facts(
@@ -60,8 +60,32 @@ def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
         ],
     )
     yield Chapter("Machine", (totals,))
+    if answer.choice is not None:
+        yield _chosen(names, answer.choice)
+    heads = ["stage", "loss at suction", "loss at discharge", "temperature coefficient"]
+    said = [(name, stage.sources) for name, stage in zip(names, answer.stages, strict=True)]
+    sources = [
+        (name, one.suction_pressure_loss, one.discharge_pressure_loss, one.temperature_coefficient)
+        for name, one in said
+    ]
+    yield Chapter("Sources of coefficients", (table("", heads, sources),))
     if answer.warnings:
         yield Chapter("Warnings", tuple(_warnings(answer)))
+
+
+def _chosen(names: Sequence[str], choice: Choice) -> Chapter:
+    """The designs on the way to rods and motor that suffice."""
+    heads = [
+        "#design", "#speed, rpm", *(f"#rod {name}, m" for name in names), *(f"#load {name}, N" for name in names),
+        "#motor needed, W",
+    ]  # fmt: skip
+    rows = [
+        (number, one.speed_rpm, *one.piston_rod_diameters_m, *one.rod_loads_N, one.motor_power_W)
+        for number, one in enumerate(choice.steps, 1)
+    ]
+    words = "Rods and motor from the tables of the request: the design is done over until both suffice."
+    motor = facts("", [("motor, W", choice.motor_power_W), ("speed of the shaft, rpm", choice.speed_rpm)])
+    return Chapter("Choice", (Paragraph(words), table("", heads, rows), motor))
 
 
 def _warnings(answer: RatingAnswer) -> Iterator[Paragraph]:
