@@ -2,8 +2,8 @@
 
 import os
 import shutil
-import subprocess
-import sys
+
+from tests.debian import install, say_missing
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome-stable", "google-chrome")
 _INSTALL_WITHIN_S = 300.0
@@ -15,31 +15,11 @@ def find() -> str | None:
     return os.environ.get("CHROMIUM") or next(filter(None, map(shutil.which, _NAMES)), None)
 
 
-def install() -> None:
-    """Install Debian's package, if we are root on a system that has apt; nothing waits for ever, nothing is asked."""
-    if os.geteuid() != 0 or shutil.which("apt-get") is None:
-        return
-    environment = {**os.environ, "DEBIAN_FRONTEND": "noninteractive"}
-    for command in (["update"], ["install", "--yes", "--no-install-recommends", "chromium"]):
-        try:
-            subprocess.run(
-                ["apt-get", "--quiet", "-o", "DPkg::Lock::Timeout=60", *command],
-                env=environment,
-                stdin=subprocess.DEVNULL,
-                stdout=subprocess.DEVNULL,
-                timeout=_INSTALL_WITHIN_S,
-                check=True,
-            )
-        except (subprocess.SubprocessError, OSError) as error:
-            print(f"apt-get {command[0]} failed: {error}", file=sys.stderr)
-            return
-
-
 def main() -> None:
     if find() is None:
-        install()
+        install("chromium", within_s=_INSTALL_WITHIN_S)
     if find() is None:
-        print(f"\n{'!' * 100}\n{MISSING}\n{'!' * 100}\n", file=sys.stderr)
+        say_missing(MISSING)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,107 @@
+"""Tables of a machine to a request, and what is wrong back to a cell."""
+
+import pytest
+from freecad.counterweight.asking import ask
+from freecad.counterweight.service import Refused, Service
+from freecad.counterweight.sheets import Asked, Wrong, from_tables, letters, merged, table
+
+ENVELOPE = {"envelope.shape": "sector", "envelope.outer_radius_m": 0.3, "envelope.thickness_m": 0.05}
+TABLES = {
+    "machine": [["field", "value"], ["machine.speed_rpm", 500.0], ["objective.priorities", '["force"]']],
+    "throws": [
+        ["use", "name", "position_m", "crank_radius_m", "crank_angle_deg"],
+        ["no", "web?", 0.0, 0.05, 0.0],
+        ["yes", 1.0, 0.175, 0.14, 0.0],
+        ["yes", "2", -0.175, 0.14, 180.0],
+    ],
+    "rows": [
+        ["throw", "name", "axis_deg", "reciprocating_mass_kg", "connecting_rod.mass_kg", "rod"],
+        ["2", "II", 180.0, 250.0, None, "Rod 2"],
+        [1, "I", 0.0, 270.0, 86.0, None],
+    ],
+    "webs": table(["name", "position_m", *ENVELOPE], [{"name": "1a", "position_m": 0.28, **ENVELOPE}]),
+}
+
+
+def test_the_request_of_tables() -> None:
+    found = from_tables(TABLES)
+    machine = found.body["machine"]
+    assert found.body["objective"] == {"priorities": ["force"]}
+    # the doubtful pin does not count; a spreadsheet made a number of the name
+    assert [throw["name"] for throw in machine["throws"]] == ["1", "2"]
+    assert machine["throws"][0]["rows"] == [
+        {"name": "I", "axis_deg": 0.0, "reciprocating_mass_kg": 270.0, "connecting_rod": {"mass_kg": 86.0}}
+    ]
+    assert found.rods == {(1, 0): "Rod 2"}
+    assert machine["webs"][0]["envelope"] == {"shape": "sector", "outer_radius_m": 0.3, "thickness_m": 0.05}
+
+
+@pytest.mark.parametrize(
+    ("pointer", "where"),
+    [
+        ("/machine/speed_rpm", "machine!B2"),
+        ("/machine/throws/0/crank_radius_m", "throws!D3"),
+        ("/machine/throws/1/rows/0/reciprocating_mass_kg", "rows!D2"),
+        ("/machine/throws/0/rows/0/connecting_rod/mass_kg", "rows!E3"),
+        (
+            "/machine/throws/0/rows/0/connecting_rod/length_m",
+            "rows!3 (/machine/throws/0/rows/0/connecting_rod/length_m)",
+        ),
+        ("/machine/webs/0/envelope/thickness_m", "webs!E2"),
+        ("", "the request"),
+    ],
+)
+def test_a_field_has_its_cell(pointer: str, where: str) -> None:
+    assert from_tables(TABLES).where(pointer) == where
+
+
+@pytest.mark.parametrize(
+    ("sheet", "line", "said"),
+    [
+        ("rows", ["3", "III", 0.0, 1.0], "rows!4: throw: there is no throw '3' that is used"),
+        ("throws", ["yes", "3", "far", 0.1, 0.0], "throws!C5: position_m: must be a number, not 'far'"),
+        ("webs", ["bare", 0.1], "webs!3: a web needs its envelope"),
+        ("machine", ["machine.kind", "scroll"], "machine: one crankshaft"),
+    ],
+)
+def test_what_is_wrong_is_said_at_its_cell(sheet: str, line: list[object], said: str) -> None:
+    with pytest.raises(Wrong, match=r".") as wrong:
+        from_tables({**TABLES, sheet: [*TABLES[sheet], line]})  # type: ignore[dict-item]
+    assert wrong.value.lines[0].startswith(said)
+
+
+def test_a_machine_without_throws_or_webs() -> None:
+    with pytest.raises(Wrong) as wrong:
+        from_tables({"machine": TABLES["machine"]})
+    assert wrong.value.lines == ["throws: no throw is used", "webs: no web is used"]
+
+
+def test_what_is_described_is_added_line_by_line() -> None:
+    found = table(["use", "name"], [{"use": "yes", "name": "1"}, {"use": "yes", "name": "2"}])
+    assert merged(found, [{"name": "I"}, {"use": "no", "envelope": {"shape": "sector"}}, {"name": "III"}]) == [
+        ["use", "name", "envelope.shape"],
+        ["yes", "I", None],
+        ["no", "2", "sector"],
+        [None, "III", None],
+    ]
+    with pytest.raises(Wrong, match="2 were found and 1 are described"):
+        merged(found, [{}])
+
+
+def test_columns() -> None:
+    assert [letters(column) for column in (0, 25, 26, 51, 52, 701, 702)] == ["A", "Z", "AA", "AZ", "BA", "ZZ", "AAA"]
+
+
+class _Refusing(Service):
+    def optimize(self, request: object) -> dict[str, object]:
+        raise Refused(422, {"errors": [{"pointer": "/machine/webs/0/position_m", "message": "must be a number"}]})
+
+
+def test_what_the_service_refuses_is_said_at_its_cell() -> None:
+    with pytest.raises(Wrong, match="webs!B2: must be a number"):
+        ask(_Refusing(), from_tables(TABLES))
+
+
+def test_a_service_that_is_away() -> None:
+    with pytest.raises(Wrong, match="the service does not answer"):
+        ask(Service("http://127.0.0.1:9"), Asked({"machine": {}}))
