@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test quick chromium lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
+.PHONY: install run test quick chromium freecad lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -16,7 +16,7 @@ run: $(kernels)
 	$(bin)/counterweight serve
 
 # on two cores; the tests of a file stay together, with the server that they share
-test: lint chromium $(kernels)
+test: lint chromium freecad $(kernels)
 	$(bin)/pytest --numprocesses 2 --dist loadfile -m "not nightly"
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
@@ -38,6 +38,10 @@ $(kernels): $(wildcard optimizer/program/kernel/*.py) .venv/runtime
 # the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested
 chromium: .venv/development
 	$(bin)/python -m tests.browser.chromium
+
+# as the tests of the workbench need FreeCAD: some minutes of installing, once
+freecad: .venv/development
+	$(bin)/python -m tests.freecad.freecad
 
 lint: .venv/development
 	$(bin)/ruff check .

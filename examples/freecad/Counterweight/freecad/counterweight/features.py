@@ -1,0 +1,170 @@
+"""What is added to a document: the machine, and parametric counterweights. Needs FreeCAD, no window, no network."""
+
+from __future__ import annotations
+
+import json
+from math import degrees, radians
+
+import FreeCAD as App
+
+from .cranks import inside
+from .moments import Moments
+from .plate import SHAPES, Plate
+from .sheets import Wrong, from_tables
+from .solids import MM, extruded, moments, seen
+from .tables import table_of
+
+
+class _Proxy:
+    """What a file keeps of a proxy: nothing; before and after FreeCAD 0.21."""
+
+    def dumps(self):
+        return None
+
+    def loads(self, state):
+        return None
+
+    __getstate__ = dumps
+
+    def __setstate__(self, state):
+        return None
+
+
+class Machine(_Proxy):
+    """The shaft, the tables that describe what moves and where counterweights may sit, the last answer."""
+
+    PROPERTIES = (
+        ("App::PropertyLinkList", "Shaft", "bodies of the shaft"),
+        ("App::PropertyFloatList", "Densities", "density of each body, kg/m3"),
+        ("App::PropertyPlacement", "Frame", "of the shaft: z along it, angles counter-clockwise from x"),
+        ("App::PropertyLinkList", "Tables", "spreadsheets machine, throws, rows, webs"),
+        ("App::PropertyLinkList", "Counterweights", "what was drawn"),
+        ("App::PropertyLinkList", "Obstacles", "bodies that stand still: the crankcase"),
+        ("App::PropertyLinkList", "Rods", "connecting rods, where they are at shaft angle 0"),
+        ("App::PropertyLength", "Clearance", "that is left to obstacles and rods"),
+        ("App::PropertyString", "Request", "that the answer is to"),
+        ("App::PropertyString", "Answer", "of the service"),
+        ("App::PropertyString", "Status", "whether the answer is that to the shaft as it is"),
+    )
+
+    def __init__(self, made):
+        _add(made, self.PROPERTIES)
+        made.Clearance = 5.0
+        for name in ("Request", "Answer"):
+            made.setEditorMode(name, 2)
+        made.setEditorMode("Status", 1)
+        made.Proxy = self
+
+    def execute(self, machine):
+        machine.Status = status(machine)
+
+
+class Counterweight(_Proxy):
+    """A solid whose opening follows from the unbalance that is asked for."""
+
+    PROPERTIES = (
+        ("App::PropertyString", "Web", "where it sits"),
+        ("App::PropertyEnumeration", "Outline", "sector or segment"),
+        ("App::PropertyLength", "InnerRadius", "of the hub"),
+        ("App::PropertyLength", "OuterRadius", "that it may reach"),
+        ("App::PropertyLength", "Thickness", "along the shaft"),
+        ("App::PropertyFloat", "Density", "kg/m3"),
+        ("App::PropertyAngle", "LargestHalfAngle", "half of the largest opening"),
+        ("App::PropertyDistance", "Position", "of its middle plane along the shaft"),
+        ("App::PropertyFloat", "AskedUnbalance", "mass times radius, kg m"),
+        ("App::PropertyAngle", "AskedAngle", "as drawn at shaft angle 0"),
+        ("App::PropertyPlacement", "Frame", "of the shaft"),
+        ("App::PropertyAngle", "HalfAngle", "half of the opening that follows"),
+        ("App::PropertyFloat", "Mass", "of the solid, kg"),
+        ("App::PropertyFloat", "Unbalance", "of the solid, kg m"),
+    )
+
+    def __init__(self, made):
+        _add(made, self.PROPERTIES)
+        made.Outline = list(SHAPES)
+        for name in ("HalfAngle", "Mass", "Unbalance"):
+            made.setEditorMode(name, 1)
+        made.Proxy = self
+
+    def execute(self, made):
+        plate = Plate(
+            made.Outline,
+            made.InnerRadius.Value * MM,
+            made.OuterRadius.Value * MM,
+            made.Thickness.Value * MM,
+            made.Density,
+            radians(made.LargestHalfAngle.Value),
+        )
+        half = plate.half(made.AskedUnbalance)
+        shape = extruded(plate.outline(half, radians(made.AskedAngle.Value)), made.Thickness.Value)
+        along = App.Placement(App.Vector(0, 0, made.Position.Value), App.Rotation())
+        placement = made.Frame.multiply(along)
+        shape.Placement = placement
+        made.Shape, made.Placement = shape, placement
+        found = moments(inside(shape, made.Frame), made.Density)
+        made.HalfAngle, made.Mass, made.Unbalance = degrees(half), found.mass_kg, abs(found.static_kg_m)
+
+
+def _add(made, properties):
+    for kind, name, words in properties:
+        if not hasattr(made, name):
+            made.addProperty(kind, name, "Counterweight", words)
+
+
+# ---- what a machine says now
+
+
+def shaft_moments(machine):
+    """Moments of every body of the shaft by its label."""
+    if len(machine.Densities) != len(machine.Shaft):
+        raise Wrong(["Densities: one for each body of the shaft"])
+    return {
+        body.Label: moments(seen(body, machine.Frame), density)
+        for body, density in zip(machine.Shaft, machine.Densities)
+    }
+
+
+def weight_moments(machine):
+    """Moments of every counterweight that was drawn, by its web."""
+    found = {}
+    for one in machine.Counterweights:
+        found[one.Web] = found.get(one.Web, Moments()) + moments(inside(one.Shape, machine.Frame), one.Density)
+    return found
+
+
+def asked(machine):
+    """The request that tables and solids say.
+
+    Raises
+    ------
+    Wrong
+    """
+    found = from_tables({sheet.Label: table_of(sheet) for sheet in machine.Tables})
+    boxes = [seen(body, machine.Frame).BoundBox for body in machine.Shaft]
+    low, high = min(box.ZMin for box in boxes) * MM, max(box.ZMax for box in boxes) * MM
+    found.body["machine"]["unbalances"] = [
+        each for label, one in shaft_moments(machine).items() for each in one.as_unbalances(label, low, high)
+    ]
+    return found
+
+
+def status(machine):
+    """In words, whether the last answer is that to what the machine says now."""
+    try:
+        now = asked(machine).body
+    except Wrong as wrong:
+        return wrong.lines[0]
+    if not machine.Answer:
+        return "not balanced yet"
+    return "balanced" if alike(now, json.loads(machine.Request)) else "balance again: shaft or tables have changed"
+
+
+def alike(one, other):
+    """Whether two requests are the same, to what a file keeps of a shape."""
+    if isinstance(one, dict) and isinstance(other, dict):
+        return one.keys() == other.keys() and all(alike(one[key], other[key]) for key in one)
+    if isinstance(one, list) and isinstance(other, list):
+        return len(one) == len(other) and all(map(alike, one, other))
+    if isinstance(one, float) and isinstance(other, (int, float)):
+        return abs(one - other) <= 1e-9 * max(abs(one), abs(other), 1e-3)
+    return one == other
