@@ -10,6 +10,7 @@ from anyio import create_task_group, to_thread
 from fastapi import FastAPI
 from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Receive, Scope, Send
+from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
 from schemas.version import package_version
 from service.guard.access import Access
@@ -19,6 +20,7 @@ from service.guard.looks import Looks
 from service.guard.rates import RateLimits
 from service.guard.shares import Shares
 from service.guard.threads import Threads
+from service.guard.users import Users
 from service.http import errors
 from service.http.computing import Computing
 from service.http.cors import Cors
@@ -136,6 +138,8 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app = Application(
         (
             Middleware(HeadAsGet),
+            Middleware(Users, chosen.owner_header, chosen.trusted_proxies),
+            Middleware(ProxyHeadersMiddleware, list(chosen.trusted_proxies)),
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),

@@ -135,6 +135,12 @@ class _Access(BaseSettings):
         "comma-separated; * is any",
     )
     cors_origins: Names = Field((), description="origins whose pages may ask, comma-separated; * is any")
+    owner_header: str = Field(
+        "",
+        pattern=r"^[A-Za-z0-9-]{0,64}$",
+        description="header by which a portal names its user, such as X-Portal-User, so that jobs of users are kept "
+        "apart; believed from COUNTERWEIGHT_TRUSTED_PROXIES alone",
+    )
     frame_origins: Origins = Field(
         (),
         description="origins whose pages may show the page in a frame and speak with it, such as "

@@ -13,8 +13,9 @@ from service.guard.hosts import Hosts
 from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
 from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
-from service.guard.refusals import Forbidden, ForeignHost, Unauthorized
+from service.guard.refusals import BadHeader, Forbidden, ForeignHost, Unauthorized
 from service.guard.shares import Holding, Shares
+from service.guard.users import user_of
 
 #: the answer to a request for a path that is refused for a reason
 Refused = Callable[[Exception, str], ASGIApp]
@@ -63,8 +64,8 @@ class Access:
             await self._app(scope, receive, send)
             return
         try:
-            caller = await self._admitted(scope, self._keys)
-        except (Unauthorized, ForeignHost, TooManyRequests) as error:
+            caller = (await self._admitted(scope, self._keys)).acting_for(user_of(scope))
+        except (Unauthorized, ForeignHost, TooManyRequests, BadHeader) as error:
             await self._refused(error, scope["path"])(scope, receive, send)
             return
         holding = Holding(self._shares, _who(scope, caller))
@@ -79,7 +80,7 @@ class Access:
         if self._keys is None or caller.key is None:
             return True
         now = self._keys.caller(_key(Headers(scope=scope)) or "")
-        return now is not None and now.owner == caller.owner
+        return now is not None and now.acting_for(user_of(scope)).owner == caller.owner
 
     async def _admitted(self, scope: Scope, keys: Keys | None) -> Caller:
         path = own_path(scope)

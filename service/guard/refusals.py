@@ -30,6 +30,10 @@ class ForeignHost(Exception):
         )
 
 
+class BadHeader(ValueError):
+    """A header holds what it must not."""
+
+
 class TooManyConnections(Exception):
     """As many connections as are allowed are open; a retry may help."""
 

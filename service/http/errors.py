@@ -17,12 +17,11 @@ from schemas.base import FieldProblem
 from schemas.problem import FieldError, Problem
 from service.documents.examples import UnknownExample
 from service.guard.rates import TooManyRequests
-from service.guard.refusals import Forbidden, ForeignHost, TooManyConnections, Unauthorized
+from service.guard.refusals import BadHeader, Forbidden, ForeignHost, TooManyConnections, Unauthorized
 from service.guard.shares import OverShare
 from service.http.accept import NotAcceptable
 from service.http.computing import ClientGone, ComputationFailed
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
-from service.jobs.accepting import BadHeader
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.files import FilesUnavailable
 from service.jobs.owner_jobs import NotFinished, RowsDamaged

@@ -10,11 +10,11 @@ _HEADERS = {
     "Cross-Origin-Resource-Policy": "same-origin",
     "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
 }
-#: nobody shows it in a frame
-_UNFRAMED = "frame-ancestors 'none'"
+#: what is said of a page that some origins may show in a frame
+_FRAMED = "frame-ancestors http"
 #: what is no page loads nothing; pages come with a policy of their own
-_NO_PAGE = f"default-src 'none'; {_UNFRAMED}"
-_PAGE = f"default-src 'self'; img-src 'self' data:; {_UNFRAMED}; base-uri 'none'; form-action 'self'"
+_NO_PAGE = "default-src 'none'; frame-ancestors 'none'"
+_PAGE = "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'self'"
 
 
 class SecurityHeaders:
@@ -41,8 +41,8 @@ class SecurityHeaders:
                     headers.setdefault(name, value)
                 page = headers.get("content-type", "").startswith(("text/html", "image/svg"))
                 headers.setdefault("Content-Security-Policy", _PAGE if page else _NO_PAGE)
-                # the older header knows no origins but its own
-                if _UNFRAMED in headers["Content-Security-Policy"]:
+                # the older header knows no other origins
+                if _FRAMED not in headers["Content-Security-Policy"]:
                     headers.setdefault("X-Frame-Options", "DENY")
                 if self._hsts_s and scope.get("scheme") == "https":
                     headers.setdefault("Strict-Transport-Security", f"max-age={self._hsts_s}; includeSubDomains")

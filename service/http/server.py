@@ -62,7 +62,8 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
         http=connections(settings, most),
         ws="none",
         root_path=settings.root_path,
-        forwarded_allow_ips=list(settings.trusted_proxies),
+        # the application does, once it has seen whose connection it is
+        proxy_headers=False,
         log_config=None,
         access_log=False,
         # the event loop lets in as many at a time

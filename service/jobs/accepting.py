@@ -6,15 +6,12 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from service.guard.keys import caller_of
+from service.guard.refusals import BadHeader
 from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs
 
 _KEY = re.compile(r"[\x21-\x7e]{1,255}")
 _PREFERS = re.compile(r"(?:^|[,;])\s*respond-async\s*(?:$|[,;])", re.IGNORECASE)
-
-
-class BadHeader(ValueError):
-    """A header holds what it must not."""
 
 
 def desk_of(request: Request) -> OwnerJobs:
