@@ -26,21 +26,27 @@ class Doors:
         self._each = each
         self._proxies = Networks(proxies)
         self._open: Counter[str] = Counter()
+        self._all = 0
         self._probing: dict[str, list[Callable[[], None]]] = {}
 
     def enter(self, address: str) -> bool:
         """Whether there is room for a connection from an address; it is counted then."""
         client = client_network(address)
         kept = 0 if self._open[client] < _FEW else self._altogether // _KEPT
-        room = self._open.total() < self._altogether - kept
+        room = self._all < self._altogether - kept
         if not (room and (self._open[client] < self._each or address in self._proxies)):
             return False
         self._open[client] += 1
+        self._all += 1
         return True
 
     def leave(self, address: str) -> None:
         """A connection that was let in has ended."""
-        self._open -= Counter((client_network(address),))
+        client = client_network(address)
+        self._all -= 1
+        self._open[client] -= 1
+        if not self._open[client]:
+            del self._open[client]
 
     def probe(self, address: str, give_up: Callable[[], None]) -> None:
         """Let in a connection that may ask for health, in place of the one that does so for longest if there are many.

@@ -8,15 +8,11 @@ from functools import cache
 from typing import Any
 
 import h11
-from starlette.types import Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from service.guard.access import own_path
 from service.guard.addresses import client_network
-from service.guard.doors import Doors
-from service.guard.keys import PROBES
 from service.guard.refusals import TooManyConnections
-from service.http.errors import PROBLEM_JSON, Fault, answered, fault, problem
+from service.http.errors import PROBLEM_JSON, Fault, fault, problem
 from service.http.joined import Joined
 from service.http.rounds import Rounds
 from service.settings import Settings
@@ -27,12 +23,10 @@ _READ_BYTES = 32_768
 _TOO_LARGE = 431
 
 
-def connections(settings: Settings, most: int | None = None) -> type[asyncio.Protocol]:
-    """The protocol of a server with these settings; ``most`` connections if the system allows no more."""
-    altogether = settings.max_connections if most is None else min(most, settings.max_connections)
+def connections(settings: Settings) -> "type[Connection]":
+    """The protocol of a server with these settings."""
 
     class Limited(Connection):
-        doors = Doors(altogether, settings.max_connections_each, settings.trusted_proxies)
         rounds = Rounds(lambda work: asyncio.get_running_loop().call_soon(work))
         headers_timeout_s = settings.headers_timeout_s
         write_timeout_s = settings.write_timeout_s
@@ -44,7 +38,6 @@ class Connection(H11Protocol):
     """Closed when its client sends no whole header, goes on with a body that was answered, or reads nothing, for too
     long."""
 
-    doors: Doors
     rounds: Rounds
     headers_timeout_s: float
     write_timeout_s: float
@@ -54,26 +47,24 @@ class Connection(H11Protocol):
         self._headers_timer: asyncio.TimerHandle | None = None
         self._write_timer: asyncio.TimerHandle | None = None
         self._unread = 0
-        self._counted = False
         self._waits = False
+        #: called when it has ended
+        self.left: Callable[[], None] = _nothing
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
         super().connection_made(Joined(transport, self.loop))  # type: ignore[arg-type]
         transport.set_write_buffer_limits(high=_UNREAD_BYTES)
         # what is read at a time: a client that sends more than is asked for fills no more than this
         transport.max_size = _READ_BYTES  # type: ignore[attr-defined]
-        self._counted = self.doors.enter(self._address)
-        if not self._counted:
-            self.app = _probes_only(self.app)
-            self.doors.probe(self._address, self._give_up)
         self._watch_headers()
 
-    def _give_up(self) -> None:
+    def give_up(self) -> None:
+        """End it, as there is no room for it any more."""
         if self.cycle is not None and not self.cycle.response_complete:
             # its answer would come after the refusal
             self.transport.abort()
         else:
-            self.transport.write(_no_room())
+            self.transport.write(no_room())
             self.transport.close()
 
     @property
@@ -83,10 +74,7 @@ class Connection(H11Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         _stop(self._headers_timer)
         _stop(self._write_timer)
-        if self._counted:
-            self.doors.leave(self._address)
-        else:
-            self.doors.probed(self._address, self._give_up)
+        self.left()
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
@@ -184,8 +172,8 @@ class Connection(H11Protocol):
 
 
 @cache
-def _no_room() -> bytes:
-    """Made once: whoever comes too often is told as often."""
+def no_room() -> bytes:
+    """The answer to a connection for which there is no room, made once: whoever comes too often is told as often."""
     return _refusal(h11.Connection(h11.SERVER), fault(TooManyConnections()))
 
 
@@ -202,18 +190,8 @@ def _refusal(connection: h11.Connection, fault: Fault) -> bytes:
     return b"".join(connection.send(event) or b"" for event in events)
 
 
-def _probes_only(app: Callable[..., Any]) -> Callable[..., Any]:
-    """The probes of an application; all else is refused, as there is no room."""
-
-    async def answer(scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] == "http" and own_path(scope) in PROBES:
-            await app(scope, receive, send)
-            return
-        refusal = answered(TooManyConnections(), scope["path"])
-        refusal.headers["Connection"] = "close"
-        await refusal(scope, receive, send)
-
-    return answer
+def _nothing() -> None:
+    pass
 
 
 def _stop(timer: asyncio.TimerHandle | None) -> None:

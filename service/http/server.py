@@ -1,30 +1,27 @@
 """The HTTP server around the application."""
 
 import asyncio
-import errno
 import logging
-import math
 import resource
 import socket
 import sys
 from contextlib import suppress
 from types import FrameType
-from typing import Any
 
 import uvicorn
 from fastapi import FastAPI
 
-from service.http.connections import connections
+from service.guard.doors import Doors
+from service.http.connections import Connection, connections
+from service.http.entrance import Entrance
 from service.settings import Settings
 
 _LOG = logging.getLogger(__name__)
 _TO_ANSWER_S = 1.0
 #: files that are no connections: workers, database, log, libraries
 _OTHER_FILES = 128
-_NO_FILES = (errno.EMFILE, errno.ENFILE, errno.ENOBUFS, errno.ENOMEM)
-_SAY_AGAIN_S = 60.0
-#: connections that wait to be let in, and of those so many are let in at a time: each takes its time
-_BACKLOG, _AT_A_TIME = 2048, 16
+#: connections that wait to be let in
+_BACKLOG = 2048
 #: a thread that computes gives way to the event loop after so long; five times as long by default
 _SWITCH_S = 0.001
 
@@ -57,23 +54,23 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     most = max(1, _files() - _OTHER_FILES)
     if most < settings.max_connections:
         _LOG.warning("the system allows %d open connections, not %d", most, settings.max_connections)
+    protocol = connections(settings)
     config = uvicorn.Config(
         app,
-        http=connections(settings, most),
+        http=protocol,
         ws="none",
         root_path=settings.root_path,
         # the application does, once it has seen whose connection it is
         proxy_headers=False,
         log_config=None,
         access_log=False,
-        # the event loop lets in as many at a time
-        backlog=_AT_A_TIME,
         server_header=False,
         timeout_keep_alive=settings.keep_alive_s,
         timeout_graceful_shutdown=settings.graceful_shutdown_s,
     )
+    doors = Doors(min(most, settings.max_connections), settings.max_connections_each, settings.trusted_proxies)
     with suppress(KeyboardInterrupt):
-        _Server(config, app).run(sockets=[listening])
+        _Server(config, app, protocol, doors).run(sockets=[listening])
 
 
 def _files() -> int:
@@ -83,39 +80,38 @@ def _files() -> int:
     return sys.maxsize if most == resource.RLIM_INFINITY else most
 
 
-class _Accepting:
-    """Says once in a while that no file is left for a connection; the loop says so thousands of times a second."""
-
-    def __init__(self) -> None:
-        self._said = -math.inf
-
-    def __call__(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
-        error = context.get("exception")
-        if not (isinstance(error, OSError) and error.errno in _NO_FILES and "socket" in context):
-            loop.default_exception_handler(context)
-        elif loop.time() - self._said > _SAY_AGAIN_S:
-            self._said = loop.time()
-            _LOG.error("connections wait, as no file can be opened: %s", error.strerror)
-
-
 class _Server(uvicorn.Server):
-    """Has the streams of events end first: they would be waited for, and the lifespan ends after them."""
+    """Lets connections in by its own entrance.
 
-    def __init__(self, config: uvicorn.Config, app: FastAPI) -> None:
+    Has the streams of events end first: they would be waited for, and the lifespan ends after them.
+    """
+
+    def __init__(self, config: uvicorn.Config, app: FastAPI, protocol: type[Connection], doors: Doors) -> None:
         super().__init__(config)
         self._app = app
+        self._protocol = protocol
+        self._doors = doors
+        self._entrances: list[Entrance] = []
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         self._app.state.desk.closing.set()
         super().handle_exit(sig, frame)
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
-        asyncio.get_running_loop().set_exception_handler(_Accepting())
-        await super().startup(sockets)
+        await super().startup([])
         for listening in sockets or ():
-            listening.listen(_BACKLOG)
+            entrance = Entrance(
+                listening, self._doors, self._protocol.rounds, self._made, self._protocol.headers_timeout_s
+            )
+            entrance.open()
+            self._entrances.append(entrance)
+
+    def _made(self) -> Connection:
+        return self._protocol(config=self.config, server_state=self.server_state, app_state=self.lifespan.state)
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        for entrance in self._entrances:
+            entrance.close()
         # computations that do not end by themselves are answered 503 while there is still time to send it
         grace_s = self.config.timeout_graceful_shutdown or 0
         asyncio.get_running_loop().call_later(max(0.0, grace_s - _TO_ANSWER_S), self._app.state.pool.close)

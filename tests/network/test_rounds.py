@@ -100,7 +100,7 @@ async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loo
 
 @pytest.mark.parametrize(
     ("ended", "status"),
-    [(Connection._give_up, 503), (Connection.timeout_keep_alive_handler, 0), (Connection.shutdown, 0)],
+    [(Connection.give_up, 503), (Connection.timeout_keep_alive_handler, 0), (Connection.shutdown, 0)],
 )
 def test_what_waits_on_a_connection_that_ends_is_not_looked_at(
     ended: Callable[[Connection], None], status: int

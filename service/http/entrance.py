@@ -1,0 +1,213 @@
+"""The entrance of the server: whether there is room for a connection is seen before anything is made for it."""
+
+import asyncio
+import logging
+import math
+import socket
+from collections.abc import Callable
+from contextlib import suppress
+from errno import EMFILE, ENFILE, ENOBUFS, ENOMEM
+from functools import partial
+from typing import Any
+
+from starlette.types import Receive, Scope, Send
+
+from service.guard.access import own_path
+from service.guard.addresses import client_network
+from service.guard.doors import Doors
+from service.guard.keys import PROBES
+from service.guard.refusals import TooManyConnections
+from service.http.connections import Connection, no_room
+from service.http.errors import answered
+from service.http.rounds import Rounds
+
+_LOG = logging.getLogger(__name__)
+#: connections that are taken in a turn of the event loop
+_AT_A_TIME = 32
+#: there is no file for a connection: wait, and say so once in a while [s]
+_NO_FILES = (EMFILE, ENFILE, ENOBUFS, ENOMEM)
+_WAIT_S, _SAY_AGAIN_S = 1.0, 60.0
+#: how requests for health begin
+_PROBING = tuple(f"{method} {path}".encode() for method in ("GET", "HEAD") for path in PROBES)
+_LONGEST = max(map(len, _PROBING))
+#: of what a refused client goes on to send, read at a time [bytes]
+_PIECE_BYTES = 65_536
+
+
+class Entrance:
+    """Takes connections from a listening socket.
+
+    Those for which there is room get their protocol client by client; of the others only those that ask for health do.
+
+    Parameters
+    ----------
+    rounds : whose connection is next.
+    made : makes a protocol.
+    patience_s : how long a connection for which there is no room may say nothing [s].
+    """
+
+    def __init__(
+        self,
+        listening: socket.socket,
+        doors: Doors,
+        rounds: Rounds,
+        made: Callable[[], Connection],
+        patience_s: float,
+    ) -> None:
+        self.doors = doors
+        self.made = made
+        self.patience_s = patience_s
+        self.loop = asyncio.get_running_loop()
+        self.refused: set[_Refused] = set()
+        self._listening = listening
+        self._rounds = rounds
+        self._said = -math.inf
+        self._open = False
+        self._connecting: set[asyncio.Task[Any]] = set()
+
+    def open(self) -> None:
+        """Take connections from now on."""
+        self._open = True
+        self._listening.setblocking(False)
+        self.loop.add_reader(self._listening, self._take)
+
+    def close(self) -> None:
+        """Take none any more."""
+        self._open = False
+        self.loop.remove_reader(self._listening)
+        for each in tuple(self.refused):
+            each.end()
+
+    def connect(self, connection: socket.socket, protocol: Connection) -> None:
+        """Give a connection its protocol."""
+        task = self.loop.create_task(self.loop.connect_accepted_socket(lambda: protocol, connection))
+        # nobody else holds it
+        self._connecting.add(task)
+        task.add_done_callback(self._connecting.discard)
+
+    def _take(self) -> None:
+        for _ in range(_AT_A_TIME):
+            try:
+                connection, (address, *_) = self._listening.accept()
+            except (BlockingIOError, InterruptedError, ConnectionAbortedError):
+                return
+            except OSError as error:
+                if error.errno not in _NO_FILES:
+                    raise
+                self._wait(error)
+                return
+            connection.setblocking(False)
+            if self.doors.enter(address):
+                self._rounds.ask(client_network(address), partial(self._let_in, connection, address))
+            else:
+                _Refused(self, connection, address)
+
+    def _let_in(self, connection: socket.socket, address: str) -> None:
+        if not self._open:
+            connection.close()
+            return
+        protocol = self.made()
+        protocol.left = partial(self.doors.leave, address)
+        self.connect(connection, protocol)
+
+    def _wait(self, error: OSError) -> None:
+        # a socket that nobody takes is ready in each turn, thousands of times a second
+        self.loop.remove_reader(self._listening)
+        self.loop.call_later(_WAIT_S, self._go_on)
+        if self.loop.time() - self._said > _SAY_AGAIN_S:
+            self._said = self.loop.time()
+            _LOG.error("connections wait, as no file can be opened: %s", error.strerror)
+
+    def _go_on(self) -> None:
+        if self._open:
+            self.loop.add_reader(self._listening, self._take)
+
+
+class _Refused:
+    """A connection for which there is no room: it may ask for health, and is refused as soon as it asks for more."""
+
+    def __init__(self, entrance: Entrance, connection: socket.socket, address: str) -> None:
+        self._entrance, self._connection, self._address = entrance, connection, address
+        self._protocol: Connection | None = None
+        self._told = False
+        self._timer = entrance.loop.call_later(entrance.patience_s, self._give_up)
+        entrance.loop.add_reader(connection, self._look)
+        entrance.refused.add(self)
+        entrance.doors.probe(address, self._give_up)
+
+    def _look(self) -> None:
+        try:
+            if self._told:
+                # who closes on unread bytes takes the answer from the client
+                begun, over = b"", not self._connection.recv(_PIECE_BYTES)
+            else:
+                begun = self._connection.recv(_LONGEST, socket.MSG_PEEK)
+                over = not begun
+        except (BlockingIOError, InterruptedError):
+            return
+        except OSError:
+            begun, over = b"", True
+        if over:
+            self.end()
+        elif not self._told:
+            if any(probe.startswith(begun[: len(probe)]) for probe in _PROBING):
+                self._let_ask()
+            else:
+                self._tell()
+
+    def _let_ask(self) -> None:
+        self._leave()
+        protocol = self._protocol = self._entrance.made()
+        protocol.app = _probes_only(protocol.app)
+        protocol.left = self._forget
+        self._entrance.connect(self._connection, protocol)
+
+    def _tell(self) -> None:
+        self._told = True
+        with suppress(OSError):
+            # nothing may have come
+            self._connection.recv(_PIECE_BYTES)
+        with suppress(OSError):
+            self._connection.send(no_room())
+            self._connection.shutdown(socket.SHUT_WR)
+
+    def _give_up(self) -> None:
+        """Another one takes its place, or it says nothing."""
+        if self._protocol is None:
+            if not self._told:
+                self._tell()
+            self.end()
+        elif self._protocol.transport is None:
+            # it is about to be made
+            with suppress(OSError):
+                self._connection.shutdown(socket.SHUT_RDWR)
+        else:
+            self._protocol.give_up()
+
+    def end(self) -> None:
+        """Close it."""
+        self._leave()
+        self._connection.close()
+        self._forget()
+
+    def _leave(self) -> None:
+        self._timer.cancel()
+        self._entrance.loop.remove_reader(self._connection)
+        self._entrance.refused.discard(self)
+
+    def _forget(self) -> None:
+        self._entrance.doors.probed(self._address, self._give_up)
+
+
+def _probes_only(app: Callable[..., Any]) -> Callable[..., Any]:
+    """The probes of an application; all else is refused, as there is no room."""
+
+    async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] == "http" and own_path(scope) in PROBES:
+            await app(scope, receive, send)
+            return
+        refusal = answered(TooManyConnections(), scope["path"])
+        refusal.headers["Connection"] = "close"
+        await refusal(scope, receive, send)
+
+    return answer
