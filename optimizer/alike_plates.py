@@ -122,6 +122,8 @@ def _others(
     """
     rest = np.flatnonzero(~held & np.all(many.limits.reach > 0, axis=0)).tolist()
     fixed = np.where(held, u, 0.0)
+    if not rest:
+        return fixed
 
     def moved(norms: Norms) -> Norms:
         return replace(norms, constant=norms.constant + np.sum(norms.influence * fixed[:, None, :], axis=-1))

@@ -202,6 +202,11 @@ def test_plates_that_are_all_but_full_are_full_and_alike(shape: str, thickness: 
     assert len({one.mass_kg for one in full}) == 1
 
 
+def test_plates_may_all_be_alike_so_that_none_is_left_to_choose() -> None:
+    found = answered({**bodies("drawings")["2d12-plates"], "objective": {"combine": "max"}})
+    assert found.status == "optimal"
+
+
 def test_plates_that_cannot_be_alike_within_what_is_certified_stay_apart() -> None:
     # analytic: the last degrees before 90 weigh without pulling; all alike would be 4e-4 heavier
     found = answered(asked("sector", max_half_angle_deg=90))
