@@ -26,6 +26,7 @@ from service.http.computing import Computing
 from service.http.cors import Cors
 from service.http.openapi import Documented
 from service.http.pacing import Pacing
+from service.http.rounds import LoopRounds
 from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
 from service.jobs.events import Watch
@@ -104,7 +105,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         chosen.solve_memory_mb,
         chosen.data_dir,
     )
-    threads = Threads()
+    threads, rounds = Threads(), LoopRounds()
     readiness = Readiness(
         {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)},
         threads,
@@ -143,7 +144,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),
-            Middleware(Pacing),
+            Middleware(Pacing, rounds),
             Middleware(
                 Access,
                 keys(chosen),
@@ -164,7 +165,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app.state.desk = desk
     app.state.pool = pool
     app.state.threads = threads
-    app.state.looks = Looks()
+    app.state.looks = Looks(rounds.turn)
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)

@@ -2,7 +2,7 @@
 
 import asyncio
 import time
-from collections.abc import Callable, Hashable
+from collections.abc import Awaitable, Callable, Hashable
 from typing import Any, TypeVar
 
 from anyio import CapacityLimiter, to_thread
@@ -22,9 +22,14 @@ class Looks:
 
     A look begins after it was asked for, so that nobody is told what was before; who asks while it is taken waits for
     the next. Hundreds who ask for the state of a job again and again cost one look after the other.
+
+    Parameters
+    ----------
+    turn : waits until a client may go on with what was found: what hundreds wait for comes to all of them at once.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, turn: Callable[[str], Awaitable[None]]) -> None:
+        self._turn = turn
         self._loop: asyncio.AbstractEventLoop | None = None
 
     def _of_loop(self) -> asyncio.AbstractEventLoop:
@@ -50,7 +55,9 @@ class Looks:
             # there may be nobody left to be told
             shared.add_done_callback(lambda task: task.cancelled() or task.exception())
         # who leaves takes nothing away from the others
-        found: Result = await asyncio.shield(shared)
+        await asyncio.wait((shared,))
+        await self._turn(who)
+        found: Result = shared.result()
         return found
 
     async def _taken(

@@ -1,13 +1,12 @@
 """Answers at the pace at which their clients read, client by client."""
 
-import asyncio
 from collections.abc import Iterator
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.guard.shares import Holding, OverShare
 from service.http.errors import answered
-from service.http.rounds import Rounds
+from service.http.rounds import LoopRounds
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
 PIECE_BYTES = 16_384
@@ -20,16 +19,9 @@ class Pacing:
     is handed over in a turn of the event loop, of one client after the other.
     """
 
-    def __init__(self, app: ASGIApp) -> None:
+    def __init__(self, app: ASGIApp, rounds: LoopRounds) -> None:
         self._app = app
-        self._loop: asyncio.AbstractEventLoop | None = None
-
-    def _of_loop(self) -> Rounds:
-        loop = asyncio.get_running_loop()
-        if loop is not self._loop:
-            # what waited in a loop that has ended is gone with it
-            self._loop, self._rounds = loop, Rounds(loop.call_soon)
-        return self._rounds
+        self._rounds = rounds
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -68,10 +60,10 @@ class Pacing:
 
     async def _hand_over(self, begin: Message | None, message: Message, who: str, send: Send) -> None:
         """Part of an answer, the first one with its head: what is small and whole at once, all else piece by piece."""
-        rounds, whole = self._of_loop(), len(message.get("body", b"")) <= PIECE_BYTES and not message.get("more_body")
+        whole = len(message.get("body", b"")) <= PIECE_BYTES and not message.get("more_body")
         for piece in _pieces(message):
             if not whole:
-                await rounds.turn(who)
+                await self._rounds.turn(who)
             if begin is not None:
                 await send(begin)
                 begin = None

@@ -55,3 +55,17 @@ class Rounds:
             self._waiting[client] = own
         self._call_soon(self._next)
         work()
+
+
+class LoopRounds:
+    """The rounds of the event loop that runs; what waited in one that has ended is gone with it."""
+
+    def __init__(self) -> None:
+        self._loop: asyncio.AbstractEventLoop | None = None
+
+    async def turn(self, client: str) -> None:
+        """Wait for a turn of the event loop that is a client's."""
+        loop = asyncio.get_running_loop()
+        if loop is not self._loop:
+            self._loop, self._rounds = loop, Rounds(loop.call_soon)
+        await self._rounds.turn(client)
