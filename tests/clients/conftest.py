@@ -14,7 +14,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2]
 CLIENT = ROOT / "examples" / "client" / "counterweight.py"
-_READY_S = 90.0
+_READY_S = 300.0
 
 
 @pytest.fixture(scope="session")

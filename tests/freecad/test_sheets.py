@@ -3,7 +3,7 @@
 import pytest
 from freecad.counterweight.asking import ask
 from freecad.counterweight.service import Refused, Service
-from freecad.counterweight.sheets import Asked, Wrong, from_tables, letters, merged, table
+from freecad.counterweight.sheets import Asked, Wrong, completed, from_tables, letters, table
 
 ENVELOPE = {"envelope.shape": "sector", "envelope.outer_radius_m": 0.3, "envelope.thickness_m": 0.05}
 TABLES = {
@@ -76,16 +76,45 @@ def test_a_machine_without_throws_or_webs() -> None:
     assert wrong.value.lines == ["throws: no throw is used", "webs: no web is used"]
 
 
-def test_what_is_described_is_added_line_by_line() -> None:
-    found = table(["use", "name"], [{"use": "yes", "name": "1"}, {"use": "yes", "name": "2"}])
-    assert merged(found, [{"name": "I"}, {"use": "no", "envelope": {"shape": "sector"}}, {"name": "III"}]) == [
-        ["use", "name", "envelope.shape"],
-        ["yes", "I", None],
-        ["no", "2", "sector"],
-        [None, "III", None],
-    ]
-    with pytest.raises(Wrong, match="2 were found and 1 are described"):
-        merged(found, [{}])
+SHOWN = {
+    "machine": [["field", "value"]],
+    "throws": table(["use", "name", "position_m"], [{"use": "no", "name": "web?"}, {"use": "yes", "name": "1"}]),
+    "rows": [["throw"]],
+    "webs": table(["use", "name", "position_m"], [{"use": "yes", "name": "web 1", "position_m": 0.1}]),
+}
+SAID = {
+    "machine": {
+        "speed_rpm": 500,
+        "throws": [{"crank_radius_m": 0.14, "rows": [{"axis_deg": 90, "connecting_rod": {"mass_kg": 3.0}}]}],
+        "webs": [{"position_m": 0.2, "envelope": {"shape": "sector"}}],
+    },
+    "objective": {"symmetric": False},
+}
+
+
+def test_what_no_face_shows_is_added_to_what_they_show() -> None:
+    found = from_tables(completed(SHOWN, SAID)).body
+    assert found == {
+        "machine": {
+            "kind": "reciprocating",
+            "speed_rpm": 500,
+            "throws": [
+                {
+                    "name": "1",
+                    "crank_radius_m": 0.14,
+                    "rows": [{"axis_deg": 90, "connecting_rod": {"mass_kg": 3.0}}],
+                }
+            ],
+            # what is said stands above what is shown
+            "webs": [{"name": "web 1", "position_m": 0.2, "envelope": {"shape": "sector"}}],
+        },
+        "objective": {"symmetric": False},
+    }
+
+
+def test_other_than_is_shown_cannot_be_described() -> None:
+    with pytest.raises(Wrong, match="throws: the faces show 1, 2 are described"):
+        completed(SHOWN, {"machine": {"throws": [{}, {}]}})
 
 
 def test_columns() -> None:

@@ -14,7 +14,7 @@ from . import cranks
 from .asking import ask
 from .features import Counterweight, Machine, asked, shaft_moments, weight_moments
 from .plate import Plate
-from .sheets import MACHINE, ROD, ROWS, THROW, THROWS, USE, WEBS, Wrong, table
+from .sheets import MACHINE, ROD, ROWS, THROW, THROWS, USE, WEBS, Wrong, completed, table
 from .solids import MM, STEEL_KG_M3, shape_of
 from .tables import write
 from .verdict import verdict
@@ -42,13 +42,14 @@ def change(document, words):
     document.commitTransaction()
 
 
-def read_shaft(document, bodies, densities=None, frame=None):
+def read_shaft(document, bodies, densities=None, frame=None, said=None):
     """The machine of some bodies, with tables of what their faces show; it is for the designer to correct and complete.
 
     Parameters
     ----------
     densities : of the bodies, kg/m3; steel if not said.
     frame : of the shaft; from its faces if not said: x towards the first crank pin.
+    said : a request with what no face shows, if it is known already.
 
     Raises
     ------
@@ -59,16 +60,18 @@ def read_shaft(document, bodies, densities=None, frame=None):
         raise Wrong(["nothing that is selected is a solid: select the bodies of the shaft"])
     try:
         frame = frame or cranks.frame_of(shape)
-        found = cranks.read(cranks.inside(shape, frame))
+        shown = tables(cranks.read(cranks.inside(shape, frame)))
     except cranks.NoShaft as error:
         raise Wrong([f"no crankshaft: {error}"]) from None
+    if said is not None:
+        shown = completed(shown, said)
     with change(document, "Read shaft"):
         machine = document.addObject("App::FeaturePython", "Machine")
         Machine(machine)
         machine.Shaft, machine.Frame = list(bodies), frame
         machine.Densities = list(densities or [STEEL_KG_M3] * len(bodies))
         sheets = []
-        for name, lines in tables(found).items():
+        for name, lines in shown.items():
             sheet = document.addObject("Spreadsheet::Sheet", name)
             sheet.Label = name
             write(sheet, lines)

@@ -40,7 +40,6 @@ class Machine(_Proxy):
         ("App::PropertyLinkList", "Tables", "spreadsheets machine, throws, rows, webs"),
         ("App::PropertyLinkList", "Counterweights", "what was drawn"),
         ("App::PropertyLinkList", "Obstacles", "bodies that stand still: the crankcase"),
-        ("App::PropertyLinkList", "Rods", "connecting rods, where they are at shaft angle 0"),
         ("App::PropertyLength", "Clearance", "that is left to obstacles and rods"),
         ("App::PropertyString", "Request", "that the answer is to"),
         ("App::PropertyString", "Answer", "of the service"),

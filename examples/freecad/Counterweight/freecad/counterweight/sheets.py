@@ -152,7 +152,7 @@ def _text(value: Cell) -> str:
 
 def _parsed(value: str) -> Any:
     """Text, or JSON in the notation of it."""
-    if value != "null" and value[:1] not in ("[", "{"):
+    if value not in ("null", "true", "false") and value[:1] not in ("[", "{"):
         return value
     try:
         return json.loads(value)
@@ -175,23 +175,38 @@ def table(heads: Sequence[str], lines: Sequence[Mapping[str, Cell]]) -> Table:
     return [list(heads), *([line.get(head) for head in heads] for line in lines)]
 
 
-def merged(found: Table, said: Sequence[Mapping[str, Any]]) -> Table:
-    """A table with what is said besides, line by line; where more is said than was found, lines are added.
+def completed(tables: Mapping[str, Table], said: Mapping[str, Any]) -> Dict[str, Table]:
+    """Tables of what the faces show, with what a request says besides; its throws and webs stand in their order.
 
     Raises
     ------
     Wrong
-        if less is said than was found: then nobody knows which is meant.
     """
+    machine = dict(said.get("machine", {}))
+    throws, webs = [dict(throw) for throw in machine.pop(THROWS, [])], machine.pop(WEBS, [])
+    lines = [throw.pop(ROWS, []) for throw in throws]
+    found = _merged(THROWS, tables[THROWS], throws)
+    names = found[0].index("name")
+    rows = [{THROW: line[names], **flat(row)} for line, on in zip(found[1:], lines) for row in on]
+    heads = list(dict.fromkeys([THROW, *(name for row in rows for name in row)]))
+    fields = flat({**said, "machine": machine})
+    return {
+        MACHINE: [["field", "value"], *([name, value] for name, value in fields.items())],
+        THROWS: found,
+        ROWS: table(heads, rows),
+        WEBS: _merged(WEBS, tables[WEBS], webs) if webs else tables[WEBS],
+    }
+
+
+def _merged(sheet: str, found: Table, said: Sequence[Mapping[str, Any]]) -> Table:
+    """A table with what is said besides, line by line; what is doubtful does not count."""
     heads = [str(head) for head in found[0]]
-    lines = [dict(zip(heads, line)) for line in found[1:]]
-    if lines and len(said) < len(lines):
-        raise Wrong([f'{len(lines)} were found and {len(said)} are described; say "use": "no" where one is none'])
-    lines += [{} for _ in said[len(lines) :]]
+    lines = [line for line in (dict(zip(heads, line)) for line in found[1:]) if line.get(USE) != "no"]
+    if len(said) != len(lines):
+        raise Wrong([f"{sheet}: the faces show {len(lines)}, {len(said)} are described"])
     for line, more in zip(lines, said):
         line.update(flat(more))
-    heads += [key for line in lines for key in line if key not in heads]
-    return table(list(dict.fromkeys(heads)), lines)
+    return table(list(dict.fromkeys([*heads, *(key for line in lines for key in line)])), lines)
 
 
 def flat(fields: Mapping[str, Any], prefix: str = "") -> Dict[str, Cell]:
@@ -201,5 +216,6 @@ def flat(fields: Mapping[str, Any], prefix: str = "") -> Dict[str, Cell]:
         if isinstance(value, Mapping):
             found.update(flat(value, f"{prefix}{name}."))
         else:
-            found[f"{prefix}{name}"] = value
+            plain = value is None or (isinstance(value, (str, float, int)) and not isinstance(value, bool))
+            found[f"{prefix}{name}"] = value if plain else json.dumps(value)
     return found

@@ -1,0 +1,50 @@
+"""Files for those who make it: STEP of all solids, and the service's drawings and bill. Needs FreeCAD, no window."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from zipfile import ZipFile
+
+import Import
+
+from .balance import verify
+from .service import Refused
+from .sheets import Wrong
+
+
+def export(machine, folder, service):
+    """Write files into a folder; their paths.
+
+    `balanced.step` holds shaft and counterweights as they are in the document. Outlines (DXF), sheets with dimensions
+    (SVG), solids (STEP) and bill of material (CSV, xlsx) are those of the service.
+
+    Raises
+    ------
+    Wrong
+        if the solids are not those of the answer, or the service does not draw.
+    """
+    found = verify(machine)
+    if not found.held:
+        raise Wrong(found.words())
+    target = Path(folder)
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+        Import.export([*machine.Shaft, *machine.Counterweights], str(target / "balanced.step"))
+        drawn = service.drawings(_given(machine), target / "counterweights.zip")
+        with ZipFile(drawn) as archive:
+            archive.extractall(target)
+    except Refused as refused:
+        raise Wrong([str(refused)]) from None
+    except OSError as error:
+        raise Wrong([f"not exported: {error}"]) from None
+    drawn.unlink()
+    return sorted(target.iterdir())
+
+
+def _given(machine):
+    """The counterweights of the answer, to be drawn."""
+    request, answer = json.loads(machine.Request), json.loads(machine.Answer)
+    names = ("web", "mass_kg", "angle_deg")
+    fitted = [{name: one[name] for name in names} for one in answer["counterweights"] if one["mass_kg"] > 0]
+    return {"machine": request["machine"], "counterweights": fitted}

@@ -1,0 +1,64 @@
+"""What is exported, read back; and the service's own drawing of the same counterweights beside the solids."""
+
+import os
+from pathlib import Path
+
+import FreeCAD as App
+import Part
+from freecad.counterweight.asking import service_at
+from freecad.counterweight.balance import balance
+from freecad.counterweight.export import export
+from freecad.counterweight.features import shaft_moments, weight_moments
+from freecad.counterweight.sheets import Wrong
+from freecad.counterweight.solids import moments
+from loop import machine_of
+
+
+def main():
+    document = App.newDocument("shaft")
+    machine = machine_of("imported", document)
+    service = service_at(os.environ["URL"])
+    balance(machine, service)
+    folder = Path(os.environ["FOLDER"]) / "out"
+    found = {"files": [path.name for path in export(machine, folder, service)]}
+
+    weights = list(weight_moments(machine).values())
+    found["weights"] = told(sum(weights[1:], weights[0]))
+    # drawn by the service, in the shaft's frame, read by FreeCAD
+    found["of the service"] = told(moments(read(folder / "counterweights.step"), 7850.0))
+    shaft = list(shaft_moments(machine).values())
+    found["masses"] = [one.mass_kg for one in [*shaft, *weights]]
+    balanced = read(folder / "balanced.step")
+    found["masses read back"] = [solid.Volume * 7850e-9 for solid in balanced.Solids]
+    # in the document's coordinates, as the shaft was imported
+    drawn = [one.Shape for one in [*machine.Shaft, *machine.Counterweights]]
+    found["centre apart mm"] = (centre(drawn) - centre([balanced])).Length
+
+    machine.Counterweights[0].AskedAngle = machine.Counterweights[0].AskedAngle.Value + 1.0
+    document.recompute()
+    try:
+        export(machine, folder / "wrong", service)
+    except Wrong as wrong:
+        found["refused"] = wrong.lines
+    found["nothing written"] = not (folder / "wrong").exists()
+    return found
+
+
+def read(path):
+    shape = Part.Shape()
+    shape.read(str(path))
+    return shape
+
+
+def told(one):
+    parts = one.static_kg_m, one.axial_kg_m2
+    return [one.mass_kg, *(value for part in parts for value in (part.real, part.imag))]
+
+
+def centre(shapes):
+    solids = [solid for shape in shapes for solid in shape.Solids]
+    total = sum(solid.Volume for solid in solids)
+    at = App.Vector()
+    for solid in solids:
+        at += solid.CenterOfMass * (solid.Volume / total)
+    return at

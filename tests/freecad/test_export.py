@@ -1,0 +1,87 @@
+"""What leaves FreeCAD: STEP read back, the service's drawings and bill; the same without a window in one command."""
+
+import csv
+import json
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import ezdxf
+import pytest
+
+from tests.freecad.conftest import Run
+from tests.freecad.freecad import WORKBENCH, environment_for
+
+
+def test_what_is_exported_is_what_was_drawn(run: Run, tmp_path: Path) -> None:
+    found = run("files")
+    # read back by FreeCAD: every mass, and where all of it is
+    assert sorted(found["masses read back"]) == pytest.approx(sorted(found["masses"]), rel=1e-9)
+    assert found["centre apart mm"] < 1e-6
+    # drawn twice, by the service and here: mass, static and axial moment
+    scale = max(map(abs, found["weights"]))
+    assert found["of the service"] == pytest.approx(found["weights"], rel=1e-9, abs=1e-9 * scale)
+
+    folder = tmp_path / "out"
+    outlines = sorted(folder.glob("*.dxf"))
+    assert outlines
+    for path in outlines:
+        drawing = ezdxf.readfile(path)
+        assert not drawing.audit().has_errors
+    assert len(list(folder.glob("counterweight-*.svg"))) == len(outlines)
+    with (folder / "bill-of-material.csv").open(newline="") as file:
+        bill = list(csv.DictReader(file))
+    assert sum(float(line["mass, kg"]) for line in bill) == pytest.approx(found["weights"][0], rel=1e-9)
+    assert (folder / "bill-of-material.xlsx").exists()
+    assert not (folder / "counterweights.zip").exists()
+
+    # what is not the answer's is not sent to a workshop
+    assert "REFUSED" in found["refused"][-1]
+    assert found["nothing written"]
+
+
+DESCRIBED: dict[str, Any] = {
+    "density_kg_m3": 7850,
+    "machine": {
+        "name": "batch",
+        "speed_rpm": 500,
+        "throws": [{"rows": [{"axis_deg": axis, "reciprocating_mass_kg": 250}]} for axis in (0, 90)],
+        "webs": [{"envelope": {"outer_radius_m": 0.36, "max_half_angle_deg": 80}} for _ in range(4)],
+    },
+    "objective": {"combine": "max"},
+}
+
+
+def batch(freecadcmd: str, folder: Path, **settings: str) -> "subprocess.CompletedProcess[str]":
+    return subprocess.run(
+        [freecadcmd, str(WORKBENCH / "balance.py")],
+        env=environment_for(folder / "home", **settings),
+        cwd=folder,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
+
+
+def test_a_shaft_in_and_a_balanced_shaft_out(run: Run, freecadcmd: str, url: str, tmp_path: Path) -> None:
+    run("step")
+    described = tmp_path / "machine.json"
+    described.write_text(json.dumps(DESCRIBED))
+    settings = {
+        "COUNTERWEIGHT_SHAFT": str(tmp_path / "imported.step"),
+        "COUNTERWEIGHT_MACHINE": str(described),
+        "COUNTERWEIGHT_FOLDER": str(tmp_path / "out"),
+        "COUNTERWEIGHT_URL": url,
+    }
+    done = batch(freecadcmd, tmp_path, **settings)
+    assert done.returncode == 0, done.stdout[-3000:]
+    assert "The solids leave what the service says, to " in done.stdout
+    assert "nothing of the shaft is in the way" in done.stdout
+    assert {"balanced.step", "balanced.FCStd"} <= {path.name for path in (tmp_path / "out").iterdir()}
+
+    described.write_text(json.dumps({**DESCRIBED, "machine": {**DESCRIBED["machine"], "throws": [{}]}}))
+    done = batch(freecadcmd, tmp_path, **settings)
+    assert (done.returncode, "throws: the faces show 2, 1 are described" in done.stdout) == (1, True)
+    assert "Traceback" not in done.stdout
