@@ -26,7 +26,7 @@ from service.http.computing import Computing
 from service.http.cors import Cors
 from service.http.openapi import Documented
 from service.http.pacing import Pacing
-from service.http.rounds import LoopRounds
+from service.http.rounds import Rounds
 from service.http.security_headers import SecurityHeaders
 from service.jobs.desk import Desk
 from service.jobs.events import Watch
@@ -105,7 +105,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         chosen.solve_memory_mb,
         chosen.data_dir,
     )
-    threads, rounds = Threads(), LoopRounds()
+    threads, rounds = Threads(), Rounds()
     readiness = Readiness(
         {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)},
         threads,
@@ -165,6 +165,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app.state.desk = desk
     app.state.pool = pool
     app.state.threads = threads
+    app.state.rounds = rounds
     app.state.looks = Looks(rounds.turn)
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics

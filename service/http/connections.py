@@ -23,11 +23,11 @@ _READ_BYTES = 32_768
 _TOO_LARGE = 431
 
 
-def connections(settings: Settings) -> "type[Connection]":
-    """The protocol of a server with these settings."""
+def connections(settings: Settings, shared: Rounds) -> "type[Connection]":
+    """The protocol of a server with these settings, whose connections share rounds with whatever else goes by turns."""
 
     class Limited(Connection):
-        rounds = Rounds(lambda work: asyncio.get_running_loop().call_soon(work))
+        rounds = shared
         headers_timeout_s = settings.headers_timeout_s
         write_timeout_s = settings.write_timeout_s
 

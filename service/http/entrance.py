@@ -23,7 +23,7 @@ from service.http.rounds import Rounds
 
 _LOG = logging.getLogger(__name__)
 #: connections that are taken in a turn of the event loop
-_AT_A_TIME = 32
+_AT_A_TIME = 16
 #: there is no file for a connection: wait, and say so once in a while [s]
 _NO_FILES = (EMFILE, ENFILE, ENOBUFS, ENOMEM)
 _WAIT_S, _SAY_AGAIN_S = 1.0, 60.0

@@ -6,7 +6,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.guard.shares import Holding, OverShare
 from service.http.errors import answered
-from service.http.rounds import LoopRounds
+from service.http.rounds import Rounds
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
 PIECE_BYTES = 16_384
@@ -19,7 +19,7 @@ class Pacing:
     is handed over in a turn of the event loop, of one client after the other.
     """
 
-    def __init__(self, app: ASGIApp, rounds: LoopRounds) -> None:
+    def __init__(self, app: ASGIApp, rounds: Rounds) -> None:
         self._app = app
         self._rounds = rounds
 

@@ -5,32 +5,59 @@ from collections import OrderedDict, deque
 from collections.abc import Callable
 
 Work = Callable[[], None]
+#: a client of whom much waits has a piece done in every so many-th turn, which is short for everybody else
+_APART = 4
 
 
 class Rounds:
-    """One piece of work in each turn of an event loop, of one client after the other.
+    """At most one piece of work in each turn of an event loop.
 
-    What is alone is done at once, so that it costs nothing where there is no haste.
+    What is alone is done at once, so that it costs nothing where there is no haste. A client of whom one piece waits
+    comes next; those of whom more wait take turns that are further apart.
 
     Parameters
     ----------
-    call_soon : has something done in the next turn of the loop.
+    call_soon : has something done in the next turn of the loop; that of the loop that runs if not given.
     """
 
-    def __init__(self, call_soon: Callable[[Work], object]) -> None:
+    def __init__(self, call_soon: Callable[[Work], object] | None = None) -> None:
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._own = call_soon is None
+        self._begin(call_soon or _nothing)
+
+    def _begin(self, call_soon: Callable[[Work], object]) -> None:
         self._call_soon = call_soon
-        self._waiting: OrderedDict[str, deque[Work]] = OrderedDict()
+        self._few: OrderedDict[str, deque[Work]] = OrderedDict()
+        self._many: OrderedDict[str, deque[Work]] = OrderedDict()
         self._taken = False
+        self._since = 0
+
+    @property
+    def waiting(self) -> int:
+        """Pieces of work that wait."""
+        return sum(len(own) for those in (self._few, self._many) for own in those.values())
 
     def ask(self, client: str, work: Work) -> bool:
         """Have some work done, in the order in which its client asks; whether it has been done already."""
+        if self._own and (loop := asyncio.get_running_loop()) is not self._loop:
+            # what waited in a loop that has ended is gone with it
+            self._loop = loop
+            self._begin(loop.call_soon)
         if self._taken:
-            self._waiting.setdefault(client, deque()).append(work)
+            self._wait(client, work)
             return False
         self._taken = True
         self._call_soon(self._next)
         work()
         return True
+
+    def _wait(self, client: str, work: Work) -> None:
+        own = self._many.get(client)
+        if own is None:
+            own = self._few.pop(client, None)
+            those = self._few if own is None else self._many
+            own = those[client] = own or deque()
+        own.append(work)
 
     async def turn(self, client: str) -> None:
         """Wait for a turn of the event loop that is a client's."""
@@ -45,27 +72,22 @@ class Rounds:
             await given
 
     def _next(self) -> None:
-        if not self._waiting:
+        if not (self._few or self._many):
             self._taken = False
             return
-        client, own = self._waiting.popitem(last=False)
-        work = own.popleft()
-        if own:
-            # behind all others
-            self._waiting[client] = own
         self._call_soon(self._next)
-        work()
+        self._since += 1
+        if self._many and self._since >= _APART:
+            self._since = 0
+            client, own = self._many.popitem(last=False)
+            work = own.popleft()
+            # behind all others
+            (self._many if len(own) > 1 else self._few)[client] = own
+            work()
+        elif self._few:
+            _, own = self._few.popitem(last=False)
+            own.popleft()()
 
 
-class LoopRounds:
-    """The rounds of the event loop that runs; what waited in one that has ended is gone with it."""
-
-    def __init__(self) -> None:
-        self._loop: asyncio.AbstractEventLoop | None = None
-
-    async def turn(self, client: str) -> None:
-        """Wait for a turn of the event loop that is a client's."""
-        loop = asyncio.get_running_loop()
-        if loop is not self._loop:
-            self._loop, self._rounds = loop, Rounds(loop.call_soon)
-        await self._rounds.turn(client)
+def _nothing(_: Work) -> None:
+    pass

@@ -54,7 +54,7 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     most = max(1, _files() - _OTHER_FILES)
     if most < settings.max_connections:
         _LOG.warning("the system allows %d open connections, not %d", most, settings.max_connections)
-    protocol = connections(settings)
+    protocol = connections(settings, app.state.rounds)
     config = uvicorn.Config(
         app,
         http=protocol,

@@ -11,6 +11,7 @@ from uvicorn.server import ServerState
 
 from service.http.connections import Connection, connections
 from service.http.joined import Joined
+from service.http.rounds import Rounds
 from service.http.server import listen
 from service.settings import Settings
 from tests.network.serving import read, request
@@ -38,7 +39,7 @@ def test_a_kept_connection_waits_for_no_acknowledgement(monkeypatch: pytest.Monk
     async def ask() -> tuple[int, list[bytes]]:
         loop, state = asyncio.get_running_loop(), ServerState()
         config = Config(app, lifespan="off", log_config=None)
-        protocol: type[Any] = connections(SETTINGS)
+        protocol: type[Any] = connections(SETTINGS, Rounds())
         listening = listen(SETTINGS)
         async with await loop.create_server(lambda: protocol(config, state, {}), sock=listening):
             reader, writer = await asyncio.open_connection(*listening.getsockname()[:2])

@@ -14,6 +14,7 @@ from uvicorn.server import ServerState
 from service.guard.doors import _PROBING_EACH, Doors
 from service.http.connections import Connection, connections
 from service.http.entrance import Entrance
+from service.http.rounds import Rounds
 from service.http.server import listen
 from service.settings import Settings
 from tests.network.serving import Reply, read, request
@@ -34,7 +35,7 @@ class House:
         self.made = 0
         self.state = ServerState()
         self.doors = Doors(room, room, ())
-        protocol = connections(SETTINGS)
+        protocol = connections(SETTINGS, Rounds())
         config = Config(app, lifespan="off", log_config=None)
         config.load()
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from uvicorn.server import ServerState
 
 from service.http.connections import Connection, connections
-from service.http.rounds import Rounds
+from service.http.rounds import _APART, Rounds
 from service.settings import Settings
 from tests.network.serving import read, request
 
@@ -45,10 +45,39 @@ def test_one_of_many_connections_delays_nobody() -> None:
     rounds = Rounds(loop.soon.append)
     for k in range(300):
         rounds.ask("many", lambda k=k: done.append(f"many {k}"))  # type: ignore[misc]
-    rounds.ask("few", lambda: done.append("few"))
-    for _ in range(2):
+    for _ in range(3):
+        rounds.ask("few", lambda: done.append("few"))
         loop.turn()
-    assert done == ["many 0", "many 1", "few"]
+    # between two of its own there is nothing of the other's, however much of that waits
+    assert done == ["many 0", "few", "few", "few"]
+
+
+def test_of_whom_much_waits_something_is_done_however_much_others_ask() -> None:
+    loop, done = Loop(), list[str]()
+    rounds = Rounds(loop.soon.append)
+    for k in range(300):
+        rounds.ask(f"client {k % 3}", lambda k=k: done.append(f"client {k % 3}"))  # type: ignore[misc]
+    asked = 0
+    for _ in range(30 * _APART):
+        # always one, as soon as the one before is done
+        if done.count("few") == asked:
+            asked += 1
+            rounds.ask("few", lambda: done.append("few"))
+        loop.turn()
+    assert [each for each in done if each != "few"] == [f"client {k % 3}" for k in range(31)]
+    assert done.count("few") == 30 * (_APART - 1)
+
+
+def test_what_waited_in_a_loop_that_has_ended_is_gone_with_it() -> None:
+    rounds, done = Rounds(), list[int]()
+
+    async def ask() -> None:
+        for k in range(3):
+            rounds.ask("a", lambda k=k: done.append(k))  # type: ignore[misc]
+
+    for _ in range(2):
+        asyncio.run(ask())
+    assert done.count(0) == 2
 
 
 @given(st.lists(st.sampled_from("abc"), max_size=30), st.lists(st.integers(0, 3), max_size=30))
@@ -59,7 +88,7 @@ def test_all_is_done_once_and_in_the_order_of_its_client(clients: list[str], tur
         rounds.ask(client, lambda client=client, number=number: done.append((client, number)))  # type: ignore[misc]
         for _ in range(turns[number] if number < len(turns) else 0):
             loop.turn()
-    for _ in range(len(clients) + 1):
+    for _ in range(_APART * len(clients) + 1):
         loop.turn()
     for client in "abc":
         asked = [(each, number) for number, each in enumerate(clients) if each == client]
@@ -76,21 +105,20 @@ async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loo
     """A connection whose first bytes wait for their round, its client, and what gives them their round."""
     loop, made = Loop(), list[Connection]()
 
-    class Waiting(connections(Settings())):  # type: ignore[misc]
-        rounds = Rounds(loop.soon.append)
+    protocol = connections(Settings(), Rounds(loop.soon.append))
 
     def accepted() -> Connection:
-        made.append(Waiting(config, ServerState(), {}))
+        made.append(protocol(config, ServerState(), {}))
         return made[0]
 
-    config = uvicorn.Config(nobody, interface="asgi3", http=Waiting, log_config=None)
+    config = uvicorn.Config(nobody, interface="asgi3", http=protocol, log_config=None)
     config.load()
-    assert Waiting.rounds.ask("other", lambda: None)
+    assert protocol.rounds.ask("other", lambda: None)
     listening = await asyncio.get_running_loop().create_server(accepted, "127.0.0.1", 0)
     async with listening, asyncio.timeout(180):
         reader, writer = await asyncio.open_connection(*listening.sockets[0].getsockname())
         writer.write(request("GET", "/healthz"))
-        while not Waiting.rounds._waiting:
+        while not protocol.rounds.waiting:
             await asyncio.sleep(0.01)
         yield made[0], reader, loop
         made[0].transport.abort()
@@ -111,7 +139,7 @@ def test_what_waits_on_a_connection_that_ends_is_not_looked_at(
         async with waiting() as (connection, reader, loop):
             ended(connection)
             loop.turn()
-            assert not connection.rounds._waiting
+            assert not connection.rounds.waiting
             return (await read(reader)).status
 
     assert asyncio.run(answered()) == status
@@ -129,7 +157,7 @@ def test_a_connection_whose_bytes_wait_is_not_idle() -> None:
 
 def test_who_waits_for_a_turn_has_it_in_the_order_of_the_clients() -> None:
     async def told() -> list[str]:
-        rounds, done = Rounds(asyncio.get_running_loop().call_soon), list[str]()
+        rounds, done = Rounds(), list[str]()
 
         async def pieces(client: str) -> None:
             for _ in range(3):

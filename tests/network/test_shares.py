@@ -10,7 +10,7 @@ import pytest
 from schemas.problem import Problem
 from service.guard.shares import Holding, OverShare, Shares
 from service.http.pacing import PIECE_BYTES, Pacing
-from service.http.rounds import LoopRounds
+from service.http.rounds import Rounds
 from service.settings import Settings
 from tests.network.load import start_sweep
 from tests.network.serving import request, service
@@ -66,7 +66,7 @@ def answered(held: Holding, parts: Sequence[bytes]) -> list[dict[str, Any]]:
     async def receive() -> Any:
         raise AssertionError("nobody reads")
 
-    asyncio.run(Pacing(app, LoopRounds())({"type": "http", "path": "/x", "state": {"holding": held}}, receive, send))
+    asyncio.run(Pacing(app, Rounds())({"type": "http", "path": "/x", "state": {"holding": held}}, receive, send))
     return sent
 
 
