@@ -13,7 +13,7 @@ import Part
 from .cranks import inside
 from .features import asked
 from .sheets import Wrong
-from .solids import MM, seen
+from .solids import MM, seen, shape_of
 
 #: positions of a rod over a turn
 STEPS = 72
@@ -35,10 +35,8 @@ def clearance(machine):
     weights = {one: inside(one.Shape, machine.Frame) for one in machine.Counterweights}
     rods = list(_rods(machine))
     room = machine.Clearance.Value
-    found = []
+    found = overlaps(machine)
     for one, shape in weights.items():
-        for body in machine.Shaft:
-            found += _said(one, body, "overlap", _overlap(shape, seen(body, machine.Frame)))
         ring = _ring(one, shape.BoundBox, room)
         for body in machine.Obstacles:
             words = f"within {room:g} mm of its way"
@@ -48,6 +46,16 @@ def clearance(machine):
             volume, angle = rod.worst(grown)
             found += _said(one, rod.body, f"within {room:g} mm at shaft angle {angle:g} degrees", volume)
     return found
+
+
+def overlaps(machine):
+    """Counterweights that stand in their own shaft, in words: what is of both would weigh twice."""
+    return [
+        line
+        for one in machine.Counterweights
+        for body in machine.Shaft
+        for line in _said(one, body, "overlap", _overlap(one.Shape, shape_of(body)))
+    ]
 
 
 def _said(one, body, words, volume):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import defaultdict
 from dataclasses import dataclass
-from math import atan2, degrees, hypot, pi
+from math import atan2, degrees, hypot, pi, sqrt
 
 import FreeCAD as App
 import Part
@@ -43,7 +43,11 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Web:
-    """The stretch between two neighbours of which one is a pin; hub and reach are radii of its round faces."""
+    """The stretch between two neighbours of which one is a pin.
+
+    hub : radius that is free opposite the crank.
+    reach : of its round faces from the axis.
+    """
 
     low: float
     high: float
@@ -116,9 +120,9 @@ def _stands_on(pin, web):
 
 
 def _radii(faces, low, high):
-    """Largest radius about the axis, and farthest reach, of round faces between two planes."""
+    """How far round faces between two planes reach opposite to where they stand, up to a right angle; and at most."""
     within = [one for one in faces if one.low < high - _SAME and one.high > low + _SAME]
-    hub = max((one.radius for one in within if one.offset < 10 * _SAME), default=0.0)
+    hub = max((sqrt(max(0.0, one.radius**2 - one.offset**2)) for one in within), default=0.0)
     return hub, max((one.offset + one.radius for one in within), default=0.0)
 
 

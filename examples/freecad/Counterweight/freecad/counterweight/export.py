@@ -9,6 +9,7 @@ from zipfile import ZipFile
 import Import
 
 from .balance import verify
+from .clearance import overlaps
 from .service import Refused
 from .sheets import Wrong
 
@@ -22,11 +23,12 @@ def export(machine, folder, service):
     Raises
     ------
     Wrong
-        if the solids are not those of the answer, or the service does not draw.
+        if the solids are not those of the answer or stand in the shaft, or the service does not draw.
     """
     found = verify(machine)
-    if not found.held:
-        raise Wrong(found.words())
+    wrong = overlaps(machine) if found.held else found.words()
+    if wrong:
+        raise Wrong(wrong)
     target = Path(folder)
     try:
         target.mkdir(parents=True, exist_ok=True)

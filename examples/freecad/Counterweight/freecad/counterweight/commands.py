@@ -1,0 +1,162 @@
+"""What the menu does: every command calls a function that needs no window, and says in the report view what came of it.
+
+Only the question to the service runs beside the window, in a thread of its own; documents are changed in the window's.
+"""
+
+import os
+
+import FreeCAD as App
+import FreeCADGui as Gui
+from PySide import QtCore, QtGui
+
+from .asking import KEY, ask, service_at
+from .balance import draw, read_shaft, verify
+from .clearance import clearance, overlaps
+from .export import export
+from .features import asked
+from .panel import Pins
+from .preferences import url
+from .sheets import Wrong
+
+_ICON = os.path.join(os.path.dirname(__file__), "resources", "counterweight.svg")
+translate = App.Qt.translate
+
+
+class _Command:
+    """A menu entry; what is wrong is said in the report view, line by line."""
+
+    def __init__(self, text, tip, does, on_machine=True):
+        self._text, self._tip, self._does, self._on_machine = text, tip, does, on_machine
+
+    def GetResources(self):
+        text, tip = translate("Counterweight", self._text), translate("Counterweight", self._tip)
+        return {"MenuText": text, "ToolTip": tip, "Pixmap": _ICON}
+
+    def IsActive(self):
+        return App.ActiveDocument is not None
+
+    def Activated(self):
+        try:
+            self._does(_machine()) if self._on_machine else self._does()
+        except Wrong as wrong:
+            complain(wrong)
+
+
+def complain(wrong):
+    """In the report view."""
+    for line in wrong.lines:
+        App.Console.PrintError(f"Counterweight: {line}\n")
+
+
+def tell(lines):
+    for line in lines:
+        App.Console.PrintMessage(f"Counterweight: {line}\n")
+
+
+def _machine():
+    """The machine that is selected, or the only one."""
+    chosen = [one for one in Gui.Selection.getSelection() if hasattr(one, "Shaft")]
+    every = chosen or [one for one in App.ActiveDocument.Objects if hasattr(one, "Shaft")]
+    if len(every) != 1:
+        raise Wrong([f"{len(every)} machines: select one, or read the shaft first"])
+    return every[0]
+
+
+def _read():
+    bodies = [one for one in Gui.Selection.getSelection() if getattr(one, "Shape", None) and one.Shape.Solids]
+    machine = read_shaft(App.ActiveDocument, bodies)
+    Gui.Control.showDialog(Pins(machine))
+
+
+# ---- asking
+
+
+class _Asking(QtCore.QThread):
+    """One question to the service, beside the window."""
+
+    def __init__(self, service, question):
+        super().__init__()
+        self._service, self.question = service, question
+        self.answer = self.wrong = None
+
+    def run(self):
+        try:
+            self.answer = ask(self._service, self.question)
+        except Wrong as wrong:
+            self.wrong = wrong
+
+
+#: threads that run, so that nothing throws them away
+_RUNNING = set()
+
+
+def _balance(machine):
+    asking = _Asking(_service(), asked(machine))
+    document, name = machine.Document.Name, machine.Name
+
+    def done():
+        _RUNNING.discard(asking)
+        try:
+            if asking.wrong is not None:
+                raise asking.wrong
+            machine = App.getDocument(document).getObject(name)
+            tell(draw(machine, asking.question.body, asking.answer).words())
+            complain(Wrong(overlaps(machine)))
+        except Wrong as wrong:
+            complain(wrong)
+        except (NameError, AttributeError):
+            # closed or deleted while the service was asked
+            complain(Wrong(["the machine is gone: nothing was drawn"]))
+
+    asking.finished.connect(done)
+    _RUNNING.add(asking)
+    asking.start()
+
+
+#: for this session only; a preference would be a file that people send each other
+_key = None
+
+
+def _service():
+    return service_at(url(), _key)
+
+
+def _ask_key():
+    global _key
+    words = translate("Counterweight", f"Key of the service; never stored. {KEY} in the environment does the same.")
+    said, given = QtGui.QInputDialog.getText(Gui.getMainWindow(), "Counterweight", words, QtGui.QLineEdit.Password)
+    if given:
+        _key = said or None
+
+
+# ---- what was drawn
+
+
+def _verify(machine):
+    found = verify(machine)
+    if not found.held:
+        raise Wrong(found.words())
+    tell(found.words())
+
+
+def _clearance(machine):
+    found = clearance(machine)
+    if found:
+        raise Wrong(found)
+    tell(["nothing is in the way of the counterweights"])
+
+
+def _export(machine):
+    folder = QtGui.QFileDialog.getExistingDirectory(Gui.getMainWindow(), translate("Counterweight", "Folder"))
+    if folder:
+        tell(map(str, export(machine, folder, _service())))
+
+
+COMMANDS = {
+    "Counterweight_Read": _Command("Read shaft", "Find axis, pins and webs of the selected bodies", _read, False),
+    "Counterweight_Balance": _Command("Balance", "Ask the service and draw the counterweights", _balance),
+    "Counterweight_Verify": _Command("Verify", "Hold the solids against the answer", _verify),
+    "Counterweight_Clearance": _Command("Clearance", "Find what is in the way over a turn", _clearance),
+    "Counterweight_Export": _Command("Export", "STEP, outlines, drawings, bill of material", _export),
+    "Counterweight_Key": _Command("Key", "Key of the service, for this session", _ask_key, False),
+}

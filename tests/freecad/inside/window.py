@@ -1,0 +1,74 @@
+"""The workbench in a window: its commands run as from the menu, and a picture of what is seen."""
+
+import os
+import time
+
+import FreeCAD as App
+import FreeCADGui as Gui
+import shafts
+from loop import complete
+from PySide import QtCore, QtGui
+
+#: generous: the machine is busy
+_WITHIN_S = 120.0
+
+
+def main():
+    Gui.activateWorkbench("CounterweightWorkbench")
+    App.ParamGet("User parameter:BaseApp/Preferences/Mod/Counterweight").SetString("Url", os.environ["URL"])
+    document = App.newDocument("shaft")
+    bodies = shafts.part_design(document)
+    found = {
+        "workbench": Gui.activeWorkbench().name(),
+        "commands": sorted(name for name in Gui.listCommands() if name.startswith("Counterweight_")),
+    }
+    for body in bodies:
+        Gui.Selection.addSelection(body)
+    Gui.runCommand("Counterweight_Read")
+    machine = document.getObject("Machine")
+    boxes = Gui.getMainWindow().findChildren(QtGui.QCheckBox)
+    found["pins"] = [box.text() for box in boxes if "radius" in box.text()]
+    found["ticked"] = [box.isChecked() for box in boxes if "radius" in box.text()]
+    Gui.Control.closeDialog()
+
+    Gui.runCommand("Counterweight_Balance")
+    found["without a speed"] = report()
+    complete(machine)
+    document.recompute()
+    Gui.runCommand("Counterweight_Balance")
+    wait(lambda: machine.Answer)
+    Gui.runCommand("Counterweight_Verify")
+    Gui.runCommand("Counterweight_Clearance")
+    found["report"] = report()
+    found["status"] = machine.Status
+    for one in document.Objects:
+        if one.TypeId in ("App::Origin", "Spreadsheet::Sheet"):
+            one.ViewObject.Visibility = False
+    Gui.Selection.clearSelection()
+    view = Gui.activeDocument().activeView()
+    view.viewIsometric()
+    view.fitAll()
+    wait(lambda: True)
+    view.saveImage(os.path.join(os.environ["FOLDER"], "view.png"), 900, 700, "White")
+    Gui.getMainWindow().resize(1400, 900)
+    wait(lambda: True)
+    Gui.getMainWindow().grab().save(os.path.join(os.environ["FOLDER"], "window.png"))
+    return found
+
+
+def report():
+    """What stands in the report view."""
+    wait(lambda: True)
+    views = Gui.getMainWindow().findChildren(QtGui.QTextEdit)
+    return "\n".join(view.toPlainText() for view in views)
+
+
+def wait(until):
+    """Let the window work until something has happened, and a little longer."""
+    deadline = time.monotonic() + _WITHIN_S
+    while not until():
+        if time.monotonic() > deadline:
+            raise TimeoutError(report())
+        QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.AllEvents, 50)
+    for _ in range(5):
+        QtCore.QCoreApplication.processEvents(QtCore.QEventLoop.AllEvents, 50)

@@ -1,0 +1,48 @@
+"""The workbench in a window that nobody sees."""
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+
+from tests.freecad.conftest import INSIDE
+from tests.freecad.freecad import MISSING, environment_for
+
+#: generous: a window of 24 workbenches on a busy machine
+_WITHIN_S = 600.0
+#: without it Qt's browser of the start page refuses to run as root
+_QT = {"QTWEBENGINE_DISABLE_SANDBOX": "1"}
+
+
+def test_the_commands_of_the_menu(url: str, tmp_path: Path) -> None:
+    if shutil.which("xvfb-run") is None or shutil.which("freecad") is None:
+        pytest.skip(MISSING)
+    found = tmp_path / "found.json"
+    settings = {"URL": url, "FOLDER": str(tmp_path), "FOUND": str(found), "INSIDE": str(INSIDE), "SCRIPT": "window"}
+    done = subprocess.run(
+        ["xvfb-run", "-a", "-s", "-screen 0 1600x1000x24", "freecad", str(INSIDE / "run.py")],
+        env=environment_for(tmp_path / "home", **settings, **_QT),
+        cwd=tmp_path,
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        timeout=_WITHIN_S,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout[-4000:] + done.stderr[-2000:]
+    assert "Traceback" not in done.stdout + done.stderr
+    told = json.loads(found.read_text())
+
+    assert told["workbench"] == "CounterweightWorkbench"
+    assert len(told["commands"]) == 6
+    # eccentric round webs were found too, and are not ticked
+    assert told["ticked"] == [False, True, False, False, True, False]
+    # what is missing is said at its cell, what was drawn in words
+    assert "rows!2 (/machine/throws/0/rows/0/reciprocating_mass_kg): this field is required" in told["without a speed"]
+    assert told["status"] == "balanced"
+    assert "The solids leave what the service says" in told["report"]
+    assert "nothing is in the way of the counterweights" in told["report"]
+    for name in ("view.png", "window.png"):
+        assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")
