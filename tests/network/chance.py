@@ -118,7 +118,7 @@ async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, 
                     if sent.ends:
                         writer.write_eof()
                 for _ in range(sent.answers):
-                    async with asyncio.timeout(120):
+                    async with asyncio.timeout(1800):
                         reply = await read(reader)
                         while reply.status == 100:
                             reply = await read(reader)
