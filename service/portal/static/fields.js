@@ -2,32 +2,38 @@
 
 import { h } from "./dom.js";
 import { label } from "./format.js";
-
-const NUMBER = /^[+-]?(\d+\.?\d*|\.\d+)(e[+-]?\d+)?$/i;
-const COMMA = /[\s,;]+/;
+import { meant, read } from "./quantity.js";
 
 let last = 0;
 const freshId = () => `field-${(last += 1)}`;
-
-// A number, or the text as it stands: the service reads "140 mm", and says what it cannot read.
-export function read(text) {
-  const trimmed = text.trim();
-  return NUMBER.test(trimmed) ? Number(trimmed) : trimmed;
-}
 
 const shown = (value) => (value === null || value === undefined ? "" : String(value));
 
 // Label, input, unit, hint and a place for the error. `change` gets the new value, undefined where there is none.
 export function field(name, pointer, description, value, required, change) {
   const id = freshId();
-  const input = make(description, value, required, change);
+  const question = h("p", { class: "question", role: "status" });
+  const input = make(description, value, required, (given) => {
+    change(given);
+    doubt(given);
+  });
+  // metres that are hardly metres
+  const doubt = (given) => {
+    const other = description.kind === "number" ? meant(given, description.unit, name) : null;
+    const yes = () => {
+      input.value = other;
+      input.dispatchEvent(new Event("input"));
+      input.focus();
+    };
+    question.replaceChildren(...(other ? [`${given} m? `, h("button", { type: "button", class: "small", click: yes }, `${other} meant`)] : []));
+  };
   const text = description.text ? ` A number${description.unit ? ` in ${description.unit}` : ""}, or with its unit.` : "";
   input.id = id;
   input.setAttribute("aria-describedby", `${id}-hint ${id}-error`);
   if (required && !description.nullable) input.setAttribute("aria-required", "true");
   return h("div", { class: `field is-${description.kind}`, dataset: { pointer } },
     h("label", { for: id }, label(name), description.unit && h("span", { class: "unit" }, ` ${description.unit}`)),
-    input,
+    input, question,
     h("p", { class: "hint", id: `${id}-hint` }, `${description.about.replace("null is", "empty is")}.${text}`),
     h("p", { class: "error", id: `${id}-error` }));
 }
@@ -40,7 +46,7 @@ function make(description, value, required, change) {
   const long = kind === "text" && description.longest > 200;
   const mandatory = required && !description.nullable;
   const placeholder = mandatory ? undefined : shown(description.fallback) || meaning(description);
-  const given = () => (kind === "text" ? input.value : read(input.value));
+  const given = () => (kind === "text" ? input.value : read(input.value, description.unit));
   const input = h(long ? "textarea" : "input", {
     value: shown(value), placeholder, autocomplete: "off", spellcheck: "false",
     ...(long ? { rows: 3 } : { type: "text" }),
@@ -68,10 +74,13 @@ function boolean({ fallback }, value, change) {
   return box;
 }
 
+// between semicolons and tabs a comma is decimal
+const parts = (text) => (/[;\t]/.test(text) ? text.split(/[;\t]/).map((part) => part.trim()).filter(Boolean) : text.split(/[\s,]+/));
+
 function numbers(value, change) {
   const input = h("input", {
     type: "text", value: Array.isArray(value) ? value.join(", ") : shown(value), placeholder: "none", autocomplete: "off",
-    input: () => change(input.value.trim() ? input.value.trim().split(COMMA).map(read) : undefined),
+    input: () => change(input.value.trim() ? parts(input.value.trim()).map((part) => read(part)) : undefined),
   });
   return input;
 }

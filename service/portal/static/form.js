@@ -3,34 +3,98 @@
 import { h } from "./dom.js";
 import { field } from "./fields.js";
 import { label, nameOf, singular } from "./format.js";
-import { get, join, parent, set } from "./pointer.js";
+import { inTable, tableAt } from "./grid/columns.js";
+import { Grid } from "./grid/grid.js";
+import { ListSource, RowsSource } from "./grid/sources.js";
+import { get, join, parent, set, split } from "./pointer.js";
 import { another } from "./schema.js";
+import { nearest } from "./words.js";
 
 const NOT_ASKED = new Set(["outputs"]);
 const SINGLE = new Set(["number", "text", "boolean", "choice", "numbers"]);
+const WIDE = "(min-width: 1000px)";
+// longer lists are opened by the reader
+const FEW = 40;
 
 export class Form {
-  // `changed` is called after every edit
+  // `changed` is called after every edit, with the pointer of a single value
   constructor(container, schema, model, changed) {
     this.container = container;
     this.schema = schema;
     this.root = schema.model(model);
     this.changed = changed;
     this.request = {};
+    this.grids = new Map();
+    // optional columns that were asked for
+    this.unfolded = new Set();
   }
 
   show(request) {
+    // on narrow screens the results stand below the form
+    const lists = ["/machine/throws", "/machine/webs"].filter((list) => !(get(request, list)?.length > FEW));
+    this.draw(request, matchMedia(WIDE).matches ? ["/machine", ...lists] : []);
+  }
+
+  // `open` from the outside inwards
+  draw(request, open) {
     this.request = request;
+    this.grids = new Map();
     const { plain, groups } = this.parts(this.root, "");
     this.container.replaceChildren(...plain, ...groups);
-    // on narrow screens the results stand below the form
-    if (matchMedia("(min-width: 1000px)").matches) this.group("/machine")?.setAttribute("open", "");
+    for (const pointer of open) {
+      const group = this.group(pointer);
+      if (group) Object.assign(group, { open: true }).build();
+    }
+  }
+
+  // the same request after more than one value has changed: what was open stays open, the caret where it was
+  refresh({ told = true } = {}) {
+    const open = [...this.container.querySelectorAll("details[open][data-pointer]")].map((one) => one.dataset.pointer);
+    const place = document.activeElement?.closest("[data-pointer]")?.getAttribute("data-pointer");
+    this.draw(this.request, open);
+    const input = place && this.container.querySelector(`.field[data-pointer="${CSS.escape(place)}"] :is(input, select)`);
+    input?.focus();
+    if (told) this.changed();
+    return this.grids;
   }
 
   edit(pointer, value) {
     set(this.request, pointer, value);
+    this.told(pointer);
+  }
+
+  told(pointer) {
     this.clear(pointer);
-    this.changed();
+    this.headings();
+    this.changed(pointer);
+  }
+
+  // headings follow names
+  headings() {
+    for (const one of this.container.querySelectorAll("details.item[data-heading]")) {
+      const { pointer, heading } = one.dataset;
+      one.firstElementChild.textContent = `${heading} ${nameOf(get(this.request, pointer), Number(pointer.split("/").at(-1)))}`;
+    }
+  }
+
+  // the optional columns of a table: those that are used, and those that were asked for
+  shown(table, source) {
+    const used = ([, [first]]) => source.entries().some(({ item }) => {
+      const value = item?.[first.split("/")[0]];
+      return value !== undefined && value !== null && value !== 0;
+    });
+    return new Set(Object.entries(table.groups).filter((group) => this.unfolded.has(group[0]) || used(group)).map(([name]) => name));
+  }
+
+  // whether a table shows all of what is at a pointer, or could
+  covered(at, description) {
+    const { table, path } = inTable(at) ?? {};
+    if (!table) return false;
+    const paths = this.grids.get(table)?.columns.map((column) => column.path) ?? table.columns;
+    if (paths.includes(path)) return true;
+    const below = paths.filter((one) => one.startsWith(`${path}/`)).map((one) => one.split("/")[1]);
+    const absent = get(this.request, at) === undefined || get(this.request, at) === null;
+    return below.length > 0 && (absent || Object.keys(description.properties ?? {}).every((name) => below.includes(name)));
   }
 
   group(pointer) {
@@ -48,7 +112,7 @@ export class Form {
       const at = join(pointer, name);
       const value = get(this.request, at);
       const required = object.required.has(name);
-      if (description.kind === "constant") continue;
+      if (description.kind === "constant" || this.covered(at, description)) continue;
       if (SINGLE.has(description.kind)) {
         const made = field(name, at, description, value, required, (given) => this.edit(at, given));
         (required || value !== undefined || description.longest <= 64 ? plain : more).push(made);
@@ -140,7 +204,31 @@ export class Form {
     });
   }
 
+  // one row each in a table; below it what has no column
+  tabled(name, at, description, table) {
+    const source = new ListSource(this, at, description);
+    return this.fold({ class: "group tabled" }, `${label(name)} (${source.entries().length})`, at, () => {
+      const inner = description.items.properties.rows && this.schema.describe(description.items.properties.rows);
+      const rows = inner && new RowsSource(this, at, inner);
+      return [
+        this.grid(table, source),
+        rows ? [h("h3", {}, "Rows"), this.grid(tableAt(`${at}/0/rows`), rows)] : [],
+        h("p", { class: "about" }, `${description.about}; everything else of each:`),
+        source.entries().map((_, index) => this.item(name, at, index, description, null)),
+      ].flat();
+    });
+  }
+
+  grid(table, source) {
+    const made = new Grid(this, table, source, this.shown(table, source));
+    this.grids.set(source.pointer + table.item, made);
+    this.grids.set(table, made);
+    return made.element;
+  }
+
   list(name, at, description) {
+    const table = tableAt(at);
+    if (table && !inTable(at)) return this.tabled(name, at, description, table);
     // a machine that was pasted may hold anything
     const items = () => [get(this.request, at) ?? []].flat();
     const made = this.fold({ class: "group" }, `${label(name)} (${items().length})`, at, () => [
@@ -162,11 +250,12 @@ export class Form {
   item(name, at, index, description, details) {
     const pointer = join(at, index);
     const value = get(this.request, pointer);
-    return this.fold({ class: "item" }, `${singular(name)} ${nameOf(value, index)}`, pointer, () => {
+    return this.fold({ class: "item", "data-heading": singular(name) }, `${singular(name)} ${nameOf(value, index)}`, pointer, () => {
       const { plain, groups } = this.parts(description.items, pointer);
       const remove = () => {
         set(this.request, pointer, undefined);
-        this.redraw(details(), this.list(name, at, description));
+        if (details) this.redraw(details(), this.list(name, at, description));
+        else this.refresh();
       };
       return [...plain, ...groups, h("button", { type: "button", click: remove }, `Remove ${singular(name)}`)];
     });
@@ -205,7 +294,8 @@ export class Form {
     this.clear();
     const homeless = [];
     let first = null;
-    for (const { pointer, message } of errors) {
+    for (const { pointer, message: said } of errors) {
+      const message = this.meant(pointer, said);
       const place = this.place(pointer);
       if (!place) {
         homeless.push({ pointer, message });
@@ -222,6 +312,14 @@ export class Form {
     }
     first?.focus();
     return homeless;
+  }
+
+  // what was meant by a field that the service does not know
+  meant(pointer, message) {
+    if (message !== "unknown field") return message;
+    const parts = split(pointer);
+    const near = nearest(parts.at(-1), this.schema.namesAt(this.root, this.request, parts.slice(0, -1)));
+    return near ? `${message}; did you mean ${near}?` : message;
   }
 
   // the part of the form at a pointer, everything around it opened

@@ -3,6 +3,7 @@
 import { get, post, Problem } from "./api.js";
 import { showAnswer } from "./answer.js";
 import { byId, h } from "./dom.js";
+import { drawable, pair, plane } from "./drawing/pair.js";
 import { Embedding } from "./embed.js";
 import { Form } from "./form.js";
 import { accuracy } from "./panels/accuracy.js";
@@ -46,6 +47,20 @@ function edited() {
   byId("example").value = "";
   byId("results").classList.add("stale");
   byId("progress").textContent = "Edited: press Optimise.";
+  sketch();
+}
+
+let sketching = 0;
+
+// the machine as it is typed, without counterweights
+function sketch() {
+  cancelAnimationFrame(sketching);
+  sketching = requestAnimationFrame(() => {
+    const machine = drawable(state.request.machine);
+    if (!machine) return;
+    if (!byId("drawings")) byId("answer").append(h("div", { class: "drawings", id: "drawings" }));
+    byId("drawings").replaceChildren(...pair(machine, [], plane(machine)));
+  });
 }
 
 async function keepLink() {

@@ -7,7 +7,7 @@ const millimetres = (metres) => number(metres === null || metres === undefined ?
 
 function shaped({ shape, mass_kg: mass, fixed }) {
   if (!(mass > 0)) return "–";
-  if (!shape) return fixed ? "fixed, as it is" : "free about its radius";
+  if (!shape) return fixed ? "fixed, as it is" : "not given";
   const half = `${figure(shape.half_angle_deg, 4)}° to either side, to R ${figure(1000 * shape.outer_radius_m, 4)}`;
   return shape.chord_height_m === null ? `sector, ${half}` : `segment, chord at ${figure(1000 * shape.chord_height_m, 4)}, ${half}`;
 }

@@ -1,13 +1,12 @@
 // How large force and moment are on a machine: what is a billionth of that is rounding.
 
-import { metres, quantity } from "./drawing/view.js";
-
-const SPEED = { rpm: 1, Hz: 60, "rad/s": 30 / Math.PI };
+import { metres } from "./drawing/view.js";
+import { quantity } from "./quantity.js";
 
 // {force, moment} [N, N m]: the larger of what there was before and what the counterweights do one by one
 export function scales(machine, answer) {
   const { force, moment } = answer.residual.before;
-  const omega = (quantity(machine.speed_rpm, SPEED) * Math.PI) / 30;
+  const omega = (quantity(machine.speed_rpm, "rpm") * Math.PI) / 30;
   const places = new Map((machine.webs ?? []).map((web) => [web.name, metres(web.position_m) - answer.reference_plane_m]));
   const forces = answer.counterweights.map((one) => ({ size: one.mass_radius_kg_m * omega * omega, arm: Math.abs(places.get(one.web)) }));
   return {

@@ -56,6 +56,16 @@ export class Schema {
     return { ...about, kind: "text", longest: given[0]?.maxLength };
   }
 
+  // the names that an object of a request may have, by its place: parts of a pointer
+  namesAt(description, value, parts) {
+    const [first, ...rest] = parts;
+    const shape = description.kind === "union" ? description.options.get(value?.[description.tag]) ?? [...description.options.values()][0]
+      : description.object ?? description;
+    if (first === undefined) return Object.keys(shape.properties ?? {});
+    if (shape.kind === "list") return this.namesAt(shape.items, value?.[first], rest);
+    return shape.properties?.[first] ? this.namesAt(this.describe(shape.properties[first]), value?.[first], rest) : [];
+  }
+
   object(node) {
     // of fields that go together the first ones are those that are usual
     return { properties: node.properties, required: new Set([...(node.required ?? []), ...(node.anyOf?.[0].required ?? [])]) };

@@ -79,8 +79,10 @@ function websNamed(fitted, scale) {
   }
   return places.size > MOST_NAMES ? [] : [...places.values()].map((group) => {
     const [first] = group;
-    const [x, y] = polar(MIDDLE, scale * (first.shape?.outer_radius_m ?? first.radius_m + disc(first, fitted)) + 16, first.angle_deg);
-    return { x, y, content: together(group.map((one) => one.web), "webs"), class: "web" };
+    const content = together(group.map((one) => one.web), "webs");
+    const [x, y] = polar(MIDDLE, scale * (first.shape?.outer_radius_m ?? first.radius_m + disc(first, fitted)) + 14, first.angle_deg);
+    // beside a shape the name begins where the shape ends
+    return { x: x + 3.5 * content.length * Math.cos(radians(first.angle_deg)), y, content, class: "web" };
   });
 }
 

@@ -1,20 +1,12 @@
 // From the machine to the picture: metres and degrees to the drawing's own units.
 
 import { s } from "../dom.js";
+import { quantity } from "../quantity.js";
 
 export const WIDTH = 400;
 
-const LENGTH = { m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 };
-const ANGLE = { deg: 1, rad: 180 / Math.PI };
-
-// A number, or a text such as "140 mm" that the service has accepted.
-export function quantity(value, units) {
-  if (typeof value === "number") return value;
-  const [, number, symbol] = /^\s*([+-]?[\d.]+(?:[eE][+-]?\d+)?)\s*([a-zA-Z/]+)\s*$/.exec(value ?? "") ?? [];
-  return Number(number) * (units[symbol] ?? NaN);
-}
-export const metres = (value) => quantity(value, LENGTH);
-export const degrees = (value) => quantity(value, ANGLE);
+export const metres = (value) => quantity(value, "m");
+export const degrees = (value) => quantity(value, "deg");
 export const radians = (angle) => (degrees(angle) * Math.PI) / 180;
 
 export const polar = (centre, radius, angle) => [

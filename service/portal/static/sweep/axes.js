@@ -1,7 +1,7 @@
 // Which fields vary, and over which values.
 
 import { h } from "../dom.js";
-import { read } from "../fields.js";
+import { read } from "../quantity.js";
 import { around } from "./numbers.js";
 
 const MOST = 4;

@@ -1,0 +1,48 @@
+// What stands in the tables of throws, rows and webs: paths from the item, in the order of a spreadsheet.
+
+import { label } from "../format.js";
+
+const THROWS = { item: "throw", columns: ["name", "position_m", "crank_radius_m", "crank_angle_deg", "rotating_mass_kg"], groups: {} };
+const ROWS = {
+  item: "row", groups: { offsets: ["offset_m"] },
+  columns: ["name", "axis_deg", "reciprocating_mass_kg", "connecting_rod/length_m", "connecting_rod/mass_kg", "connecting_rod/reciprocating_share"],
+};
+const WEBS = {
+  item: "web", columns: ["name", "position_m", "counterweight_radius_m", "max_mass_kg"],
+  groups: {
+    sectors: ["sector/centre_deg", "sector/half_angle_deg"],
+    envelopes: ["envelope/shape", "envelope/inner_radius_m", "envelope/outer_radius_m", "envelope/thickness_m", "envelope/max_half_angle_deg"],
+  },
+};
+/** @type {[RegExp, { item: string, columns: string[], groups: { [name: string]: string[] } }][]} */
+const TABLES = [
+  [/^\/machine\/throws\/\d+\/rows$/, ROWS], [/^\/machine\/throws$/, THROWS],
+  [/^\/machine(?:\/balance_shafts\/\d+)?\/webs$/, WEBS],
+];
+const ITEM = /^(.*)\/(\d+)\/([^\d].*)$/;
+
+// the table of a list, null where it has none
+export const tableAt = (pointer) => TABLES.find(([pattern]) => pattern.test(pointer))?.[1] ?? null;
+
+// [list, path from its item] of a pointer below the item of a table
+export function inTable(pointer) {
+  const [, list, , path] = ITEM.exec(pointer) ?? [];
+  const found = list && tableAt(list);
+  return found ? { table: found, path } : null;
+}
+
+// the columns of a table with what the schema says of each; groups only where they are used
+export function columnsOf(schema, object, table, shown) {
+  const paths = [...table.columns, ...Object.entries(table.groups).filter(([name]) => shown.has(name)).flatMap(([, group]) => group)];
+  return paths.map((path) => ({ path, ...described(schema, object, path.split("/")) }));
+}
+
+/** @returns {any} */
+function described(schema, object, path, before = []) {
+  const [first, ...rest] = path;
+  const description = schema.describe(object.properties[first]);
+  const around = [...before, first];
+  if (rest.length) return described(schema, description, rest, around);
+  const head = [...around.slice(0, -1).map((name) => name.replace("connecting_rod", "rod")), label(first)].join(" ");
+  return { ...description, name: first, head, optional: before.length > 0, mandatory: object.required.has(first) };
+}

@@ -1,0 +1,248 @@
+// A table to type into: one row each for throws, rows of cylinders, or webs.
+
+import { h } from "../dom.js";
+import { label, nameOf } from "../format.js";
+import { get, join, set } from "../pointer.js";
+import { meant, quantity, read } from "../quantity.js";
+import { columnsOf } from "./columns.js";
+import { copied } from "./copied.js";
+import { placed, withUnit } from "./paste.js";
+
+export class Grid {
+  constructor(form, table, source, shown) {
+    this.form = form;
+    this.table = table;
+    this.source = source;
+    this.shown = shown;
+    this.current = 0;
+    this.columns = columnsOf(form.schema, source.items, table, shown);
+    this.said = h("div", { class: "said", role: "status" });
+    this.body = h("tbody", {}, source.entries().map((entry, row) => this.line(entry, row)));
+    this.element = h("div", { class: `grid grid-${table.item}` },
+      h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": `Table of ${table.item}s: paste from a spreadsheet here`, paste: (event) => this.pasted(event) },
+        h("table", {}, h("thead", {}, h("tr", {}, h("th", { scope: "col" }, "#"), source.owners ? h("th", { scope: "col" }, "throw") : null,
+          this.columns.map((column) => h("th", { scope: "col", title: column.about }, column.head, column.unit ? h("span", { class: "unit" }, ` ${column.unit}`) : null)))),
+        this.body)),
+      this.body.childElementCount ? null : h("p", { class: "about" }, `No ${table.item} yet: add one, or paste a table from a spreadsheet.`),
+      this.said, this.tools());
+    this.mark(0);
+    this.doubts();
+  }
+
+  line(entry, row) {
+    const cells = this.columns.map((column) => this.cell(column, entry, row));
+    return h("tr", { focusin: () => this.mark(row), keydown: (event) => this.key(event, row) }, h("th", { scope: "row" }, String(row + 1)),
+      this.source.owners ? h("td", { class: "cell" }, this.owner(entry, row)) : null, cells);
+  }
+
+  owner(entry, row) {
+    const names = this.source.owners();
+    const select = h("select", { "aria-label": `throw of row ${row + 1}`, change: () => {
+      this.source.give(entry, Number(select.value));
+      this.form.refresh();
+    } }, names.map((name, index) => h("option", { value: index }, name)));
+    select.value = entry.owner;
+    return select;
+  }
+
+  cell(column, entry, row) {
+    const at = `${entry.pointer}/${column.path}`;
+    const value = get(this.form.request, at);
+    const attributes = { "aria-label": `${column.head}${column.unit ? `, ${column.unit}` : ""}, ${this.table.item} ${row + 1}`, "aria-describedby": `error-${at}` };
+    const input = column.kind === "choice"
+      ? h("select", { ...attributes, change: () => this.typed(at, column, input.value) }, h("option", { value: "" }, "–"), column.options.map((one) => h("option", {}, one)))
+      : h("input", { ...attributes, type: "text", autocomplete: "off", spellcheck: "false", class: column.kind, placeholder: placeholder(column),
+        input: () => this.typed(at, column, input.value) });
+    input.value = value === null || value === undefined ? "" : String(value);
+    return h("td", { class: `field cell is-${column.kind}`, dataset: { pointer: at } }, input, h("p", { class: "error", id: `error-${at}` }));
+  }
+
+  typed(at, column, text) {
+    const whole = this.put(at, column, text);
+    this.doubts();
+    if (whole) this.form.refresh();
+    else this.form.told(at);
+  }
+
+  // whether more than this cell has changed
+  put(at, column, text) {
+    const { request } = this.form;
+    const empty = column.mandatory && column.nullable && !column.optional ? null : undefined;
+    const value = text.trim() ? (column.kind === "number" ? read(text, column.unit) : text.trim()) : empty;
+    const [around, item] = column.optional ? [at.slice(0, at.lastIndexOf("/")), at.slice(0, -column.path.length - 1)] : [null, null];
+    if (around === null) {
+      set(request, at, value);
+      return false;
+    }
+    const before = get(request, around);
+    if (value === undefined && (before === null || before === undefined)) return false;
+    set(request, at, value);
+    const part = column.path.split("/")[0];
+    if (this.columns.every(({ path, kind }) => !path.startsWith(`${part}/`) || kind === "choice" || get(request, below(item, path)) === undefined)) set(request, around, undefined);
+    else if ((before === null || before === undefined) && part === "envelope") {
+      // radius and mass follow from what is cut
+      if (column.kind !== "choice") set(request, join(around, "shape"), "segment");
+      for (const name of ["counterweight_radius_m", "max_mass_kg"]) set(request, join(item, name), undefined);
+      return true;
+    }
+    return false;
+  }
+
+  mark(row) {
+    this.current = Math.min(row, Math.max(0, this.body.childElementCount - 1));
+    [...this.body.children].forEach((line, index) => line.classList.toggle("current", index === this.current));
+    for (const button of this.element.querySelectorAll("[data-of]")) {
+      button.setAttribute("aria-label", `${button.textContent} ${this.table.item} ${this.name(this.current)}`);
+    }
+  }
+
+  name(row) {
+    const entry = this.source.entries()[row];
+    return entry ? nameOf(entry.item, row) : "";
+  }
+
+  key(event, row) {
+    const { key, target } = event;
+    const by = key === "ArrowDown" || key === "Enter" ? 1 : key === "ArrowUp" ? -1 : 0;
+    if (!by || event.ctrlKey || event.metaKey || (target.tagName === "SELECT" && key !== "Enter")) return;
+    event.preventDefault();
+    const column = [...target.closest("tr").children].indexOf(target.closest("td"));
+    if (key === "Enter" && row === this.body.childElementCount - 1) this.add(column);
+    else this.focus(row + by, column);
+  }
+
+  focus(row, column) {
+    const input = this.body.children[row]?.children[column]?.querySelector("input, select");
+    input?.focus();
+    input?.select?.();
+  }
+
+  // the grid that has taken the place of this one
+  again(row, column = 1) {
+    const fresh = this.form.refresh().get(this.source.pointer + this.table.item);
+    fresh?.mark(row);
+    fresh?.focus(row, column);
+  }
+
+  add(column) {
+    this.source.add();
+    const last = this.body.childElementCount;
+    this.again(last, column);
+  }
+
+  tools() {
+    const entry = () => this.source.entries()[this.current];
+    const button = (text, click, more) => h("button", { type: "button", class: "small", click, ...more }, text);
+    const of = (text, click) => button(text, () => entry() && click(), { dataset: { of: "" } });
+    const move = (by) => {
+      const to = this.source.move(entry(), by);
+      if (to !== null) this.again(to);
+    };
+    const about = h("input", { type: "text", value: "0", "aria-label": "plane of the mirror, m", class: "plane" });
+    const mirror = () => {
+      this.source.mirror(quantity(read(about.value, "m"), "m"), (item) => quantity(item?.position_m, "m"));
+      this.again(0);
+    };
+    return h("div", { class: "buttons tools" },
+      button(`Add ${this.table.item}`, () => this.add(), { class: "small add" }),
+      of("Duplicate", () => { this.source.add(this.current, entry().index); this.again(this.current + 1); }),
+      of("Up", () => move(-1)), of("Down", () => move(1)),
+      of("Remove", () => { this.source.remove(entry()); this.again(Math.max(0, this.current - 1)); }),
+      this.source.owners ? null : h("span", { class: "mirror" }, button("Mirror about", mirror), about, " m"),
+      this.table.item === "web" && this.form.request.machine?.throws ? button("Sectors opposite their cranks", () => this.opposite()) : null,
+      button("Copy table", () => copied(this.text(), this.said)),
+      Object.keys(this.table.groups).map((name) => button(label(name), () => this.toggle(name), { "aria-pressed": String(this.shown.has(name)) })));
+  }
+
+  toggle(name) {
+    if (!this.form.unfolded.delete(name)) this.form.unfolded.add(name);
+    this.form.refresh({ told: false });
+  }
+
+  // every web's sector about the direction against its crank
+  opposite() {
+    const { machine } = this.form.request;
+    const place = (thing) => quantity(thing?.position_m, "m");
+    for (const { pointer, item } of this.source.entries()) {
+      const near = [...machine.throws].sort((one, other) => Math.abs(place(one) - place(item)) - Math.abs(place(other) - place(item)))[0];
+      const crank = quantity((machine.throws[item?.throw] ?? near)?.crank_angle_deg, "deg");
+      if (!Number.isFinite(crank) || item?.fixed) continue;
+      const centre = Number(((((crank + 180) % 360) + 360) % 360).toPrecision(12));
+      set(this.form.request, join(pointer, "sector"), { half_angle_deg: 30, ...item.sector, centre_deg: centre });
+    }
+    this.again(this.current);
+  }
+
+  // what this tab took from a spreadsheet comes back as it was
+  text() {
+    const lines = this.source.entries().map(({ pointer, owner }) => [...(this.source.owners ? [this.source.owners()[owner]] : []),
+      ...this.columns.map(({ path }) => get(this.form.request, below(pointer, path)) ?? "")]);
+    return [[...(this.source.owners ? ["throw"] : []), ...this.columns.map(({ path }) => path)], ...lines].map((line) => line.join("\t")).join("\n");
+  }
+
+  pasted(event) {
+    const text = event.clipboardData?.getData("text/plain") ?? "";
+    const cell = event.target.closest("td");
+    // one value goes where the caret is
+    if (!/[\t\n]/.test(text.trim()) && cell) return;
+    event.preventDefault();
+    const first = this.source.owners ? 2 : 1;
+    const start = cell ? [...cell.parentElement.children].indexOf(cell) - first : this.source.owners ? -1 : 0;
+    this.fill(text, cell ? [...this.body.children].indexOf(cell.parentElement) : 0, start, {});
+  }
+
+  fill(text, row, start, accepted) {
+    const owner = { path: "throw", name: "throw", head: "throw", kind: "owner" };
+    const columns = this.source.owners ? [owner, ...this.columns] : this.columns;
+    const { rows, places, unknown } = placed(text, columns, start + (this.source.owners ? 1 : 0), accepted);
+    rows.forEach((cells, index) => {
+      while (this.source.entries().length <= row + index) this.source.add();
+      // a row that goes to another throw keeps what it is, not its number
+      const { item } = this.source.entries()[row + index];
+      const entry = () => this.source.entries().find((one) => one.item === item) ?? this.source.entries()[row + index];
+      cells.forEach((cell, at) => {
+        const column = columns[places[at]?.index];
+        if (!column) return;
+        if (column === owner) this.give(entry(), cell);
+        else this.put(below(entry().pointer, column.path), column, withUnit(cell, places[at].unit, column.unit));
+      });
+    });
+    const fresh = this.form.refresh().get(this.source.pointer + this.table.item);
+    fresh?.unknown(unknown, (more) => fresh.fill(text, row, start, { ...accepted, ...more }));
+    fresh?.mark(row);
+  }
+
+  give(entry, name) {
+    const owner = this.source.owners().indexOf(name);
+    const known = owner >= 0 ? owner : Number(name) - 1;
+    if (known >= 0 && known < this.source.owners().length && known !== entry.owner) this.source.give(entry, known);
+  }
+
+  unknown(heads, again) {
+    this.said.append(...heads.map(({ head, near }) => h("p", {}, `“${head}” is no column here${near ? `: did you mean ${near}? ` : ", and was left out."}`,
+      near ? h("button", { type: "button", class: "small", click: () => again({ [head]: near }) }, `Yes, ${near}`) : null)));
+  }
+
+  // one question a column, answered for all of it
+  doubts() {
+    const asked = this.columns.flatMap((column) => {
+      const found = this.source.entries().map(({ pointer }) => below(pointer, column.path))
+        .map((at) => ({ at, value: get(this.form.request, at), other: meant(get(this.form.request, at), column.unit, column.name) })).filter(({ other }) => other);
+      if (!found.length) return [];
+      const yes = () => {
+        for (const { at, other } of found) set(this.form.request, at, other);
+        this.form.refresh();
+      };
+      return [h("p", { class: "question" }, `${column.head}: ${found[0].value} m? `, h("button", { type: "button", class: "small", click: yes }, `${found[0].other} meant`))];
+    });
+    this.said.replaceChildren(...asked);
+  }
+}
+
+// a path of a column holds no characters that a pointer writes otherwise
+const below = (pointer, path) => `${pointer}/${path}`;
+
+function placeholder({ kind, fallback, nullable, optional, about }) {
+  if (typeof fallback === "number") return String(Number(fallback.toPrecision(4)));
+  return kind === "number" && nullable && !optional ? /null is ([^;,.(]+)/.exec(about)?.[1] ?? "" : "";
+}

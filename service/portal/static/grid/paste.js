@@ -1,0 +1,42 @@
+// Tables from a spreadsheet: rows of lines, cells of tabs or semicolons; heads may say which column, and in which unit.
+
+import { symbol } from "../quantity.js";
+import { nearest } from "../words.js";
+
+export function cellsOf(text) {
+  const lines = text.replace(/\r/g, "").replace(/\n+$/, "").split("\n");
+  const mark = lines[0].includes("\t") ? "\t" : lines[0].includes(";") ? ";" : "\t";
+  return lines.map((line) => line.split(mark).map((cell) => cell.trim()));
+}
+
+const numeric = (text) => /^[+\-\u2212]?[\d.,]/.test(text);
+
+// a head is its column's path, its last name, or how it is shown, with or without a unit
+function column(head, columns, accepted) {
+  const [, word, , unit] = /^(.*?)(\s*[([,]\s*([^)\]]*)[)\]]?)?$/.exec(head) ?? [];
+  const plain = (accepted[head] ?? word ?? "").trim().toLowerCase();
+  const index = columns.findIndex(({ path, name, head: shown }) => [path, name, shown, shown.replace(/ /g, "_")].some((one) => one.toLowerCase() === plain));
+  return { index, unit: unit?.trim() ?? "" };
+}
+
+/**
+ * What of a pasted table goes where.
+ * @returns {{ rows: string[][], places: { index: number, unit: string }[], unknown: { head: string, near: string | null }[] }}
+ */
+export function placed(text, columns, start, accepted = {}) {
+  const lines = cellsOf(text);
+  const first = lines[0];
+  const known = first.map((head) => column(head, columns, accepted));
+  const near = (head) => nearest(head.replace(/[([,].*$/, ""), columns.flatMap(({ name, head: shown }) => [shown, name]));
+  // names may stand in the first line of cells too: heads are words without a number among them, one of them known
+  const headed = !first.some(numeric) && known.some(({ index }) => index >= 0);
+  if (!headed) return { rows: lines, places: first.map((_, index) => ({ index: start + index, unit: "" })), unknown: [] };
+  const unknown = first.filter((head, index) => head && known[index].index < 0).map((head) => ({ head, near: near(head) }));
+  return { rows: lines.slice(1), places: known, unknown };
+}
+
+// a bare number under a head with a unit has that unit
+export function withUnit(text, unit, of) {
+  const known = unit && symbol(unit, of);
+  return known && known !== of && text && /\d\s*$/.test(text) ? `${text} ${known}` : text;
+}

@@ -1,0 +1,66 @@
+// Quantities as people write them: numbers with a decimal point or comma, units in their many spellings.
+
+/** @type {{ [unit: string]: { [symbol: string]: number } }} */
+const UNITS = {
+  m: { m: 1, cm: 0.01, mm: 0.001, in: 0.0254, ft: 0.3048 },
+  kg: { kg: 1, g: 0.001, t: 1000, lb: 0.45359237 },
+  deg: { deg: 1, rad: 180 / Math.PI },
+  rpm: { rpm: 1, Hz: 60, "rad/s": 30 / Math.PI },
+  N: { N: 1, kN: 1000, lbf: 4.4482216152605 },
+  Pa: { Pa: 1, kPa: 1e3, MPa: 1e6, bar: 1e5, psi: 6894.757293168361 },
+  "N m": { "N m": 1, "N mm": 0.001, "lbf ft": 1.3558179483314004 },
+};
+const SPELT = {
+  '"': "in", inch: "in", "'": "ft", "°": "deg", degree: "deg", degrees: "deg", lbs: "lb", nm: "N m", "n·m": "N m", "n*m": "N m", nmm: "N mm",
+  "1/min": "rpm", "/min": "rpm", "r/min": "rpm", "rev/min": "rpm", "u/min": "rpm", "min-1": "rpm", "min^-1": "rpm", "min⁻¹": "rpm", "1/s": "Hz",
+};
+// thousands may stand apart: 1 234,5 or 1'234.5, but 500 1/min is 500
+const WRITTEN = /^([+-]?(?=[.,]?\d)(?:\d{1,3}(?:[\s'\u2019]\d{3})+(?!\d)|\d*)(?:[.,]\d*)*(?:e[+-]?\d+)?)\s*(.*)$/i;
+
+// digits as JSON knows them; of points and commas the last one is decimal, and what stands more than once groups
+function decimal(text) {
+  const bare = text.replace(/[\s'\u2019]/g, "");
+  const last = Math.max(bare.lastIndexOf("."), bare.lastIndexOf(","));
+  if (last < 0) return bare;
+  const mark = bare[last];
+  const grouping = bare.indexOf(mark) !== last;
+  const [whole, part] = grouping ? [bare, ""] : [bare.slice(0, last), bare.slice(last + 1)];
+  return `${whole.replace(/[.,]/g, "")}${part ? `.${part}` : ""}`;
+}
+
+// how the service spells a unit, where it is one of those of the field
+export function symbol(text, unit) {
+  const known = UNITS[unit] ?? {};
+  if (text in known) return text;
+  const lower = text.toLowerCase();
+  const spelt = Object.keys(known).filter((one) => one.toLowerCase() === lower);
+  return spelt.length === 1 ? spelt[0] : SPELT[lower] in known ? SPELT[lower] : null;
+}
+
+// A number, a text such as "140 mm" that the service reads, or what was typed: the service says what it cannot read.
+export function read(text, unit) {
+  const trimmed = text.trim().replaceAll("\u2212", "-");
+  const [, digits, rest] = WRITTEN.exec(trimmed) ?? [];
+  if (digits === undefined) return trimmed;
+  const number = decimal(digits);
+  if (!Number.isFinite(Number(number))) return trimmed;
+  if (!rest || rest === unit) return Number(number);
+  return `${number} ${symbol(rest, unit) ?? rest}`;
+}
+
+// the value in the unit, NaN where the service would not read it
+export function quantity(value, unit) {
+  if (typeof value === "number") return value;
+  const [, number, rest] = /^\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:e[+-]?\d+)?)\s*([a-z][a-z/ ]*?)\s*$/i.exec(value ?? "") ?? [];
+  return Number(number) * (UNITS[unit]?.[rest] ?? NaN);
+}
+
+// metres that no machine has are millimetres whose unit was left out
+const LARGEST_M = 5;
+const LARGEST_PLACE_M = 50;
+
+// what was meant, where a bare number of metres is hardly one
+export function meant(value, unit, name) {
+  const largest = /position|plane/.test(name) ? LARGEST_PLACE_M : LARGEST_M;
+  return unit === "m" && typeof value === "number" && Math.abs(value) >= largest ? `${value} mm` : null;
+}
