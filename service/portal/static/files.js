@@ -11,6 +11,11 @@ export function save(blob, name) {
   setTimeout(() => URL.revokeObjectURL(link.href), KEPT_MS);
 }
 
+// a name that every system takes for a file
+export const fileName = (name, ending) => `${String(name ?? "").replace(/[^\p{L}\p{N}._-]+/gu, "-").replace(/^-+|-+$/g, "").slice(0, 80) || "machine"}.${ending}`;
+
+export const saveJson = (content, name) => save(new Blob([`${JSON.stringify(content, null, 2)}\n`], { type: "application/json" }), name);
+
 const REPORTS = { html: "text/html", pdf: "application/pdf" };
 
 // Buttons for the report on a request, with everything that the machine has data for.

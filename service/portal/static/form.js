@@ -47,6 +47,12 @@ export class Form {
     }
   }
 
+  // another state of the same work
+  restore(request) {
+    this.request = request;
+    this.refresh({ told: false });
+  }
+
   // the same request after more than one value has changed: what was open stays open, the caret where it was
   refresh({ told = true } = {}) {
     const open = [...this.container.querySelectorAll("details[open][data-pointer]")].map((one) => one.dataset.pointer);

@@ -4,7 +4,9 @@ import { get, post, Problem } from "./api.js";
 import { showAnswer } from "./answer.js";
 import { byId, h } from "./dom.js";
 import { drawable, pair, plane } from "./drawing/pair.js";
+import { Edits } from "./edits.js";
 import { Embedding } from "./embed.js";
+import { fileName, saveJson } from "./files.js";
 import { Form } from "./form.js";
 import { accuracy } from "./panels/accuracy.js";
 import { counterweights } from "./panels/counterweights.js";
@@ -17,6 +19,8 @@ import { pins } from "./panels/pins.js";
 import { sweep } from "./panels/sweep.js";
 import { load as loadPlots } from "./plots.js";
 import { Schema } from "./schema.js";
+import { forget, keepSession, last, ofTab, session } from "./session.js";
+import { starter } from "./starter.js";
 import { readLink, writeLink } from "./state.js";
 import { theme } from "./theme.js";
 
@@ -25,13 +29,17 @@ const FIRST = "2d12";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
 const PANELS = [counterweights, cranks, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
 const STEP = { step_deg: 2 };
+const LINK_LATER_MS = 400;
 
 const schema = get("openapi.json").then((document) => new Schema(document));
 /** @type {{ request: any, example: string | null, kept: { [name: string]: any } }} */
 const state = { request: null, example: null, kept: {} };
+const edits = new Edits();
 let form = null;
 let runs = 0;
 let running = null;
+// edited since the last answer or file
+let unsaved = false;
 
 const panels = new Panels(byId("panels"), PANELS, {
   toggled: () => keepLink(), blamed: (errors) => form?.blame(errors),
@@ -39,15 +47,36 @@ const panels = new Panels(byId("panels"), PANELS, {
 
 const embedding = new Embedding({ take: (request) => take(request, null), request: () => state.request });
 
-function edited() {
+function edited(pointer = null) {
   state.example = null;
+  edits.record(state.request, null, pointer);
+  changed();
+}
+
+// the answer is no longer that of the machine
+function changed(why = "Edited: press Optimise.") {
+  unsaved = true;
   embedding.edited();
   // a sweep goes on and is still to be found; the points of the front are no longer the same
   delete state.kept.point;
-  byId("example").value = "";
+  byId("example").value = state.example ?? "";
   byId("results").classList.add("stale");
-  byId("progress").textContent = "Edited: press Optimise.";
+  byId("progress").textContent = why;
+  tools();
+  keepLater();
   sketch();
+}
+
+function tools() {
+  byId("undo").disabled = !edits.undoable;
+  byId("redo").disabled = !edits.redoable;
+}
+
+function restore(found, why) {
+  if (!found) return;
+  Object.assign(state, found);
+  form.restore(state.request);
+  changed(why);
 }
 
 let sketching = 0;
@@ -63,10 +92,27 @@ function sketch() {
   });
 }
 
-async function keepLink() {
+let links = 0;
+let linking = 0;
+let pushing = false;
+
+// our own change of the fragment is no navigation; of several that are packed at once the last one counts
+async function keepLink(push = false) {
+  clearTimeout(linking);
+  linking = 0;
+  pushing ||= push;
+  const number = (links += 1);
   const link = await writeLink({ ...state, open: [...panels.wanted] });
-  // our own change of the fragment is no navigation
-  if (link !== location.hash) history.replaceState(null, "", link);
+  if (number !== links) return;
+  if (link !== location.hash) history[pushing ? "pushState" : "replaceState"](null, "", link);
+  pushing = false;
+  keepSession();
+}
+
+function keepLater() {
+  clearTimeout(linking);
+  linking = setTimeout(keepLink, LINK_LATER_MS);
+  keepSession();
 }
 
 function keep(name, value) {
@@ -74,15 +120,30 @@ function keep(name, value) {
   keepLink();
 }
 
-async function take(request, example, kept = {}) {
+// `push`: Back leads to what was there before; `ask`: it is whole, and can be optimised
+async function take(request, example, kept = {}, { push = true, ask = true } = {}) {
+  if (linking) await keepLink();
   Object.assign(state, { request, example, kept });
+  edits.record(request, example);
   byId("example").value = example ?? "";
-  const ran = run();
+  tools();
+  keepLink(push && runs > 0 && parent === self);
+  const ran = ask ? run() : begin();
   await schema.then((known) => {
     form ??= new Form(byId("form"), known, MODEL, edited);
     form.show(state.request);
   });
   await ran;
+}
+
+// a machine of which there is nothing to show yet
+function begin() {
+  runs += 1;
+  running?.abort();
+  byId("problem").replaceChildren();
+  byId("answer").replaceChildren();
+  byId("results").classList.add("stale", "empty");
+  byId("progress").textContent = "A new machine: type it, then press Optimise.";
 }
 
 // what an answer on this machine can hold, of all panels or of some
@@ -108,6 +169,7 @@ async function run() {
     byId("problem").replaceChildren();
     showAnswer(byId("answer"), request, answer, outputs(request.machine));
     results.classList.remove("stale", "empty");
+    unsaved = false;
     progress.textContent = `Answered in ${Math.round(performance.now() - started)} ms.`;
     keepLink();
     embedding.say("answer", { request, answer });
@@ -146,9 +208,9 @@ function readJson(text) {
   }
 }
 
-async function choose(name, kept) {
+async function choose(name, kept, how) {
   try {
-    await take(await get(`v1/examples/${encodeURIComponent(name)}`), name, kept);
+    await take(await get(`v1/examples/${encodeURIComponent(name)}`), name, kept, how);
   } catch (error) {
     await complain(error);
   }
@@ -156,9 +218,47 @@ async function choose(name, kept) {
 
 async function follow(fragment) {
   const link = await readLink(fragment).catch(() => null);
+  const how = { push: false };
   if (link?.open) panels.open(link.open);
-  if (link?.request && typeof link.request === "object") await take(link.request, null, link.kept);
-  else await choose(link?.example ?? FIRST, link?.kept);
+  // what was typed after the link was last written
+  const typed = runs === 0 ? ofTab() : null;
+  if (typed) await take(typed.request, typed.example, link?.kept, how);
+  else if (link?.request && typeof link.request === "object") await take(link.request, null, link.kept, how);
+  else {
+    if (runs === 0) offer(last());
+    await choose(link?.example ?? FIRST, link?.kept, how);
+  }
+}
+
+// what was left unfinished in another tab, or before the browser was closed
+function offer(found) {
+  const place = byId("recover");
+  place.hidden = !found;
+  if (!found) return;
+  const done = (work) => () => {
+    place.hidden = true;
+    work();
+  };
+  place.replaceChildren(`Last edited ${new Date(found.at).toLocaleString()}: ${found.request?.machine?.name ?? "a machine without a name"}. `,
+    h("button", { type: "button", class: "small", click: done(() => take(found.request, null)) }, "Go on with it"), " ",
+    h("button", { type: "button", class: "small", click: done(forget) }, "Forget it"));
+}
+
+// Ctrl+Z in the form undoes what was done to the machine, whatever it was
+function keys(event) {
+  if (!(event.ctrlKey || event.metaKey) || event.target.closest("dialog, #paste, #results")) return;
+  const key = event.key.toLowerCase();
+  if (key !== "z" && key !== "y") return;
+  event.preventDefault();
+  if (key === "y" || event.shiftKey) redo(); else undo();
+}
+
+const undo = () => restore(edits.undo(), "Undone: press Optimise.");
+const redo = () => restore(edits.redo(), "Done again: press Optimise.");
+
+function write() {
+  saveJson(state.request, fileName(state.request.machine?.name ?? state.example, "machine.json"));
+  unsaved = false;
 }
 
 function listen() {
@@ -171,6 +271,13 @@ function listen() {
     if (file) readJson(byId("json").value = await file.text());
     event.target.value = "";
   });
+  byId("new").addEventListener("click", () => starter((request) => take(request, null, {}, { ask: request.machine.throws.length > 0 })));
+  byId("undo").addEventListener("click", undo);
+  byId("redo").addEventListener("click", redo);
+  byId("save").addEventListener("click", write);
+  document.addEventListener("keydown", keys);
+  addEventListener("beforeunload", (event) => unsaved && parent === self && event.preventDefault());
+  session(() => (state.request ? { request: state.request, example: state.example } : null));
   addEventListener("hashchange", () => follow(location.hash));
 }
 

@@ -44,7 +44,7 @@ export function read(text, unit) {
   if (digits === undefined) return trimmed;
   const number = decimal(digits);
   if (!Number.isFinite(Number(number))) return trimmed;
-  if (!rest || rest === unit) return Number(number);
+  if (!rest || (rest === unit && !(unit in UNITS))) return Number(number);
   return `${number} ${symbol(rest, unit) ?? rest}`;
 }
 

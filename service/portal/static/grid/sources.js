@@ -18,10 +18,17 @@ export class ListSource {
     return listed(this.form.request, this.pointer).map((item, index) => ({ pointer: join(this.pointer, index), list: this.pointer, index, item }));
   }
 
-  // like `from`, or like the last one; in a blank list the least that is needed
+  // with nothing that anybody has not typed: what must be given as nothing is no limit
+  blank() {
+    const { properties, required } = this.items;
+    const empty = Object.keys(properties).filter((name) => required.has(name) && this.form.schema.describe(properties[name]).nullable);
+    return { ..."name" in properties ? { name: "1" } : {}, ...Object.fromEntries(empty.filter((name) => name.startsWith("max_")).map((name) => [name, null])) };
+  }
+
+  // like `from`, or like the last one; the first one is blank
   add(from = null, after = null) {
     const list = listed(this.form.request, this.pointer);
-    const fresh = list.length ? this.next(list, from) : this.form.schema.blank(this.items);
+    const fresh = list.length ? this.next(list, from) : this.blank();
     list.splice(after === null ? list.length : after + 1, 0, fresh);
     set(this.form.request, this.pointer, list);
   }
@@ -82,7 +89,7 @@ export class RowsSource extends ListSource {
     if (owner < 0) return;
     const list = this.lists()[owner];
     const items = listed(this.form.request, list);
-    set(this.form.request, list, [...items, like ? another([...items, like.item]) : this.form.schema.blank(this.items)]);
+    set(this.form.request, list, [...items, like ? another([...items, like.item]) : this.blank()]);
   }
 
   /** @override */

@@ -1,0 +1,134 @@
+"""A machine of one's own: from a few questions, typed or pasted into an empty one, and nothing of an example in it."""
+
+from dataclasses import dataclass
+
+import pytest
+
+from tests.browser.portal import Portal
+from tests.browser.test_tables import FOUR, _paste
+
+ROWS = "throw\tname\taxis_deg\treciprocating_mass_kg\n" + "".join(
+    f"{n}\t{n}\t90\t{m}\n" for n, m in enumerate((31, 30, 30, 31), 1)
+)
+WEBS = "name\tposition (mm)\tcounterweight radius (mm)\tmax mass\n" + "".join(
+    f"{n}{side}\t{-750 + 300 * n + shift}\t110\t25\n" for n in (1, 2, 3, 4) for side, shift in (("a", -75), ("b", 75))
+)
+
+
+@dataclass
+class Hand:
+    """Counts what a user does."""
+
+    portal: Portal
+    count: int = 0
+
+    def click(self, selector: str) -> None:
+        self.count += 1
+        self.portal.page.click(selector)
+
+    def fill(self, selector: str, value: str) -> None:
+        self.count += 1
+        self.portal.page.fill(selector, value)
+
+    def cell(self, pointer: str, value: str) -> None:
+        self.count += 1
+        self.portal.input(pointer).fill(value)
+
+    def paste(self, grid: str, text: str) -> None:
+        self.count += 1
+        _paste(self.portal, grid, text)
+
+
+def _computed(portal: Portal, before: int) -> None:
+    portal.page.wait_for_selector(f"#results[data-drawn]:not([data-drawn='{before}']):not(.stale)")
+
+
+def test_four_throws_are_typed(portal: Portal) -> None:
+    portal.open("2d12")
+    hand = Hand(portal)
+    hand.click("#new")
+    answers = {"throws": "4", "pitch": "300 mm", "stroke": "160 mm", "speed": "750 RPM", "reciprocating": "30"}
+    for name, value in (answers | {"rotating": "9,5", "radius": "110 mm", "most": "25"}).items():
+        hand.fill(f"#start-{name}", value)
+    hand.click(".starter button[value=begin]")
+    # whatever differs is typed into its cell
+    hand.cell("/machine/throws/0/rows/0/reciprocating_mass_kg", "31")
+    hand.cell("/machine/throws/3/rows/0/reciprocating_mass_kg", "31")
+    hand.cell("/machine/throws/1/rotating_mass_kg", "9,7")
+    hand.cell("/machine/webs/0/max_mass_kg", "22")
+    before = portal.runs()
+    hand.click("#optimise")
+    _computed(portal, before)
+    assert hand.count <= 30
+    request = portal.bodies("/v1/optimize")[-1]
+    machine = request["machine"]
+    assert machine["speed_rpm"] == 750
+    assert [each["crank_angle_deg"] for each in machine["throws"]] == [0, 90, 270, 180]
+    assert [each["position_m"] for each in machine["throws"]] == pytest.approx([-0.45, -0.15, 0.15, 0.45])
+    assert [each["rotating_mass_kg"] for each in machine["throws"]] == [9.5, 9.7, 9.5, 9.5]
+    assert [web["max_mass_kg"] for web in machine["webs"]] == [22, *[25] * 7]
+    # nothing of the example that was there
+    assert set(machine) == {"kind", "speed_rpm", "throws", "webs"}
+    assert all(set(each["rows"][0]) == {"axis_deg", "reciprocating_mass_kg"} for each in machine["throws"])
+
+
+def test_four_throws_are_pasted(portal: Portal) -> None:
+    portal.open("2d12")
+    portal.page.click("#new")
+    portal.page.click(".starter button[value=blank]")
+    assert portal.page.locator("#panels").is_hidden()
+    hand = Hand(portal)
+    hand.paste("throw", FOUR.replace("angle", "crank angle"))
+    hand.paste("row", ROWS)
+    hand.paste("web", WEBS)
+    hand.cell("/machine/speed_rpm", "750 1/min")
+    before = portal.runs()
+    hand.click("#optimise")
+    _computed(portal, before)
+    assert hand.count <= 5
+    machine = portal.bodies("/v1/optimize")[-1]["machine"]
+    assert [each["rows"][0]["reciprocating_mass_kg"] for each in machine["throws"]] == [31, 30, 30, 31]
+    assert [web["position_m"] for web in machine["webs"]][:3] == ["-525 mm", "-375 mm", "-225 mm"]
+    assert set(machine) == {"kind", "speed_rpm", "throws", "webs"}
+    assert portal.page.locator("#answer h2").inner_text().endswith("%")
+
+
+def test_what_a_question_lacks_is_named(portal: Portal) -> None:
+    portal.open("2d12")
+    portal.page.click("#new")
+    portal.page.fill("#start-stroke", "160")
+    portal.page.click(".starter button[value=begin]")
+    words = portal.page.locator(".starter .error").inner_text()
+    assert "Speed" in words
+    assert "160 m? Write 160 mm" in words
+    portal.page.get_by_role("button", name="Cancel").click()
+    assert portal.page.locator("#example").input_value() == "2d12"
+
+
+@pytest.mark.parametrize(
+    ("arrangement", "axes", "cranks"),
+    [
+        # published: the usual cranks of a four-throw opposed compressor and of a V machine
+        ("opposed", [[0], [180], [0], [180]], [0, 180, 90, 270]),
+        ("v", [[45, 135]] * 4, [0, 90, 180, 270]),
+    ],
+)
+def test_arrangements(portal: Portal, arrangement: str, axes: list[list[int]], cranks: list[int]) -> None:
+    portal.open("2d12")
+    portal.page.click("#new")
+    portal.page.check(f".starter input[value={arrangement}]")
+    answers = {"pitch": "0.3", "stroke": "0.16", "speed": "750", "reciprocating": "30", "rotating": "9", "rod": "0.4"}
+    for name, value in answers.items():
+        portal.page.fill(f"#start-{name}", value)
+    portal.page.select_option("#start-rule", "ends")
+    portal.page.check("#start-plates")
+    for name, value in {"inner": "60 mm", "outer": "200 mm", "thickness": "50 mm"}.items():
+        portal.page.fill(f"#start-{name}", value)
+    before = portal.runs()
+    portal.page.click(".starter button[value=begin]")
+    _computed(portal, before)
+    machine = portal.bodies("/v1/optimize")[-1]["machine"]
+    assert [[row["axis_deg"] for row in each["rows"]] for each in machine["throws"]] == axes
+    assert [each["crank_angle_deg"] for each in machine["throws"]] == cranks
+    assert [web["name"] for web in machine["webs"]] == ["front", "rear"]
+    assert portal.page.locator("#drawings .front .counterweight:not(.unknown)").count() > 0
