@@ -3,6 +3,8 @@
 import json
 from pathlib import Path
 
+from playwright.sync_api import expect
+
 from tests.browser.portal import Portal
 
 SPEED = "/machine/speed_rpm"
@@ -23,17 +25,18 @@ def test_a_reload_keeps_what_was_typed(portal: Portal) -> None:
 def test_everything_is_undone_and_done_again(portal: Portal) -> None:
     portal.open("two-rows-180")
     before = portal.input(SPEED).input_value()
+    portal.input(SPEED).press("End")
     portal.input(SPEED).press_sequentially("00")
     portal.page.locator("#form .grid-web").get_by_role("button", name="Remove web 1a").click()
     webs = portal.page.locator("#form .grid-web tbody tr")
     few = webs.count()
     portal.page.select_option("#example", "w60")
-    portal.page.wait_for_function("document.querySelectorAll('#form .grid-throw tbody tr').length === 1")
+    expect(portal.page.locator("#form .grid-throw tbody tr")).to_have_count(1)
     portal.page.click("#undo")
+    expect(webs).to_have_count(few)
     assert portal.page.locator("#form .grid-throw tbody tr").count() == 2
-    assert webs.count() == few
     portal.page.click("#undo")
-    assert webs.count() == few + 1
+    expect(webs).to_have_count(few + 1)
     # two key strokes in one field are one edit; by the keyboard as well
     portal.input(SPEED).press("Control+z")
     assert portal.input(SPEED).input_value() == before
@@ -53,12 +56,10 @@ def test_back_leads_to_the_machine_that_was_left(portal: Portal) -> None:
     portal.page.wait_for_url("**#example=w60*")
     portal.page.go_back()
     portal.page.wait_for_url("**#r=*")
-    portal.page.wait_for_function(
-        f"""document.querySelector(`#form .field[data-pointer='{SPEED}'] input`)?.value === '777'"""
-    )
+    expect(portal.input(SPEED)).to_have_value("777")
     portal.page.go_forward()
     portal.page.wait_for_url("**#example=w60*")
-    portal.page.wait_for_function("document.getElementById('example').value === 'w60'")
+    expect(portal.page.locator("#example")).to_have_value("w60")
 
 
 def test_a_machine_is_saved_and_opened(portal: Portal) -> None:
@@ -71,9 +72,7 @@ def test_a_machine_is_saved_and_opened(portal: Portal) -> None:
     assert json.loads(content)["machine"]["name"] == "Nr. 7/b"
     portal.input("/machine/name").fill("another")
     portal.page.set_input_files("#file", download.value.path())
-    portal.page.wait_for_function(
-        "document.querySelector(`#form .field[data-pointer='/machine/name'] input`)?.value === 'Nr. 7/b'"
-    )
+    expect(portal.input("/machine/name")).to_have_value("Nr. 7/b")
 
 
 def test_leaving_with_unanswered_edits_is_asked_about(portal: Portal) -> None:
@@ -90,15 +89,16 @@ def test_leaving_with_unanswered_edits_is_asked_about(portal: Portal) -> None:
 def test_unfinished_work_is_offered_in_another_tab(portal: Portal) -> None:
     portal.open("two-rows-180")
     portal.input("/machine/name").fill("unfinished")
-    portal.page.wait_for_function("localStorage.getItem('counterweight-last')?.includes('unfinished')")
+    # kept with the link
+    portal.page.wait_for_url("**#r=*")
+    portal.page.reload()
+    expect(portal.input("/machine/name")).to_have_value("unfinished")
     other = portal.page.context.new_page()
     try:
         other.goto(f"{portal.url}/")
         other.get_by_text("unfinished").wait_for()
         other.get_by_role("button", name="Go on with it").click()
-        other.wait_for_function(
-            "document.querySelector(`#form .field[data-pointer='/machine/name'] input`)?.value === 'unfinished'"
-        )
-        assert not other.locator("#recover").is_visible()
+        expect(other.locator("#form .field[data-pointer='/machine/name'] input")).to_have_value("unfinished")
+        expect(other.locator("#recover")).to_be_hidden()
     finally:
         other.close()

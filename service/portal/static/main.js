@@ -40,6 +40,7 @@ let runs = 0;
 let running = null;
 // edited since the last answer or file
 let unsaved = false;
+let changes = 0;
 
 const panels = new Panels(byId("panels"), PANELS, {
   toggled: () => keepLink(), blamed: (errors) => form?.blame(errors),
@@ -56,6 +57,7 @@ function edited(pointer = null) {
 // the answer is no longer that of the machine
 function changed(why = "Edited: press Optimise.") {
   unsaved = true;
+  changes += 1;
   embedding.edited();
   // a sweep goes on and is still to be found; the points of the front are no longer the same
   delete state.kept.point;
@@ -154,6 +156,7 @@ function outputs(machine, of = PANELS) {
 async function run() {
   const started = performance.now();
   const number = (runs += 1);
+  const asked = changes;
   running?.abort();
   running = new AbortController();
   const results = byId("results");
@@ -168,9 +171,13 @@ async function run() {
     form?.clear();
     byId("problem").replaceChildren();
     showAnswer(byId("answer"), request, answer, outputs(request.machine));
-    results.classList.remove("stale", "empty");
-    unsaved = false;
-    progress.textContent = `Answered in ${Math.round(performance.now() - started)} ms.`;
+    results.classList.remove("empty");
+    // what was typed meanwhile is not answered
+    results.classList.toggle("stale", changes !== asked);
+    if (changes === asked) {
+      unsaved = false;
+      progress.textContent = `Answered in ${Math.round(performance.now() - started)} ms.`;
+    } else sketch();
     keepLink();
     embedding.say("answer", { request, answer });
     await panels.show({ request, answer, number, schema, model: MODEL, keep, kept: state.kept, call: { method: "POST", path: "v1/optimize", body } });
