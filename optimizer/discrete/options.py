@@ -80,13 +80,12 @@ class Incumbent:
 
         Influences of terms and ceilings are a product of few columns and orthonormal rows.
         """
-        norms, ceilings = self.statement.norms, self.statement.ceilings.norms
-        influence = np.concatenate([norms.influence, ceilings.influence], axis=-2)
+        influence = self.statement.every_influence
         size = np.max(np.abs(influence), axis=-1, keepdims=True, initial=0.0)
         scaled = influence / np.where(size > 0, size, 1.0)
         _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
         basis = basis[singular > 1e-14 * singular[0]] if singular.size else basis
-        lever = (influence @ np.conj(basis.T))[: norms.constant.size]
+        lever = (influence @ np.conj(basis.T))[: self.statement.norms.constant.size]
         return lever, self.options.unbalance[..., None] * basis.T[:, None, :]
 
     @property

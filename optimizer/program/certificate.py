@@ -254,7 +254,7 @@ def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple
     ----------
     worth : (...) what the rounding is cheap or dear beside, in units of what is bounded.
     """
-    influence = np.conj(np.concatenate([statement.norms.influence, statement.ceilings.norms.influence], axis=-2))
+    influence = np.conj(statement.every_influence)
     price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
     terms = price.shape[-2]
     slope, size = np.sum(influence * price, axis=-2), np.sum(np.abs(influence) * np.abs(price), axis=-2)

@@ -30,34 +30,16 @@ def mass_corners(vectors: Complex) -> Complex:
 
 
 def worst_by_angle(norms: Norms, u: Complex, angle: float) -> Real:
-    """Largest sizes (..., J) of norms where every counterweight (..., K) is off by up to an angle [rad] below pi/2.
+    """Largest sizes (..., J) of norms where every counterweight (..., K) is off by up to an angle [rad] below pi/2."""
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.compiling import plain
+    from optimizer.program.kernel.outlines import worst_turned
 
-    Along direction phi a counterweight v gives |v| cos(max(|phi - arg v| - angle, 0)).
-    """
     vectors = norms.influence * u[..., None, :]
-    size, towards = np.abs(vectors), np.angle(vectors)
     fixed = norms.at(u) - np.sum(vectors, axis=-1)
-    ahead, behind = vectors * np.exp(1j * angle), vectors * np.exp(-1j * angle)
-    # phi grows from -pi: every counterweight is turned ahead, not at all or back as phi is behind, near or ahead of it
-    start = np.concatenate([towards - angle, towards + angle, towards + np.pi], axis=-1)
-    turned = np.concatenate([-behind, ahead, behind - ahead], axis=-1)
-    level = np.concatenate([size, -size, np.zeros_like(size)], axis=-1)
-    wrapped = np.mod(start + np.pi, 2.0 * np.pi) - np.pi
-    order = np.argsort(wrapped, axis=-1)
-    turned, level, start = (np.take_along_axis(each, order, axis=-1) for each in (turned, level, wrapped))
-    off = np.mod(-np.pi - towards + np.pi, 2.0 * np.pi) - np.pi
-    near = np.abs(off) <= angle
-    first = fixed + np.sum(np.where(near, 0.0, np.where(off > 0, ahead, behind)), axis=-1)
-    flat = np.sum(np.where(near, size, 0.0), axis=-1)
-    # between two of these angles the projection is |vector| cos(phi - arg vector) + flat
-    vector = first[..., None] + np.concatenate([np.zeros_like(fixed)[..., None], np.cumsum(turned, axis=-1)], axis=-1)
-    flat = flat[..., None] + np.concatenate([np.zeros_like(flat)[..., None], np.cumsum(level, axis=-1)], axis=-1)
-    edge = np.full_like(flat[..., :1], np.pi)
-    begin, end = np.concatenate([-edge, start], axis=-1), np.concatenate([start, edge], axis=-1)
-    best = np.angle(vector)
-    inside = (begin <= best) & (best <= end)
-    at_ends = np.maximum(np.cos(begin - best), np.cos(end - best))
-    return np.max(np.abs(vector) * np.where(inside, 1.0, at_ends) + flat, axis=-1)
+    rows = plain(vectors).reshape(fixed.size, vectors.shape[-1])
+    found: Real = worst_turned(rows, plain(fixed).reshape(-1), angle).reshape(fixed.shape)
+    return found
 
 
 def largest_objective(statement: Statement, sizes: Real) -> Real:

@@ -142,8 +142,7 @@ def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Rea
     others = np.sum(highest) - highest
     floor = (statement.floor + others[statement.group])[statement.row]
     within = np.concatenate([level - floor, ceilings.cap + CEILING_TOLERANCE * ceilings.size])
-    constant = np.concatenate([norms.constant, ceilings.norms.constant])
-    influence = np.concatenate([norms.influence, ceilings.norms.influence])
+    constant, influence = statement.every_constant, statement.every_influence
     near = np.where(far, 0.0, statement.limits.reach)
     allowed = np.abs(constant) + np.maximum(within, 0.0) + np.sum(np.abs(influence) * near, axis=-1)
     every = np.array([*scalars(norms), *scalars(ceilings.norms)])

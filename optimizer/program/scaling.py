@@ -6,6 +6,7 @@ counterweights (lopsided weights, nearly balanced machines), columns in units of
 sectors as cuts in sine and cosine (half-angles near 90 degrees and near 0).
 """
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -14,9 +15,6 @@ from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Norms, Statement
-
-#: a term whose influence is this close to those before it is not cancelled on its own
-_DEPENDENT = 1e-13
 
 
 @dataclass(frozen=True)
@@ -70,9 +68,7 @@ def cancelling(statement: Statement, passes: int = 1) -> Complex:
     -------
     (..., K) kg m, whatever the limits.
     """
-    norms, ceilings = statement.norms, statement.ceilings.norms
-    influence = np.concatenate([norms.influence, ceilings.influence], axis=-2)
-    return least_change(influence, np.concatenate([norms.constant, ceilings.constant], axis=-1), passes)
+    return least_change(statement.every_influence, statement.every_constant, passes)
 
 
 def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) -> Complex:
@@ -84,26 +80,15 @@ def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) 
     ----------
     passes : three are exact to rounding also where rows hardly differ.
     """
-    size = np.max(np.abs(influence), axis=-1, initial=0.0)
-    known = size > 0
-    size = np.where(known, size, 1.0)
-    influence = influence / size[..., None]
-    constant = np.where(known, constant / size, 0.0)
-    u = np.zeros_like(influence[..., 0, :], dtype=complex)
-    for _ in range(passes):
-        basis: list[Real | Complex] = []
-        for term in range(influence.shape[-2]):
-            direction = influence[..., term, :]
-            for other in basis * passes:
-                direction = direction - np.sum(direction * np.conj(other), axis=-1, keepdims=True) * other
-            length = np.sqrt(np.sum(np.abs(direction) ** 2, axis=-1))
-            new = length > _DEPENDENT
-            length = np.where(new, length, 1.0)
-            direction = np.where(new[..., None], direction / length[..., None], 0.0)
-            left = constant[..., term] + np.sum(influence[..., term, :] * u, axis=-1)
-            u = u - np.conj(direction) * (left / length)[..., None]
-            basis.append(direction)
-    return u
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.cancelling import least_changes
+    from optimizer.program.kernel.compiling import plain
+
+    *leading, terms, webs = influence.shape
+    shape = (math.prod(leading), terms, webs)
+    rows, wanted = plain(influence.astype(complex)).reshape(shape), plain(constant).reshape(shape[:-1])
+    found: Complex = least_changes(rows, wanted, passes).reshape(*leading, webs)
+    return found
 
 
 def scale(

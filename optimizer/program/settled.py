@@ -36,8 +36,7 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     def attempt(points: Points, programs: np.ndarray, dust: float, touched: float) -> tuple[Points, np.ndarray]:
         part = statement if programs is every else statement.chosen(programs)
         old = points if programs is every else points.chosen(programs)
-        influence = np.concatenate([part.norms.influence, part.ceilings.norms.influence], axis=-2)
-        unbalance, moved = brought(part.limits, influence, old.unbalance, dust, touched)
+        unbalance, moved = brought(part.limits, part.every_influence, old.unbalance, dust, touched)
         if not moved.size:
             return points, moved
         new = points_at(part, unbalance)

@@ -139,6 +139,16 @@ class Statement:
         """(rows, J) matrix that sums the terms of a row."""
         return (self.row[None, :] == np.arange(self.floor.shape[-1])[:, None]).astype(float)
 
+    @cached_property
+    def every_constant(self) -> Complex:
+        """Constants of the terms of the objective, then of what is under ceilings (..., J + I)."""
+        return np.concatenate([self.norms.constant, self.ceilings.norms.constant], axis=-1)
+
+    @cached_property
+    def every_influence(self) -> Real | Complex:
+        """The same of the influences (..., J + I, K)."""
+        return np.concatenate([self.norms.influence, self.ceilings.norms.influence], axis=-2)
+
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
         return self.objective_of(self.norms.sizes(u))

@@ -1,0 +1,53 @@
+"""What a sum of vectors comes to at worst where all are turned, compiled: :mod:`optimizer.program.misplaced`."""
+
+import numpy as np
+
+from optimizer.program.kernel.compiling import kernel
+
+
+@kernel
+def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
+    """Largest |fixed + sum_k v_k e^{j psi_k}|, |psi_k| <= angle below pi/2 (M,).
+
+    Along direction phi a vector v gives |v| cos(max(|phi - arg v| - angle, 0)). While phi grows from -pi every vector
+    is turned ahead, not at all or back as phi is behind, near or ahead of it; between two of the angles at which that
+    changes the projection is |vector| cos(phi - arg vector) + flat.
+
+    Parameters
+    ----------
+    vectors, fixed : (M, K) and (M,) complex.
+    """
+    number, webs = vectors.shape
+    turn = 2.0 * np.pi
+    worst = np.empty(number)
+    start, level = np.empty(3 * webs), np.empty(3 * webs)
+    turned = np.empty(3 * webs, np.complex128)
+    to_ahead, to_behind = np.exp(1j * angle), np.exp(-1j * angle)
+    for m in range(number):
+        vector, flat = fixed[m], 0.0
+        for k in range(webs):
+            v = vectors[m, k]
+            size, towards = abs(v), np.arctan2(v.imag, v.real)
+            ahead, behind = v * to_ahead, v * to_behind
+            start[k], turned[k], level[k] = towards - angle, -behind, size
+            start[webs + k], turned[webs + k], level[webs + k] = towards + angle, ahead, -size
+            start[2 * webs + k], turned[2 * webs + k], level[2 * webs + k] = towards + np.pi, behind - ahead, 0.0
+            off = (-towards) % turn - np.pi
+            if abs(off) <= angle:
+                flat += size
+            else:
+                vector += ahead if off > 0.0 else behind
+        for event in range(3 * webs):
+            start[event] = (start[event] + np.pi) % turn - np.pi
+        order = np.argsort(start)
+        worst[m], begin = -np.inf, -np.pi
+        for at in range(3 * webs + 1):
+            end = start[order[at]] if at < 3 * webs else np.pi
+            best = np.arctan2(vector.imag, vector.real)
+            along = 1.0 if begin <= best <= end else max(np.cos(begin - best), np.cos(end - best))
+            worst[m] = max(worst[m], abs(vector) * along + flat)
+            if at < 3 * webs:
+                vector += turned[order[at]]
+                flat += level[order[at]]
+            begin = end
+    return worst
