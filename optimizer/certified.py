@@ -74,10 +74,10 @@ def judged(
         mass, angle = alike(mass, angle)
     u = unbalance(mass, angle, program.limits.radius)
     mass_bound = found.mass_lower_bound if goal.least_mass else None
-    claimed = claim(program, u, np.sum(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
+    claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
     judged = verdict(claimed, request.accuracy.relative_gap)
     of_mass = {
-        "mass_lower_bound_kg": judged.mass_lower_bound + np.sum(fixed_masses(machine), axis=-1),
+        "mass_lower_bound_kg": judged.mass_lower_bound + np.add.reduce(fixed_masses(machine), axis=-1),
         "mass_relative_gap": judged.mass_gap,
         "mass_yardstick_kg": judged.mass_yardstick,
         "mass_objective_limit": found.mass_target * square,

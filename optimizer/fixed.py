@@ -7,9 +7,11 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import Layout, Rotating, stacked
+from optimizer.remembered import remembered
 from schemas.machine import Machine
 
 
+@remembered
 def fixed_webs(machine: Machine) -> np.ndarray:
     """Which webs carry a fixed weight (K,) bool."""
     return np.array([web.fixed is not None for web in machine.webs], dtype=bool)
@@ -26,7 +28,7 @@ def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real
     Of webs on balance shafts, which stand behind those of the crankshaft, nothing is fixed.
     """
     which = fixed_webs(machine)
-    if not np.any(which):
+    if not which.any():
         return mass_kg, angle_deg
     behind = mass_kg.shape[-1] - which.size
     angles = np.mod(stacked([0.0 if web.fixed is None else web.fixed.angle_deg for web in machine.webs]), 360.0)

@@ -16,12 +16,14 @@ from optimizer.mechanics.balance_shafts import first_order_responses
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.program.statement import Statement, combined, statement, weighted_peak
+from optimizer.remembered import remembered
 from optimizer.response import Response
 from schemas.limits import CeilingField, MachineLimit
 from schemas.machine import Machine, ReciprocatingMachine
 from schemas.objective import Objective
 
 
+@remembered
 def span(machine: Machine) -> Reals:
     """Axial span L of throws and webs, m; 1 m if that is zero (docs/api.md)."""
     if isinstance(machine, ReciprocatingMachine):
@@ -30,7 +32,7 @@ def span(machine: Machine) -> Reals:
         planes = [machine.orbiting_position_m, machine.anti_rotation.position_m]
     planes += [web.position_m for web in machine.webs]
     places = stacked(planes)
-    length = np.max(places, axis=-1) - np.min(places, axis=-1)
+    length = np.maximum.reduce(places, axis=-1) - np.minimum.reduce(places, axis=-1)
     return np.where(length <= SMALLEST, 1.0, length)[()]
 
 
@@ -174,7 +176,7 @@ def formulate(machine: Machine, objective: Objective, responses: Sequence[Respon
     peaks = [
         weighted_peak(response, wanted[response.name], across.x, across.y)
         for response in responses
-        if np.all(np.asarray(wanted[response.name]) > 0)
+        if (np.asarray(wanted[response.name]) > 0).all()
     ]
     caps = [(response, allowed / omega_squared) for response, allowed in limited(responses, objective)]
     return statement(combined(peaks, objective.combine), caps, limits(machine, leading))

@@ -17,6 +17,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
+from optimizer.remembered import remembered
 from optimizer.shapes import envelopes
 from schemas.limits import MachineLimit, WebLimit
 from schemas.machine import Machine
@@ -96,7 +97,7 @@ class _Budget:
         return np.asarray(np.inf if budget is None else budget, dtype=float)
 
     def touched(self, machine: Machine, mass_kg: Real, angle_deg: Real) -> np.ndarray:
-        return np.asarray(np.sum(mass_kg, axis=-1) >= self.size(machine) * (1.0 - TOUCHED))
+        return np.asarray(np.add.reduce(mass_kg, axis=-1) >= self.size(machine) * (1.0 - TOUCHED))
 
     def price(self, machine: Machine, prices: ShadowPrices) -> Real:
         return prices.max_total_mass
@@ -144,6 +145,7 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
 MACHINE_LIMITS: dict[MachineLimit, Limit] = {"max_total_mass": _Budget()}
 
 
+@remembered
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
     allowed = [each.mass(machine) for each in WEB_LIMITS.values() if isinstance(each, MassLimit)]
@@ -156,20 +158,25 @@ def largest_mass(machine: Machine) -> Real:
 def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
     webs = machine.webs
-    free, centre, half_angle = sectors(machine)
-    edge, shape = direction(half_angle), (*leading, len(webs))
-    left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.sum(fixed_masses(machine), axis=-1)
+    free, towards, half_angle = sectors(machine)
+    if free.all():
+        centre, edge = np.ones(len(webs), complex), np.full(len(webs), 1j)
+    else:
+        centre, edge = direction(towards), direction(half_angle)
+    shape = (*leading, len(webs))
+    left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.add.reduce(fixed_masses(machine), axis=-1)
     return Limits(
         radius=np.broadcast_to(stacked([web.radius_m for web in webs]), shape),
         max_mass=np.broadcast_to(largest_mass(machine), shape),
         free=np.broadcast_to(free, shape),
-        centre=np.broadcast_to(direction(centre), shape),
+        centre=np.broadcast_to(centre, shape),
         half_angle_cos=np.broadcast_to(edge.real, shape),
         half_angle_sin=np.broadcast_to(edge.imag, shape),
         max_total_mass=np.broadcast_to(left, leading),
     )
 
 
+@remembered
 def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
     """Which webs have no sector (K,); centres and half-angles [deg] (..., K), 0 and 90 where there is none."""
     webs = machine.webs

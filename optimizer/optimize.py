@@ -209,10 +209,10 @@ def _conflict(
     excess = program.excess()
     by_one = (_of_one_ceiling(excess, n, alone[name].multipliers) for n, name in enumerate(program.ceilings.names))
     for proof in (best.found.conflict, *by_one):
-        if np.all(objective_lower_bound(excess, proof) > CEILING_ROUNDING):
+        if (objective_lower_bound(excess, proof) > CEILING_ROUNDING).all():
             return program, replace(best.found, conflict=proof)
     found = optima(program, request.accuracy.relative_gap, False, solver)
-    return (program, found) if np.all(found.unreachable) else None
+    return (program, found) if found.unreachable.all() else None
 
 
 def _of_one_ceiling(excess: Statement, ceiling: int, peak: Multipliers) -> Multipliers:
@@ -241,7 +241,7 @@ def _infeasible(
 
     # one reach for all that is proven here
     reached = (best.proven, *(within_reach(peak, solver) for peak in peaks.values()))
-    most = np.max([each.limits.max_mass for each in reached], axis=0)
+    most = np.maximum.reduce([each.limits.max_mass for each in reached], axis=0)
     alone, against = by_itself(most), None
     if best.found.unreachable[0]:
         of_excess = _conflict(request, best, most, {name: found for name, (_, found) in alone.items()}, solver)

@@ -116,10 +116,10 @@ class Response:
         ----------
         unbalance : (..., webs) complex mass-radius products m R e^{ja}, kg m.
         """
-        change = np.sum(self.influence * unbalance, axis=-1)
+        change = np.add.reduce(self.influence * unbalance, axis=-1)
         if self.counter_influence is None:
             return Phasors(self.baseline.co + change, self.baseline.counter)
-        mirrored = np.sum(self.counter_influence * unbalance, axis=-1)
+        mirrored = np.add.reduce(self.counter_influence * unbalance, axis=-1)
         return Phasors(self.baseline.co + change, self.baseline.counter + np.conj(mirrored))
 
     def along(self, axis: Literal["x", "y"]) -> "Response":

@@ -9,12 +9,14 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.mechanics.envelope import AnnularSector, Envelope, Segment, opened_for
+from optimizer.remembered import remembered
 from schemas.machine import Machine
 from schemas.webs import Web
 
 _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector, "segment": Segment}
 
 
+@remembered
 def envelopes(machine: Machine) -> dict[int, Envelope]:
     """The plates of the webs that have one, by number of the web."""
     return {

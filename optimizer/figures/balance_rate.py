@@ -9,6 +9,7 @@ from optimizer.figures.output import Columns, Output
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.balance_rate import balance_rates, customary, web_shares
 from optimizer.mechanics.layout import stacked
+from optimizer.remembered import remembered
 from optimizer.scene import Prepared
 from schemas.answers import BalanceRate
 from schemas.machine import Machine, ReciprocatingMachine
@@ -31,6 +32,7 @@ class Cranks(NamedTuple):
         return customary(self.rotating, self.shares)
 
 
+@remembered
 def shares(machine: ReciprocatingMachine) -> Real:
     """Which share of each web belongs to each throw, (..., throws, webs); fields of the machine may hold columns."""
     throw, web = (stacked([one.position_m for one in which]) for which in (machine.throws, machine.webs))
@@ -44,7 +46,7 @@ def own_throws(machine: Machine) -> list[int | None]:
     if not isinstance(machine, ReciprocatingMachine) or not machine.webs:
         return [None] * len(machine.webs)
     of_webs = shares(machine).T
-    first, alone = np.argmax(of_webs, axis=-1).tolist(), np.any(of_webs == 1.0, axis=-1).tolist()
+    first, alone = np.argmax(of_webs, axis=-1).tolist(), (of_webs == 1.0).any(axis=-1).tolist()
     return [throw if one else None for throw, one in zip(first, alone, strict=True)]
 
 

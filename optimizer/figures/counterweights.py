@@ -34,7 +34,7 @@ def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> t
     mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
     mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)
-    if np.all(free):
+    if free.all():
         return mass, np.where(mass > 0, angle, 0.0)
     # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
     centre = np.mod(centre, 360.0)

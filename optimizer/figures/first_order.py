@@ -39,8 +39,8 @@ def floor(layout: Layout, wrench: Wrench) -> Floor:
     force, moment = (float(np.abs(pair.counter)) for pair in wrench)
     if layout.balance is not None:
         backwards = layout.balance.ratio == -1.0
-        force = 0.0 if np.any(backwards) else force
-        moment = 0.0 if np.any(backwards & (shaft_arms(layout, layout.balance) != 0.0)) else moment
+        force = 0.0 if backwards.any() else force
+        moment = 0.0 if (backwards & (shaft_arms(layout, layout.balance) != 0.0)).any() else moment
     return Floor(force_N=force, moment_Nm=moment)
 
 
@@ -80,7 +80,7 @@ def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
 
 def _second_order(scene: Prepared, with_shafts: bool) -> Order | None:
     """Second order of one machine, which balance shafts alone change; None where a row has no rod."""
-    if np.any(np.isnan(scene.layout.reciprocating.rod_ratio)):
+    if np.isnan(scene.layout.reciprocating.rod_ratio).any():
         return None
     harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
     wrench = reciprocating(scene.layout, 2, harmonic)

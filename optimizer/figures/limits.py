@@ -98,7 +98,7 @@ def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_s
     of_webs = {
         name: (limit.unit, size.tolist(), limit.price(machine, prices).tolist())
         for name, limit in WEB_LIMITS.items()
-        if np.any((size := limit.size(machine)) < np.inf)
+        if ((size := limit.size(machine)) < np.inf).any()
     }
     for k, web in enumerate(machine.webs):
         if web.fixed is not None:

@@ -5,6 +5,8 @@ from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
 
+_QUADRANTS = np.array([1, 1j, -1, -1j])
+
 
 def direction(angle_deg: Real) -> Complex:
     """Unit vector e^{j angle} for angles in degrees.
@@ -24,8 +26,8 @@ def direction(angle_deg: Real) -> Complex:
     turn = np.mod(np.asarray(angle_deg, dtype=float), 360.0)
     quadrant = np.floor(turn / 90.0)
     rest = turn - 90.0 * quadrant
-    cosine, sine = _cosine(np.stack([rest, 90.0 - rest]))
-    return (cosine + 1j * sine) * np.asarray([1, 1j, -1, -1j])[quadrant.astype(int) % 4]
+    cosine, sine = _cosine(np.array([rest, 90.0 - rest]))
+    return (cosine + 1j * sine) * _QUADRANTS[quadrant.astype(int) % 4]
 
 
 def turned(sense: Real, angle_rad: Real) -> Complex:
@@ -48,8 +50,9 @@ def _cosine(angle_deg: NDArray[np.float64]) -> NDArray[np.float64]:
     """Cosine on [0, 90] degrees; cos 60 = 1/2 and cos 90 = 0 exactly."""
     small = np.cos(np.deg2rad(angle_deg))
     large = np.sin(np.deg2rad(90.0 - angle_deg))
-    value = np.where(angle_deg <= 45.0, small, large)
-    return np.where(angle_deg == 60.0, 0.5, value)
+    value: Real = np.where(angle_deg <= 45.0, small, large)
+    value[angle_deg == 60.0] = 0.5
+    return value
 
 
 def angle_deg(vector: Complex) -> Real:

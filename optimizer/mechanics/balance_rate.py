@@ -22,10 +22,12 @@ def web_shares(throw: Real, web: Real, own: Real | None = None) -> Real:
     own : (..., webs) numbers from 0 of the throws that webs name; nan is the nearest, None that of all.
     """
     distance = np.abs(throw[..., :, None] - web[..., None, :])
-    least = np.min(distance, axis=-2, keepdims=True)
-    extent = np.max(np.abs(throw), axis=-1)[..., None, None] + np.max(distance, axis=(-2, -1), keepdims=True, initial=0)
+    least = np.minimum.reduce(distance, axis=-2, keepdims=True)
+    extent = np.maximum.reduce(np.abs(throw), axis=-1)[..., None, None] + np.maximum.reduce(
+        distance, axis=(-2, -1), keepdims=True, initial=0
+    )
     near = distance <= least + _TIE * extent
-    shares: Real = near / np.sum(near, axis=-2, keepdims=True)
+    shares: Real = near / np.add.reduce(near, axis=-2, keepdims=True)
     if own is None:
         return shares
     named = own[..., None, :] == np.arange(throw.shape[-1])[:, None]
@@ -41,13 +43,13 @@ def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Comple
     shares : (..., throws, webs).
     unbalance : (..., webs) of the counterweights, kg m.
     """
-    opposed = -np.sum(shares * unbalance[..., None, :], axis=-1)
+    opposed = -np.add.reduce(shares * unbalance[..., None, :], axis=-1)
     there = rotating != 0.0
     return np.where(there, opposed / np.where(there, rotating, 1.0), np.nan)
 
 
 def customary(rotating: Complex, shares: Real) -> Complex:
     """Counterweights (..., webs) kg m that balance the rotating unbalance of every throw, alike on each of its webs."""
-    held = np.sum(shares, axis=-1, keepdims=True)
+    held = np.add.reduce(shares, axis=-1, keepdims=True)
     of_webs = shares / np.where(held > 0.0, held, 1.0)
-    return -np.sum(of_webs * rotating[..., None], axis=-2)
+    return -np.add.reduce(of_webs * rotating[..., None], axis=-2)

@@ -33,8 +33,9 @@ def rotating(layout: Layout) -> Wrench:
 
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
-    forces = rotating_forces(layout)
-    return _wrench(layout, forces.co, forces.counter, layout.rotating.position)
+    force, couple = _summed(layout, rotating_forces(layout).co, layout.rotating.position)
+    nothing = np.zeros_like(force)
+    return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
 
 
 def rotating_forces(layout: Layout) -> Phasors:
@@ -57,7 +58,8 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    return _wrench(layout, forces.co, forces.counter, layout.reciprocating.position)
+    force, couple = _summed(layout, np.stack([forces.co, forces.counter]), layout.reciprocating.position)
+    return Wrench(Phasors(force[0], force[1]), Phasors(couple[0], couple[1]))
 
 
 def reciprocating_forces(
@@ -111,20 +113,15 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
     )
 
 
-def _wrench(layout: Layout, co: Complex, counter: Complex, position: Real) -> Wrench:
-    """Sum of forces in planes, with their couples about the reference plane."""
-    force = Phasors(total(co), total(counter))
-    return Wrench(
-        force, Phasors(_couple(layout, co, position, force.co), _couple(layout, counter, position, force.counter))
-    )
+def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, Complex]:
+    """Sum of forces (..., n) in planes, and their couple about the reference plane (...).
 
-
-def _couple(layout: Layout, forces: Complex, position: Real, force: Complex) -> Complex:
-    """Couple of forces (..., n) about the reference plane (...).
-
-    Where their sum ``force`` vanishes it is the same about any plane, and is summed about the centre, where the arms
-    are short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
+    Where the sum vanishes the couple is the same about any plane, and is summed about the centre, where the arms are
+    short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
     """
-    pure = total((position - layout.centre_plane[..., None]) * forces)
+    force = total(forces)
     about = total((position - layout.reference_plane[..., None]) * forces)
-    return np.where(force == 0, pure, about)
+    balanced = force == 0
+    if not balanced.any():
+        return force, about
+    return force, np.where(balanced, total((position - layout.centre_plane[..., None]) * forces), about)

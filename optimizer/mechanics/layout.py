@@ -90,7 +90,7 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     else:
         turning, reciprocating, planes = _reciprocating(machine)
     places = stacked(planes)
-    centre = 0.5 * (np.min(places, axis=-1) + np.max(places, axis=-1))
+    centre = 0.5 * (np.minimum.reduce(places, axis=-1) + np.maximum.reduce(places, axis=-1))
     return Layout(
         omega=np.asarray(machine.speed_rpm * np.pi / 30.0),
         sense=np.asarray(1.0 if machine.rotation == "ccw" else -1.0),

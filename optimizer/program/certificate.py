@@ -52,7 +52,7 @@ class Multipliers:
 
     def price(self, statement: Statement) -> Real:
         """What a unit of the objective costs: the sum of the rows of a group, alike in all if admissible (...)."""
-        return np.sum(self.row[..., statement.group == 0], axis=-1)
+        return np.add.reduce(self.row[..., statement.group == 0], axis=-1)
 
     def admissible(self, statement: Statement) -> "Multipliers":
         """The same multipliers with lam >= 0 of one sum in every group, |y| <= 1, and y real of a scalar.
@@ -75,7 +75,7 @@ def _alike(statement: Statement, row: Real) -> Real:
     if statement.group[-1] == 0:
         return row
     price = np.add.reduceat(row, statement.first_rows, axis=-1)
-    lacking = np.max(price, axis=-1, keepdims=True) - price
+    lacking = np.maximum.reduce(price, axis=-1, keepdims=True) - price
     return row + statement.where_largest(statement.floor) * lacking[..., statement.group]
 
 
@@ -163,7 +163,7 @@ def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Rea
 def tolerance_allowance(statement: Statement, multipliers: Multipliers) -> Real:
     """What a bound on the mass gives up for all that counts as keeping the ceilings but exceeds them (...), kg."""
     ceilings = statement.ceilings
-    return np.sum(np.abs(multipliers.ceiling) * ceilings.tolerance * ceilings.size, axis=-1)
+    return np.add.reduce(np.abs(multipliers.ceiling) * ceilings.tolerance * ceilings.size, axis=-1)
 
 
 def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: float) -> Real:
@@ -177,8 +177,8 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     mass_cost : 0 in a bound on the objective, 1 in one on the mass.
     """
     limits = statement.limits
-    ends = np.sum(limits.max_mass, axis=-1) > limits.max_total_mass
-    if not np.any(ends):
+    ends = np.add.reduce(limits.max_mass, axis=-1) > limits.max_total_mass
+    if not ends.any():
         return np.zeros(ends.shape)
     minorant = _minorant(statement, multipliers, statement.ceilings.cap)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
@@ -187,12 +187,12 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
 
 def knapsack_price(gain: Real, limits: Limits) -> Real:
     """Gain per kilogram (..., K) of the web at which the budget ends, at least 0; 0 where it does not end (...)."""
-    if np.all(np.isinf(limits.max_total_mass)):
+    if np.isinf(limits.max_total_mass).all():
         return np.zeros(gain.shape[:-1])
     order = np.argsort(-gain, axis=-1, kind="stable")
     most = np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1)
     unpaid = most > limits.left(most)
-    return np.max(np.where(unpaid, np.take_along_axis(gain, order, axis=-1), 0.0), axis=-1, initial=0.0)
+    return np.maximum.reduce(np.where(unpaid, np.take_along_axis(gain, order, axis=-1), 0.0), axis=-1, initial=0.0)
 
 
 def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Real) -> Real:
@@ -203,11 +203,11 @@ def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Re
     multipliers : those of the bound.
     excess : (..., I) in units of the ceilings' size; what is below 0 is none.
     """
-    if not np.any(excess > 0):
+    if not (excess > 0).any():
         return np.zeros(excess.shape[:-1])
     usable, known = normalised(statement, multipliers)
     over = np.maximum(excess, 0.0) * statement.ceilings.size
-    allowance = np.sum(np.where(over > 0, np.abs(usable.ceiling) * over, 0.0), axis=-1)
+    allowance = np.add.reduce(np.where(over > 0, np.abs(usable.ceiling) * over, 0.0), axis=-1)
     return np.where(known, allowance, 0.0)
 
 
@@ -231,9 +231,9 @@ def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Min
         ],
         axis=-1,
     )
-    size = np.sum(np.abs(fixed), axis=-1)
+    size = np.add.reduce(np.abs(fixed), axis=-1)
     slope, rounding = _slope(statement, multipliers, size)
-    return _Minorant(np.sum(fixed, axis=-1), size, slope, rounding, spread(statement, multipliers))
+    return _Minorant(np.add.reduce(fixed, axis=-1), size, slope, rounding, spread(statement, multipliers))
 
 
 def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
@@ -243,7 +243,7 @@ def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
         return 0.0
     of_terms = norms.scatter * multipliers.row[..., statement.row, None] * np.abs(norms.influence)
     of_ceilings = ceilings.scatter * np.abs(multipliers.ceiling)[..., None] * np.abs(ceilings.influence)
-    each: Real = np.sum(of_terms, axis=-2) + np.sum(of_ceilings, axis=-2)
+    each: Real = np.add.reduce(of_terms, axis=-2) + np.add.reduce(of_ceilings, axis=-2)
     return each * (1.0 - _EPS * (_EACH + statement.row.size + multipliers.ceiling.shape[-1]))
 
 
@@ -257,13 +257,13 @@ def _slope(statement: Statement, multipliers: Multipliers, worth: Real) -> tuple
     influence = np.conj(statement.every_influence)
     price = np.concatenate([multipliers.term, multipliers.ceiling], axis=-1)[..., None]
     terms = price.shape[-2]
-    slope, size = np.sum(influence * price, axis=-2), np.sum(np.abs(influence) * np.abs(price), axis=-2)
+    slope, size = np.add.reduce(influence * price, axis=-2), np.add.reduce(np.abs(influence) * np.abs(price), axis=-2)
     rounding = _EPS * (_EACH + terms) * size
-    dear = np.sum(statement.limits.reach * rounding, axis=-1) > _DEAR * worth
-    if not np.any(dear):
+    dear = np.add.reduce(statement.limits.reach * rounding, axis=-1) > _DEAR * worth
+    if not dear.any():
         return slope, rounding
     # webs that can hardly be told apart, with limits that are far away: what is left of the data, no more
-    finer = np.sum(influence * price.astype(np.clongdouble), axis=-2)
+    finer = np.add.reduce(influence * price.astype(np.clongdouble), axis=-2)
     rest = float(np.finfo(np.longdouble).eps) * (2 + terms) * size
     slope = np.where(dear[..., None], finer.astype(complex), slope)
     return slope, np.where(dear[..., None], _EPS * (_DATA * size + _EACH * np.abs(slope)) + rest, rounding)
@@ -281,5 +281,5 @@ def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) ->
     as far as the limits let the web reach. With a budget the webs are filled in falling order of that gain.
     """
     gain = np.maximum(limits.radius * minorant.support(limits) - mass_cost, 0.0)
-    gained = np.sum(gain * limits.filled(gain), axis=-1)
+    gained = np.add.reduce(gain * limits.filled(gain), axis=-1)
     return -gained * (1.0 + _EPS * (_EACH + 2 * gain.shape[-1]))

@@ -83,7 +83,7 @@ def both_stages(
         return _judged(statement, share, demand, least_mass, solved)
     solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
     found = _judged(statement, share, demand, least_mass, solved)
-    if not statement.ceilings.names or np.all(found.certified):
+    if not statement.ceilings.names or found.certified.all():
         return found
     left = np.flatnonzero(~found.certified)
     nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
@@ -186,8 +186,8 @@ def _solve(
     method = solve if precision is None else solve_in(precision)
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
-    unit = np.sum(np.abs(norms.constant), axis=-1)
-    reachable = np.sum(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
+    unit = np.add.reduce(np.abs(norms.constant), axis=-1)
+    reachable = np.add.reduce(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
     # a level far above where the search starts is hardly found
     unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
     # interpreted numbers would warn where compiled ones end in a NaN, and the search with it
@@ -249,7 +249,7 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
     )
     cap = ceilings.cap / ceilings.size
     mass = reach / limits.radius
-    highest = np.max(statement.floor, axis=-1)
+    highest = np.maximum.reduce(statement.floor, axis=-1)
     budget = limits.max_total_mass[:, None]
     programs = Programs(
         row=statement.row.astype(np.int64),
@@ -262,7 +262,7 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         cosine=limits.half_angle_cos,
         sector=np.where(limits.free, 0.0, 1.0),
         mass=mass,
-        budget=np.where(np.sum(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
+        budget=np.where(np.add.reduce(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
     )
     # for any other order in memory, and for what is read-only, all would be compiled once more
     return Programs(*(np.require(values, requirements=["C", "W"]) for values in programs))

@@ -41,7 +41,7 @@ class Limits:
         ----------
         gain : (..., K) >= 0 per kilogram.
         """
-        if np.all(np.isinf(self.max_total_mass)):
+        if np.isinf(self.max_total_mass).all():
             return np.broadcast_to(self.max_mass, gain.shape)
         order = np.argsort(-gain, axis=-1, kind="stable")
         most = np.take_along_axis(np.broadcast_to(self.max_mass, gain.shape), order, axis=-1)
@@ -56,7 +56,7 @@ class Limits:
 
     def into_sectors(self, u: Complex) -> Complex:
         """The nearest unbalance inside the sectors, kg m (..., K)."""
-        if np.all(self.free):
+        if self.free.all():
             return u
         v = u * np.conj(self.centre)
         edge = self.half_angle_cos + 1j * np.where(v.imag < 0, -1.0, 1.0) * self.half_angle_sin
@@ -70,7 +70,7 @@ class Limits:
         size = np.abs(u)
         largest = self.reach
         u = u * np.where(size > largest, largest / np.where(size > 0, size, 1.0), 1.0)
-        mass = np.sum(np.abs(u) / self.radius, axis=-1)
+        mass = np.add.reduce(np.abs(u) / self.radius, axis=-1)
         over = mass > self.max_total_mass
         return u * np.where(over, self.max_total_mass / np.where(over, mass, 1.0), 1.0)[..., None]
 

@@ -15,7 +15,7 @@ from optimizer.program.statement import Norms, Statement
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
     """Largest sizes (..., J) of norms where every counterweight (..., K) is off by up to a share of its mass."""
     middle, corners = norms.at(u), mass_corners(norms.influence * u[..., None, :])
-    return np.max(np.abs(middle[..., None] + share * corners), axis=-1)
+    return np.maximum.reduce(np.abs(middle[..., None] + share * corners), axis=-1)
 
 
 def mass_corners(vectors: Complex) -> Complex:
@@ -23,7 +23,7 @@ def mass_corners(vectors: Complex) -> Complex:
     ahead = np.where((vectors.imag < 0) | ((vectors.imag == 0) & (vectors.real < 0)), -vectors, vectors)
     ahead = np.take_along_axis(ahead, np.argsort(np.angle(ahead), axis=-1), axis=-1)
     # around half of the outline the vectors change sign one after the other
-    half = np.sum(ahead, axis=-1)[..., None] - 2.0 * np.cumsum(
+    half = np.add.reduce(ahead, axis=-1)[..., None] - 2.0 * np.cumsum(
         np.concatenate([np.zeros_like(ahead[..., :1], shape=(*ahead.shape[:-1], 1)), ahead], axis=-1), axis=-1
     )
     return np.concatenate([half, -half], axis=-1)
@@ -36,7 +36,7 @@ def worst_by_angle(norms: Norms, u: Complex, angle: float) -> Real:
     from optimizer.program.kernel.outlines import worst_turned
 
     vectors = norms.influence * u[..., None, :]
-    fixed = norms.at(u) - np.sum(vectors, axis=-1)
+    fixed = norms.at(u) - np.add.reduce(vectors, axis=-1)
     rows = plain(vectors).reshape(fixed.size, vectors.shape[-1])
     found: Real = worst_turned(rows, plain(fixed).reshape(-1), angle).reshape(fixed.shape)
     return found
@@ -44,7 +44,7 @@ def worst_by_angle(norms: Norms, u: Complex, angle: float) -> Real:
 
 def largest_objective(statement: Statement, sizes: Real) -> Real:
     """The objective (...) of norms of these sizes (..., J): of a sum of peaks no less than they come to together."""
-    return np.sum(statement.largest(statement.rows(sizes)), axis=-1)
+    return np.add.reduce(statement.largest(statement.rows(sizes)), axis=-1)
 
 
 def angle_corners(vectors: Complex, angle: float) -> Complex:
@@ -58,7 +58,7 @@ def angle_corners(vectors: Complex, angle: float) -> Complex:
     edges = np.roll(outline, -1, axis=-1) - outline
     # of a sum of outlines the edges stand in the order of their directions, and each is walked from its first on
     first = np.argmin(np.angle(edges), axis=-1)[..., None]
-    start = np.sum(np.take_along_axis(outline, first, axis=-1)[..., 0], axis=-1)
+    start = np.add.reduce(np.take_along_axis(outline, first, axis=-1)[..., 0], axis=-1)
     edges = edges.reshape(*edges.shape[:-2], 4 * edges.shape[-2])
     edges = np.take_along_axis(edges, np.argsort(np.angle(edges), axis=-1), axis=-1)
     return start[..., None] + np.cumsum(edges, axis=-1)

@@ -58,7 +58,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     least_mass : take the least total mass among the optima.
     """
     carries = statement.limits.reach > 0
-    if np.all(carries):
+    if carries.all():
         return _optima(statement, relative_gap, least_mass, solver)
     # webs that cannot carry anything are left out of their programs
     patterns, which = np.unique(carries, axis=0, return_inverse=True)

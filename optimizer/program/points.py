@@ -50,4 +50,4 @@ def points_at(statement: Statement, u: Complex) -> Points:
 
 def excess_at(statement: Statement, u: Complex) -> Real:
     """Largest relative excess over a ceiling (N,); -inf without ceilings."""
-    return np.max(statement.ceilings.excess(u), axis=-1, initial=-np.inf)
+    return np.maximum.reduce(statement.ceilings.excess(u), axis=-1, initial=-np.inf)

@@ -45,15 +45,15 @@ def natural_reach(statement: Statement) -> Real:
 
     Far larger counterweights are never needed; limits beyond a multiple of it are as good as none.
     """
-    return np.maximum(np.max(np.abs(cancelling(statement)), axis=-1, initial=0.0), single_reach(statement))
+    return np.maximum(np.maximum.reduce(np.abs(cancelling(statement)), axis=-1, initial=0.0), single_reach(statement))
 
 
 def single_reach(statement: Statement) -> Real:
     """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
     largest = np.zeros(())
     for each in (statement.norms, statement.ceilings.norms):
-        apart = np.where(np.any(each.influence != 0, axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
-        largest = np.maximum(largest, np.max(apart, axis=-1, initial=0.0))
+        apart = np.where((each.influence != 0).any(axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
+        largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
     return largest
 
 
@@ -116,7 +116,7 @@ def scale(
     if unit == 0.0:
         unit = float(np.sum(np.abs(norms.influence) * reach)) or 1.0
     budget = bool(np.sum(reach / limits.radius) > limits.max_total_mass)
-    sectors = not bool(np.all(limits.free))
+    sectors = not bool(limits.free.all())
     count, cap, highest = len(ceilings.names), ceilings.cap / ceilings.size, statement.largest(statement.floor)
     data = ScaledData(
         shape=Shape(

@@ -34,8 +34,8 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     """
     usable, _ = normalised(statement, multipliers)
     limits = statement.limits
-    slope = np.sum(np.conj(statement.norms.influence) * usable.term[..., :, None], axis=-2)
-    slope = slope + np.sum(np.conj(statement.ceilings.norms.influence) * usable.ceiling[..., :, None], axis=-2)
+    slope = np.add.reduce(np.conj(statement.norms.influence) * usable.term[..., :, None], axis=-2)
+    slope = slope + np.add.reduce(np.conj(statement.ceilings.norms.influence) * usable.ceiling[..., :, None], axis=-2)
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     worth = limits.radius * limits.support(-slope)

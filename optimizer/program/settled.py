@@ -68,24 +68,24 @@ def brought(
     """
     size = np.abs(u)
     mass = size / limits.radius
-    none = (mass > 0) & (mass <= dust * np.max(mass, axis=-1, keepdims=True, initial=0.0))
+    none = (mass > 0) & (mass <= dust * np.maximum.reduce(mass, axis=-1, keepdims=True, initial=0.0))
     next_to = mass >= limits.max_mass * (1.0 - touched)
     full = ~none & next_to & (mass < limits.max_mass)
     put = np.where(none, 0.0, u)
     put = np.where(full, limits.radius * limits.max_mass / np.where(full, size, 1.0) * u, put)
     edge = np.zeros_like(none)
-    if not np.all(limits.free):
+    if not limits.free.all():
         v = u * np.conj(limits.centre)
         inwards = v.real * limits.half_angle_sin - np.abs(v.imag) * limits.half_angle_cos
         edge = ~limits.free & ~none & (size > 0) & (inwards <= touched * limits.half_angle_sin * size)
         side = limits.half_angle_cos + 1j * np.copysign(limits.half_angle_sin, v.imag)
         put = np.where(edge, np.abs(put) * side * limits.centre, put)
-    moved = np.flatnonzero(np.any(put != u, axis=-1))
+    moved = np.flatnonzero((put != u).any(axis=-1))
     if not moved.size:
         return u, moved
     between = np.where(none | edge | next_to, 0.0, size)
     part = slice(None) if moved.size == len(u) else moved
-    change = np.sum(influence[part] * (put - u)[part][:, None, :], axis=-1)
+    change = np.add.reduce(influence[part] * (put - u)[part][:, None, :], axis=-1)
     put[part] += between[part] * least_change(influence[part] * between[part][:, None, :], change)
     put[part] = mapped(limits, lambda array: array[part]).into(put[part])
     return put, moved

@@ -40,7 +40,7 @@ class Norms:
 
     def at(self, u: Complex) -> Complex:
         """Vectors c_j + H_j u, (..., J); of scalars the real part."""
-        return self.counting(self.constant + np.sum(self.influence * u[..., None, :], axis=-1))
+        return self.counting(self.constant + np.add.reduce(self.influence * u[..., None, :], axis=-1))
 
     def counting(self, vectors: Complex) -> Complex:
         """What counts of vectors (..., J), or of their multipliers."""
@@ -51,12 +51,12 @@ class Norms:
         sizes = np.abs(self.at(u))
         if not self.scatter:
             return sizes
-        return sizes + self.scatter * np.sum(np.abs(self.influence) * np.abs(u)[..., None, :], axis=-1)
+        return sizes + self.scatter * np.add.reduce(np.abs(self.influence) * np.abs(u)[..., None, :], axis=-1)
 
     @property
     def largest_influence(self) -> Real:
         """Largest |H_jk| over the webs, (..., J); 1 where no web has any."""
-        largest = np.max(np.abs(self.influence), axis=-1, initial=0.0)
+        largest = np.maximum.reduce(np.abs(self.influence), axis=-1, initial=0.0)
         return np.where(largest > 0, largest, 1.0)
 
     def only(self, webs: np.ndarray) -> "Norms":
@@ -157,7 +157,7 @@ class Statement:
         """P (...) for sizes of the terms (..., J)."""
         rows = self.rows(sizes)
         # one group is what is asked most, and a point is evaluated twenty times for an answer
-        return np.max(rows, axis=-1) if self.group[-1] == 0 else np.sum(self.largest(rows), axis=-1)
+        return np.maximum.reduce(rows, axis=-1) if self.group[-1] == 0 else np.add.reduce(self.largest(rows), axis=-1)
 
     @cached_property
     def at_rest(self) -> Real:
@@ -171,7 +171,7 @@ class Statement:
 
     def rows(self, sizes: Real) -> Real:
         """Rows of the objective (..., rows) for sizes of its terms (..., J)."""
-        return self.floor + np.sum(self.membership * sizes[..., None, :], axis=-1)
+        return self.floor + np.add.reduce(self.membership * sizes[..., None, :], axis=-1)
 
     def largest(self, rows: Real) -> Real:
         """Largest of each group (..., groups) of what rows have (..., rows)."""
@@ -189,13 +189,13 @@ class Statement:
 
     def rounding(self, u: Complex) -> Real:
         """What the objective may change by where masses and angles are rounded (...)."""
-        size = np.sum(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
+        size = np.add.reduce(np.abs(self.norms.influence) * np.abs(u)[..., None, :], axis=(-2, -1))
         size = (1.0 + self.norms.scatter) * size
-        return _ROUNDING * (size + np.sum(np.abs(self.norms.constant), axis=-1))
+        return _ROUNDING * (size + np.add.reduce(np.abs(self.norms.constant), axis=-1))
 
     def mass(self, u: Complex) -> Real:
         """Total counterweight mass, kg."""
-        return np.sum(np.abs(u) / self.limits.radius, axis=-1)
+        return np.add.reduce(np.abs(u) / self.limits.radius, axis=-1)
 
     def excess(self) -> "Statement":
         """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
@@ -249,7 +249,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
     f, b = response.baseline.co, np.conj(response.baseline.counter)
     against = response.counter_influence
-    if not np.any(q) and against is None:
+    if not q.any() and against is None:
         alone = total((p * f)[..., None, None])
         norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
@@ -316,7 +316,7 @@ def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: 
         cap[..., index] = ceiling - np.abs(response.baseline.counter)
     size = np.maximum(np.abs(norms.constant), np.abs(cap))
     # where both vanish: what the unbalance that the objective calls for does to the response
-    called_for = np.max(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
+    called_for = np.maximum.reduce(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
     size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
     size, scenarios = np.where(size > SMALLEST, size, 1.0), tuple(response.scenario for response, _ in ceilings)
     return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, size, scenarios=scenarios)

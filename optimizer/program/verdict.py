@@ -92,7 +92,7 @@ def claim(
         np.asarray(lower_bound - allowance)[..., None],
         statement.rounding(u)[..., None],
         size,
-        np.max(excess, axis=-1, initial=-np.inf),
+        np.maximum.reduce(excess, axis=-1, initial=-np.inf),
         mass,
         mass_resolution(statement, size),
         mass_lower_bound,
@@ -108,9 +108,9 @@ def verdict(claim: Claim, asked: float) -> Verdict:
     """
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
-    false = np.all(over > claim.rounding, axis=-1) | claim.contradicted
+    false = (over > claim.rounding).all(axis=-1) | claim.contradicted
     bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
-    relative = np.max(relative_gap(gap, claim.yardstick), axis=-1)
+    relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
     mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
     mass_yardstick = np.maximum(claim.mass, claim.mass_resolution)
     if claim.mass_lower_bound is not None:
@@ -118,7 +118,7 @@ def verdict(claim: Claim, asked: float) -> Verdict:
         mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
         mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
         light = mass_gap <= MASS_GAP
-    if np.any(false):
+    if false.any():
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
     kept, close = claim.excess <= CEILING_TOLERANCE, relative <= asked
     nothing = false | ~np.isfinite(relative)
@@ -149,10 +149,10 @@ def yardstick(statement: Statement) -> Real:
     does to a term.
     """
     rest = statement.at_rest
-    if np.all(rest > 0):
+    if (rest > 0).all():
         return rest
     reach = np.minimum(statement.limits.reach, natural_reach(statement)[..., None])
-    change = np.sum(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
+    change = np.add.reduce(np.abs(statement.norms.influence) * reach[..., None, :], axis=(-2, -1))
     return np.where(rest > 0, rest, change)
 
 
@@ -172,8 +172,8 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
     does = np.concatenate(
         [statement.membership @ (np.abs(norms.influence) * radius), np.abs(ceilings.norms.influence) * radius], axis=-2
     )
-    most = np.max(does, axis=-1, initial=0.0)
+    most = np.maximum.reduce(does, axis=-1, initial=0.0)
     rows = np.broadcast_to(yardstick, statement.floor.shape)
     size = np.concatenate([rows, ceilings.size], axis=-1)
-    least = np.min(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
+    least = np.minimum.reduce(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
     return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)
