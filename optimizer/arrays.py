@@ -1,5 +1,6 @@
 """Arrays and their exact sums. Leading axes are programs or machines; vectors across the shaft are complex, x + jy."""
 
+import math
 from collections.abc import Callable
 from dataclasses import is_dataclass
 from typing import Any, TypeVar
@@ -30,6 +31,22 @@ def _mapped(value: Any, function: Callable[[Any], Any]) -> Any:
     if isinstance(value, _ARRAYS):
         return function(value)
     return mapped(value, function) if is_dataclass(value) else value
+
+
+def spread(array: NDArray[Any], shape: tuple[int, ...]) -> NDArray[Any]:
+    """The same numbers along leading axes, of a shape that ends with their own; what is common to all is not copied."""
+    if array.size == math.prod(shape):
+        # a view as well, in a tenth of the time
+        return array.reshape(shape)
+    return np.broadcast_to(array, shape)
+
+
+def plain(array: NDArray[Any]) -> NDArray[Any]:
+    """The same numbers in the usual order in memory, free to be written to.
+
+    For any other order, and for what is read-only, a kernel would be compiled once more.
+    """
+    return np.array(array, order="C")
 
 
 def total(terms: Complex) -> Complex:

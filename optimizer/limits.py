@@ -11,7 +11,7 @@ from typing import Protocol
 
 import numpy as np
 
-from optimizer.arrays import Real, Reals
+from optimizer.arrays import Real, Reals, spread
 from optimizer.fixed import fixed_masses, fixed_webs
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
@@ -166,13 +166,13 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
     shape = (*leading, len(webs))
     left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.add.reduce(fixed_masses(machine), axis=-1)
     return Limits(
-        radius=np.broadcast_to(stacked([web.radius_m for web in webs]), shape),
-        max_mass=np.broadcast_to(largest_mass(machine), shape),
-        free=np.broadcast_to(free, shape),
-        centre=np.broadcast_to(centre, shape),
-        half_angle_cos=np.broadcast_to(edge.real, shape),
-        half_angle_sin=np.broadcast_to(edge.imag, shape),
-        max_total_mass=np.broadcast_to(left, leading),
+        radius=spread(stacked([web.radius_m for web in webs]), shape),
+        max_mass=spread(largest_mass(machine), shape),
+        free=spread(free, shape),
+        centre=spread(centre, shape),
+        half_angle_cos=spread(edge.real, shape),
+        half_angle_sin=spread(edge.imag, shape),
+        max_total_mass=spread(left, leading),
     )
 
 

@@ -155,7 +155,7 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted:
         **fitted.fields,
         "active_limits": touched,
         "shadow_prices": _prices(request, scene, best, fitted.all_of_them, touched),
-        "sensitivity": of_first_order(best.program.chosen(0), u, scene.omega_squared),
+        "sensitivity": of_first_order(best.program, best.unbalance, scene.omega_squared),
         "certificate": Certificate(
             **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
             implied_max_mass_kg=implied_max_mass(machine, best.program.limits.max_mass)[0],

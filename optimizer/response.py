@@ -10,7 +10,7 @@ from typing import Literal
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, mapped
+from optimizer.arrays import Complex, Real, spread
 
 
 @dataclass(frozen=True)
@@ -101,13 +101,12 @@ class Response:
         """The same of as many machines as the leading axes say; what is common to all is not copied."""
         if not leading:
             return self
-        baseline = mapped(self.baseline, lambda array: np.broadcast_to(array, leading))
-        influence = np.broadcast_to(np.asarray(self.influence), (*leading, self.influence.shape[-1]))
+        baseline = Phasors(spread(self.baseline.co, leading), spread(self.baseline.counter, leading))
+        influence = spread(np.asarray(self.influence), (*leading, self.influence.shape[-1]))
         against = self.counter_influence
         if against is not None:
-            against = np.broadcast_to(against, (*leading, against.shape[-1]))
-        found = replace(self, baseline=baseline, influence=influence)  # type: ignore[arg-type]  # real or complex
-        return found if against is None else replace(found, counter_influence=against)
+            against = spread(against, (*leading, against.shape[-1]))
+        return replace(self, baseline=baseline, influence=influence, counter_influence=against)
 
     def to(self, unbalance: Complex) -> Phasors:
         """Response with counterweights, baseline + influence @ unbalance.

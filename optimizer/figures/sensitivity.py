@@ -18,7 +18,7 @@ _CLOSE = 1e-10
 
 
 def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Sensitivity:
-    """Of one program (no leading axes) with counterweights (K,) kg m.
+    """Of one program (no leading axes, or axes of length 1) with counterweights (..., K) kg m.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Se
     """
     by_angle = largest_objective(statement, worst_by_angle(statement.norms, u, _DEGREE))
     by_mass = largest_objective(statement, worst_by_mass(statement.norms, u, _PERCENT))
-    return _rises(float(statement.objective(u)), float(by_angle), float(by_mass), omega_squared)
+    return _rises(statement.objective(u).item(), by_angle.item(), by_mass.item(), omega_squared)
 
 
 def over_turn(program: OverTurn, u: Complex, values: Values, omega_squared: float) -> Sensitivity:

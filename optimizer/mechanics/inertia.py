@@ -34,7 +34,7 @@ def rotating(layout: Layout) -> Wrench:
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
     force, couple = _summed(layout, rotating_forces(layout).co, layout.rotating.position)
-    nothing = np.zeros_like(force)
+    nothing = np.zeros(force.shape, complex)
     return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
 
 
@@ -42,7 +42,7 @@ def rotating_forces(layout: Layout) -> Phasors:
     """The same mass by mass (..., n)."""
     masses = layout.rotating
     co = masses.mass * masses.radius * masses.direction
-    return Phasors(co, np.zeros_like(co))
+    return Phasors(co, np.zeros(co.shape, complex))
 
 
 def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Real] = acceleration_harmonic) -> Wrench:
@@ -58,7 +58,7 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    force, couple = _summed(layout, np.stack([forces.co, forces.counter]), layout.reciprocating.position)
+    force, couple = _summed(layout, np.array([forces.co, forces.counter]), layout.reciprocating.position)
     return Wrench(Phasors(force[0], force[1]), Phasors(couple[0], couple[1]))
 
 
@@ -87,7 +87,7 @@ def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
     """
     force, couple = total(unbalance), total(web_arms(layout) * unbalance)
-    nothing = np.zeros_like(force)
+    nothing = np.zeros(force.shape, complex)
     return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
 
 

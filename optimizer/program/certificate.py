@@ -7,11 +7,10 @@ So any multipliers give a rigorous bound; better ones give a better bound.
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, mapped
+from optimizer.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
@@ -42,9 +41,9 @@ class Multipliers:
         factor = np.asarray(factor)[..., None]
         return Multipliers(self.term * factor, self.row * factor, self.ceiling * factor)
 
-    def chosen(self, programs: "int | np.ndarray") -> "Multipliers":
-        """Those of some of the programs of one leading axis."""
-        return mapped(self, lambda array: array[programs])
+    def chosen(self, programs: "int | np.ndarray | tuple[np.ndarray, ...]") -> "Multipliers":
+        """Those of some of the programs by their leading axes."""
+        return Multipliers(self.term[programs], self.row[programs], self.ceiling[programs])
 
     def put(self, n: "int | np.ndarray", one: "Multipliers") -> None:
         """Those of one or some of the programs of one leading axis, in place."""
@@ -52,7 +51,8 @@ class Multipliers:
 
     def price(self, statement: Statement) -> Real:
         """What a unit of the objective costs: the sum of the rows of a group, alike in all if admissible (...)."""
-        return np.add.reduce(self.row[..., statement.group == 0], axis=-1)
+        rows = self.row if statement.group[-1] == 0 else self.row[..., statement.group == 0]
+        return np.add.reduce(rows, axis=-1)
 
     def admissible(self, statement: Statement) -> "Multipliers":
         """The same multipliers with lam >= 0 of one sum in every group, |y| <= 1, and y real of a scalar.
@@ -82,9 +82,9 @@ def _alike(statement: Statement, row: Real) -> Real:
 def nothing_proven(statement: Statement) -> Multipliers:
     """Multipliers that are all 0, which prove that no mass is below 0."""
     return Multipliers(
-        np.zeros_like(statement.norms.constant),
-        np.zeros_like(statement.floor),
-        np.zeros_like(statement.ceilings.norms.constant),
+        np.zeros(statement.norms.constant.shape, complex),
+        np.zeros(statement.floor.shape),
+        np.zeros(statement.ceilings.norms.constant.shape, complex),
     )
 
 
@@ -117,14 +117,11 @@ def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Rea
 def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Real, Multipliers]:
     """The highest of the lower bounds (...) that several multipliers prove, and those that prove it: the first of equal
     ones. All are evaluated at once, as many programs are."""
-    together = Multipliers(*(np.stack(parts) for parts in zip(*(vars(each).values() for each in proofs), strict=True)))
+    together = Multipliers(*(np.array(parts) for parts in zip(*(vars(each).values() for each in proofs), strict=True)))
     bound = objective_lower_bound(statement, together)
-    best = np.argmax(np.where(np.isnan(bound), -np.inf, bound), axis=0)[None]
-
-    def taken(of_all: Any) -> Any:
-        return np.take_along_axis(of_all, best.reshape(best.shape + (1,) * (of_all.ndim - best.ndim)), axis=0)[0]
-
-    return taken(bound), mapped(together, taken)
+    best = np.where(np.isnan(bound), -np.inf, bound).argmax(axis=0)
+    taken = (best, *np.indices(best.shape))
+    return bound[taken], together.chosen(taken)
 
 
 def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Real) -> Real:

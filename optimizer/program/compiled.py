@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, mapped
+from optimizer.arrays import Complex, Real, mapped, plain
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.multipliers import resting_multipliers
@@ -109,12 +109,13 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     began = time.perf_counter()
     lower_bound, proof = best_proof(statement, (solved.proof, *resting_multipliers(statement)))
     certify_s = time.perf_counter() - began
-    rest, first, light = points_at(statement, np.stack([np.zeros_like(smallest), smallest, lightest])).each
+    rest, first, light = points_at(statement, np.array([np.zeros(smallest.shape), smallest, lightest])).each
     best = _better(rest, first)
     target = np.maximum(best.objective, lower_bound + TARGET * share - statement.rounding(best.unbalance))
-    counted, mass_proof = np.maximum(best.objective, lower_bound) + share, nothing_proven(statement)
-    chosen, mass_bound = best, np.zeros_like(share)
-    if least_mass:
+    counted, chosen = np.maximum(best.objective, lower_bound) + share, best
+    if not least_mass:
+        mass_proof, mass_bound = nothing_proven(statement), np.zeros(share.shape)
+    else:
         # what can be kept up to rounding is not traded for their tolerance
         kept = np.clip(light.excess, CEILING_ROUNDING, CEILING_TOLERANCE)
         nearer = _nearer(statement, light, best, target)
@@ -264,9 +265,8 @@ def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "
         mass=mass,
         budget=np.where(np.add.reduce(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
     )
-    # for any other order in memory, and for what is read-only, all would be compiled once more
-    return Programs(*(np.require(values, requirements=["C", "W"]) for values in programs))
+    return Programs(*(plain(values) for values in programs))
 
 
 def _parts(vectors: Complex) -> Real:
-    return np.stack([vectors.real, vectors.imag], axis=-1)
+    return plain(vectors).view(float).reshape(*vectors.shape, 2)

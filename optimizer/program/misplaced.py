@@ -8,7 +8,7 @@ one angle is left to search, and between finitely many of its values the project
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, plain
 from optimizer.program.statement import Norms, Statement
 
 
@@ -32,7 +32,6 @@ def mass_corners(vectors: Complex) -> Complex:
 def worst_by_angle(norms: Norms, u: Complex, angle: float) -> Real:
     """Largest sizes (..., J) of norms where every counterweight (..., K) is off by up to an angle [rad] below pi/2."""
     # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.compiling import plain
     from optimizer.program.kernel.outlines import worst_turned
 
     vectors = norms.influence * u[..., None, :]

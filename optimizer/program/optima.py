@@ -78,14 +78,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
     found = both_stages(statement, share, demand, least_mass) if suits_kernel(statement) else None
-    answer = _nothing(statement)
-    if found is not None:
-        method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
-        answer = replace(
-            answer,
-            **{field.name: getattr(found, field.name) for field in fields(Solutions)},
-            method=np.full(size.shape, method, dtype=object),
-        )
+    answer = _nothing(statement) if found is None else _compiled(statement, found)
     for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
         program, asked = statement.chosen(n), Asked(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
@@ -106,9 +99,26 @@ def _joined(parts: Sequence[Optima], order: np.ndarray) -> Optima:
     return whole
 
 
+def _compiled(statement: Statement, found: Solutions) -> Optima:
+    """What the compiled interior point has found."""
+    programs = found.objective.shape
+    method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
+    return Optima(
+        **{field.name: getattr(found, field.name) for field in fields(Solutions)},
+        unreachable=np.zeros(programs, bool),
+        method=np.full(programs, method, dtype=object),
+        conflict=_no_conflict(statement),
+    )
+
+
+def _no_conflict(statement: Statement) -> Multipliers:
+    shape = statement.ceilings.cap.shape
+    return Multipliers(np.zeros(shape, complex), np.zeros(shape), np.zeros((*shape[:-1], 0), complex))
+
+
 def _nothing(statement: Statement) -> Optima:
     """Nothing found, nothing proven."""
-    webs, ceilings = statement.limits.radius.shape, statement.ceilings.cap.shape
+    webs = statement.limits.radius.shape
     endless = np.full(webs[:-1], np.inf)
     return Optima(
         unbalance=np.zeros(webs, complex),
@@ -123,7 +133,7 @@ def _nothing(statement: Statement) -> Optima:
         certify_s=np.zeros(webs[:-1]),
         unreachable=np.zeros(webs[:-1], bool),
         method=np.full(webs[:-1], CONE_PROGRAM, dtype=object),
-        conflict=Multipliers(np.zeros(ceilings, complex), np.zeros(ceilings), np.zeros((*ceilings[:-1], 0), complex)),
+        conflict=_no_conflict(statement),
     )
 
 

@@ -36,7 +36,7 @@ def far_limits(statement: Statement) -> np.ndarray:
     none = np.isinf(limits.max_mass)
     # what one term calls for is no more than what all call for, and cheaper to tell
     far = none | _beyond(limits, single_reach(statement))
-    return none | _beyond(limits, natural_reach(statement)) if np.any(far) else far
+    return none | _beyond(limits, natural_reach(statement)) if far.any() else far
 
 
 def _beyond(limits: Limits, natural: Real) -> np.ndarray:
@@ -45,8 +45,8 @@ def _beyond(limits: Limits, natural: Real) -> np.ndarray:
 
 def within_reach(statement: Statement, solver: Solver) -> Statement:
     """Programs (...) with a finite, proven limit wherever there is none, or one far beyond any need."""
-    far = np.any(far_limits(statement), axis=-1)
-    if not np.any(far):
+    far = np.asarray(far_limits(statement).any(axis=-1))
+    if not far.any():
         return statement
     most = statement.limits.max_mass.copy()
     for place in np.ndindex(far.shape):

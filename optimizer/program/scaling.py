@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, plain
 from optimizer.program.certificate import Multipliers
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Norms, Statement
@@ -82,7 +82,6 @@ def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) 
     """
     # the compiler is loaded when it is first needed
     from optimizer.program.kernel.cancelling import least_changes
-    from optimizer.program.kernel.compiling import plain
 
     *leading, terms, webs = influence.shape
     shape = (math.prod(leading), terms, webs)

@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Complex, Real, Reals, mapped, total
+from optimizer.arrays import SMALLEST, Complex, Real, Reals, mapped, spread, total
 from optimizer.program.limits import Limits
 from optimizer.response import Response
 
@@ -96,6 +96,8 @@ class Ceilings:
 
     def excess(self, u: Complex) -> Real:
         """How far each response is above its ceiling, relative to its size; <= 0 if met."""
+        if not self.names:
+            return self.cap + np.zeros((*u.shape[:-1], 1))
         return (self.norms.sizes(u) - self.cap) / self.size
 
     def raised(self, share: float) -> "Ceilings":
@@ -286,14 +288,16 @@ def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response
     rows = [row for group in groups for row in group]
     peaks = [peak for row in rows for peak in row.peaks]
     terms = [peak.norms.constant.shape[-1] for peak in peaks]
-    owner = np.repeat(np.arange(len(rows)), [len(row.peaks) for row in rows])
+    owner = [number for number, row in enumerate(rows) for _ in row.peaks]
     norms = _join([peak.norms for peak in peaks])
     leading = norms.constant.shape[:-1]
-    floor = np.stack([np.broadcast_to(sum(peak.floor for peak in row.peaks), leading) for row in rows], axis=-1)
+    floor = np.empty((*leading, len(rows)))
+    for number, row in enumerate(rows):
+        floor[..., number] = sum(peak.floor for peak in row.peaks)
     return Statement(
         norms=norms,
-        row=np.repeat(owner, terms),
-        group=np.repeat(np.arange(len(groups)), [len(group) for group in groups]),
+        row=np.array([number for number, count in zip(owner, terms, strict=True) for _ in range(count)], dtype=int),
+        group=np.array([number for number, group in enumerate(groups) for _ in group], dtype=int),
         floor=floor,
         ceilings=limited(ceilings, norms, limits.radius.shape[-1]),
         limits=limits,
@@ -327,8 +331,8 @@ def _join(norms: Sequence[Norms]) -> Norms:
     leading = np.broadcast_shapes(
         *(part.constant.shape[:-1] for part in norms), *(part.influence.shape[:-2] for part in norms)
     )
-    constant = [np.broadcast_to(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
-    influence = [np.broadcast_to(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
+    constant = [spread(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
+    influence = [spread(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
     joined = np.concatenate(influence, axis=-2)
     # what is too small to divide by has no influence, as in `total`
     return Norms(np.concatenate(constant, axis=-1), np.where(np.abs(joined) > SMALLEST, joined, 0.0))

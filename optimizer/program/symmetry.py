@@ -8,7 +8,7 @@ the mass (docs/mathematics.md section 9).
 
 import numpy as np
 
-from optimizer.arrays import Complex
+from optimizer.arrays import Complex, plain
 from optimizer.program.statement import Statement
 
 
@@ -25,7 +25,6 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     if u.shape[-1] < 2 or not u.size or np.iscomplexobj(influence):
         return u
     # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.compiling import plain
     from optimizer.program.kernel.symmetries import Alike, means
 
     limits = statement.limits

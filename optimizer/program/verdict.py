@@ -122,9 +122,10 @@ def verdict(claim: Claim, asked: float) -> Verdict:
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
     kept, close = claim.excess <= CEILING_TOLERANCE, relative <= asked
     nothing = false | ~np.isfinite(relative)
-    why_not = [CONTRADICTED, NOT_KEPT, NOT_CLOSE, NOT_LIGHT]
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
-    reason = np.select([false, ~kept, ~close, ~light], why_not, why)
+    reason = np.where(light, why, NOT_LIGHT)
+    for broken, why_not in ((~close, NOT_CLOSE), (~kept, NOT_KEPT), (false, CONTRADICTED)):
+        reason = np.where(broken, why_not, reason)
     return Verdict(
         np.where(~false & kept & close & light, "optimal", "inaccurate"),
         reason,
@@ -173,7 +174,7 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
         [statement.membership @ (np.abs(norms.influence) * radius), np.abs(ceilings.norms.influence) * radius], axis=-2
     )
     most = np.maximum.reduce(does, axis=-1, initial=0.0)
-    rows = np.broadcast_to(yardstick, statement.floor.shape)
+    rows = yardstick if yardstick.shape == statement.floor.shape else np.broadcast_to(yardstick, statement.floor.shape)
     size = np.concatenate([rows, ceilings.size], axis=-1)
     least = np.minimum.reduce(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
     return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)
