@@ -16,7 +16,7 @@ from optimizer.plate_pieces import pieces, tangents
 from optimizer.program.compiled import both_stages, suits_kernel
 from optimizer.program.points import excess_at
 from optimizer.program.solution import CEILING_ROUNDING
-from optimizer.program.statement import Norms, Statement
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 
 #: unbalances that differ by less than this share are nearly the same, as in ``optimizer.program.settled``
@@ -125,16 +125,11 @@ def _others(
     if not rest:
         return fixed
 
-    def moved(norms: Norms) -> Norms:
-        return replace(norms, constant=norms.constant + np.sum(norms.influence * fixed[:, None, :], axis=-1))
-
     spent = sum(plate.mass(plate.opened(np.abs(fixed[:, k]))) for k, plate in plates.items())
     owner = np.repeat(rest, [nodes[k].size - 1 if k in plates else 1 for k in rest])
     left = pieces(
         replace(
-            many,
-            norms=moved(many.norms),
-            ceilings=replace(many.ceilings, norms=moved(many.ceilings.norms)),
+            many.about(fixed),
             limits=replace(many.limits, max_total_mass=many.limits.max_total_mass - spent),
         ),
         owner,

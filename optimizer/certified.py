@@ -34,6 +34,7 @@ class Certified:
     status: np.ndarray  # (N,)
     reason: np.ndarray  # (N,) a sentence
     proven: Statement  # (N,) the program that the proofs speak of: in other unknowns where webs are grouped
+    searched: bool = False  # whether a search chose them, so that of the mass nothing is proven
 
 
 def certified(

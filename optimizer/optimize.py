@@ -10,6 +10,7 @@ from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
 from optimizer.certified_discrete import certified_discrete, continuous
+from optimizer.certified_fitted import certified_fitted
 from optimizer.certified_groups import certified_groups
 from optimizer.certified_robust import certified_robust, nothing_off
 from optimizer.certified_shapes import certified_shapes
@@ -68,6 +69,8 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     asked, square = posed(request), np.array([scene.omega_squared])
     if request.machine.discrete:
         best = certified_discrete(asked, scene.responses, square, solver)
+    elif request.machine.semicontinuous:
+        best = certified_fitted(asked, scene.responses, square, solver)
     elif request.machine.web_groups:
         best = certified_groups(asked, scene.responses, square, solver)
     else:
@@ -145,7 +148,7 @@ def _nothing_off(
 
 def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted: Fitted) -> dict[str, object]:
     """Counterweights, what holds them up, and their certificate."""
-    request = continuous(request) if request.machine.discrete else request
+    request = continuous(request) if best.searched else request
     machine, goal, u = request.machine, request.objective, best.unbalance[0]
     mass, _ = beside(machine, best.mass_kg[0], best.angle_deg[0])
     touched = touched_limits(machine, goal, scene.responses, mass, u, scene.omega_squared)
@@ -172,7 +175,7 @@ def _prices(
     touched: tuple[MachineLimit, ...],
 ) -> tuple[ShadowPrice, ...]:
     gap = float(best.verdict.gap[0, 0])
-    if np.isnan(gap) or request.machine.discrete or request.machine.web_groups:
+    if np.isnan(gap) or best.searched or request.machine.web_groups:
         # what limits cost those of any mass says nothing of what can be chosen, nor does one web of a group give way
         return ()
     prices = shadow_prices(best.program, best.unbalance, best.found.multipliers)

@@ -60,7 +60,8 @@ def stock(machine: Machine) -> Stock:
             if not angles.size:
                 problems.append(FieldProblem((*path, "sector"), "no step of the angle falls into the sector"))
                 continue
-        masses = np.array([mass for mass in _masses(web, catalogue, most) if 0.0 < mass <= most])
+        least = web.min_fitted_mass_kg or 0.0
+        masses = np.array([mass for mass in _masses(web, catalogue, most) if 0.0 < mass <= most and mass >= least])
         each, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
         held.append((np.append(0.0, each), np.append(0.0, at)))
     refuse(problems)

@@ -68,7 +68,9 @@ def stated(machine: "Rotor") -> Iterator[Path]:
 def no_catalogue(machine: "Rotor", path: Path, what: str) -> Iterator[Rule]:
     """Refuses discrete choices and groups where counterweights of any mass and angle are chosen one by one."""
     grouped = (("web_groups",),) if machine.web_groups else ()
-    for field in (*stated(machine), *grouped):
+    heavy = (k for k, web in enumerate(machine.webs) if web.min_fitted_mass_kg is not None)
+    least = (("webs", k, "min_fitted_mass_kg") for k in heavy)
+    for field in (*stated(machine), *grouped, *least):
         yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {what}")
 
 

@@ -134,6 +134,11 @@ class Rotor(Ruled):
         """Whether counterweights are chosen from what there is."""
         return any(True for _ in stated(self))
 
+    @property
+    def semicontinuous(self) -> bool:
+        """Whether counterweights of any mass are at least so heavy, or not there."""
+        return not self.discrete and any(web.min_fitted_mass_kg is not None for web in self.webs)
+
     def rules(self) -> Iterator[Rule]:
         yield from _unique_names(("webs",), [web.name for web in self.webs])
         yield from _unique_names(("unbalances",), [each.name for each in self.unbalances])
@@ -146,6 +151,12 @@ class Rotor(Ruled):
         if self.max_total_mass_kg is not None:
             message = "the weights that are fixed are heavier"
             yield Rule(fixed > self.max_total_mass_kg, ("max_total_mass_kg",), message)
+
+
+#: fields of webs that those of balance shafts do not have
+_OF_THE_CRANKSHAFT = (
+    "catalogue_masses_kg", "hole_angles_deg", "fixed", "max_centrifugal_force_N", "min_fitted_mass_kg",
+)  # fmt: skip
 
 
 class ReciprocatingMachine(Rotor):
@@ -232,7 +243,7 @@ class ReciprocatingMachine(Rotor):
                 message = "this name is taken already; names of webs must be unique on all shafts"
                 yield Rule(web.name in taken, (*path, "name"), message)
                 yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
-                for name in ("catalogue_masses_kg", "hole_angles_deg", "fixed", "max_centrifugal_force_N"):
+                for name in _OF_THE_CRANKSHAFT:
                     yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
                 taken.add(web.name)
         message = "with balance shafts the total mass has no limit: limit the masses of the webs"

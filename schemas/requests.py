@@ -106,6 +106,7 @@ class OptimizeRequest(Scene, Ruled):
         yield from self._shaft_rules()
         yield from self._catalogue_rules()
         yield from self._group_rules()
+        yield from self._fitted_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             scatters = self.tolerances.reciprocating_mass_relative > 0
             message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
@@ -158,6 +159,23 @@ class OptimizeRequest(Scene, Ruled):
         for broken, path, message in machine.no_envelopes("what is chosen from a catalogue has a radius of its own"):
             yield Rule(broken, ("machine", *path), message)
 
+    def _fitted_rules(self) -> Iterator[Rule]:
+        """What does not go with a least mass of what is fitted."""
+        machine = self.machine
+        if not machine.semicontinuous:
+            return
+        yield from self.worst_case_rules("does not go with min_fitted_mass_kg")
+        for name in self.objective.over_the_turn:
+            yield Rule(True, ("objective", name), "does not go with min_fitted_mass_kg: of the first order only")
+        yield Rule(bool(machine.web_groups), ("machine", "web_groups"), "does not go with min_fitted_mass_kg")
+        yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
+        for broken, path, message in machine.no_envelopes("not beside webs with min_fitted_mass_kg"):
+            yield Rule(broken, ("machine", *path), message)
+        for k, web in enumerate(machine.webs):
+            message = "with min_fitted_mass_kg the masses of all webs have a limit"
+            endless = web.max_mass_kg is None and web.fixed is None and web.envelope is None
+            yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
+
     @model_validator(mode="before")
     @classmethod
     def _discrete_gap(cls, given: Any) -> Any:
@@ -190,12 +208,12 @@ class OptimizeRequest(Scene, Ruled):
 def _discrete(machine: Any) -> bool:
     """Whether a machine, checked or not, asks for discrete choices."""
     if isinstance(machine, Model):
-        return bool(getattr(machine, "discrete", False))
+        return bool(getattr(machine, "discrete", False) or getattr(machine, "semicontinuous", False))
     if not isinstance(machine, dict):
         return False
     webs = machine.get("webs")
     places = [machine, *(web for web in (webs if isinstance(webs, list | tuple) else ()) if isinstance(web, dict))]
-    asks = ("catalogue", "max_counterweights", "catalogue_masses_kg", "hole_angles_deg")
+    asks = ("catalogue", "max_counterweights", "catalogue_masses_kg", "hole_angles_deg", "min_fitted_mass_kg")
     return any(place.get(name) is not None for place in places for name in asks)
 
 

@@ -15,6 +15,10 @@ from schemas.units import Unit, between, positive
 #: largest inner radius, as a share of the outer one
 _INNERMOST = 0.999
 MAX_GROUPED = 500
+#: fields that say what may be chosen for a web
+_CHOSEN = (
+    "envelope", "sector", "catalogue_masses_kg", "hole_angles_deg", "max_centrifugal_force_N", "min_fitted_mass_kg",
+)  # fmt: skip
 
 
 class Sector(Model):
@@ -110,6 +114,11 @@ class Web(Ruled):
         " chosen for this web",
         examples=[None],
     )
+    min_fitted_mass_kg: Annotated[Annotated[float, positive(1e15)] | None, Unit("kg")] = Field(
+        None,
+        description="a counterweight is at least so heavy, or there is none; null sets no least",
+        examples=[None],
+    )
     max_centrifugal_force_N: Annotated[Annotated[float, positive(1e30)] | None, Unit("N")] = Field(
         None,
         description="largest centrifugal force of the counterweight at overspeed_rpm, which its bolts bear; null is no"
@@ -149,12 +158,17 @@ class Web(Ruled):
         return self.envelope.outer_radius_m if self.envelope else self.radius_m or 0.0
 
     def rules(self) -> Iterator[Rule]:
+        if self.min_fitted_mass_kg is not None and self.fixed is None:
+            path, most = ("min_fitted_mass_kg",), self.max_mass_kg
+            yield Rule(self.envelope is not None, path, "not with an envelope")
+            if most is not None:
+                yield Rule(self.min_fitted_mass_kg > most, path, "more than max_mass_kg of this web")
         if self.fixed is not None:
             yield Rule(self.radius_m is None, ("fixed", "radius_m"), REQUIRED)
             if self.max_mass_kg is not None:
                 heavier = self.fixed.mass_kg > self.max_mass_kg
                 yield Rule(heavier, ("fixed", "mass_kg"), "more than max_mass_kg of this web")
-            for name in ("envelope", "sector", "catalogue_masses_kg", "hole_angles_deg", "max_centrifugal_force_N"):
+            for name in _CHOSEN:
                 message = "nothing is chosen where a weight is fixed: leave it out"
                 yield Rule(getattr(self, name) is not None, (name,), message)
         elif self.envelope is None:

@@ -199,12 +199,8 @@ def optimum(request: Place, answer: Place) -> Claims:
     yield from first_order("after", answer / "residual" / "after", after)
     value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
-    chosen = (asked / "catalogue") or (asked / "max_counterweights") or any(map(stocked, asked / "webs"))
-    if chosen:
-        # what multipliers prove of any mass and angle; the tree or the comparison behind the rest is not repeated
-        yield from catalogue(asked, answer / "counterweights")
-        yield "lower_bound", lowest, None, ONE
-        lowest = proof / "continuous_lower_bound"
+    chosen = yield from searched(asked, answer / "counterweights", proof)
+    lowest = proof / "continuous_lower_bound" if chosen else lowest
     yield near("objective", objective, value)
     yield near("before", proof / "objective_without_counterweights", rest)
     # nothing that exceeds no ceiling by more is better
@@ -225,6 +221,26 @@ def optimum(request: Place, answer: Place) -> Claims:
     if status == "optimal":
         room = (request / "accuracy" / "relative_gap").number(1e-3 if chosen else 1e-6, least=0) * size + noise - gap
         yield "status", lowest, room if proof / "yardstick" else None, size
+
+
+def searched(asked: Place, place: Place, proof: Place) -> Claims:
+    """Returns whether counterweights are chosen by a search; the tree or the comparison behind it is not repeated."""
+    yield from heavy_enough(asked, place)
+    stock = (asked / "catalogue") or (asked / "max_counterweights") or any(map(stocked, asked / "webs"))
+    if stock:
+        yield from catalogue(asked, place)
+    chosen = bool(stock or proof / "continuous_lower_bound")
+    if chosen:
+        yield "lower_bound", proof / "lower_bound", None, ONE
+    return chosen
+
+
+def heavy_enough(asked: Place, place: Place) -> Claims:
+    """Masses that are fitted are no smaller than the least that is."""
+    for web, one in zip(asked / "webs", place):
+        least, mass = web / "min_fitted_mass_kg", (one / "mass_kg").number(least=0)
+        if least and mass.high > 0:
+            yield "min_fitted_mass", one / "mass_kg", mass - least.number() * real(1 - MASS), mass
 
 
 def stocked(web: Place) -> bool:

@@ -7,7 +7,7 @@ import numpy as np
 from optimizer.arrays import Complex
 from optimizer.discrete.options import Options
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Norms, Statement
+from optimizer.program.statement import Statement
 
 #: share of its size that a relaxed slot without room is given, which the kernel needs
 _SPECK = 1e-9
@@ -56,14 +56,4 @@ def relaxed(statement: Statement, options: Options, left: np.ndarray) -> tuple[C
         max_total_mass=np.maximum(statement.limits.max_total_mass - held, _SPECK * (held + 1e-300)),
     )
 
-    def many(array: np.ndarray) -> np.ndarray:
-        return np.broadcast_to(array, (base.shape[0], *array.shape))
-
-    def moved(norms: Norms) -> Norms:
-        return replace(norms, constant=norms.constant + base @ norms.influence.T, influence=many(norms.influence))
-
-    ceilings = statement.ceilings
-    ceilings = replace(ceilings, norms=moved(ceilings.norms), cap=many(ceilings.cap), size=many(ceilings.size))
-    return base, replace(
-        statement, norms=moved(statement.norms), floor=many(statement.floor), ceilings=ceilings, limits=limits
-    )
+    return base, replace(statement.about(base), limits=limits)

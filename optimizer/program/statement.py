@@ -211,6 +211,21 @@ class Statement:
         rows = np.arange(size.shape[-1])
         return Statement(norms, rows, np.zeros_like(rows), -self.ceilings.cap / size, none, self.limits, names)
 
+    def about(self, points: Complex) -> "Statement":
+        """The programs in what is added to points (N, K) kg m, under the same limits; of one program N of them."""
+        nodes = points.shape[:-1]
+
+        def spread(array: np.ndarray, last: int) -> np.ndarray:
+            return np.broadcast_to(array, (*nodes, *array.shape[array.ndim - last :]))
+
+        def moved(norms: Norms) -> Norms:
+            constant = norms.constant + np.sum(norms.influence * points[..., None, :], axis=-1)
+            return replace(norms, constant=constant, influence=spread(norms.influence, 2))
+
+        each = self.ceilings
+        each = replace(each, norms=moved(each.norms), cap=spread(each.cap, 1), size=spread(each.size, 1))
+        return replace(self, norms=moved(self.norms), floor=spread(self.floor, 1), ceilings=each)
+
     def alone(self) -> "Statement":
         """One program as the only one of a leading axis (1,)."""
         return self._mapped(lambda array: array[None])

@@ -1,0 +1,93 @@
+"""The way in: the best counterweights that are heavy enough or not there, and what is proven of them."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.discrete.search import TREE
+from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.semicontinuous.inside import Incumbent, lightened, sharing
+from optimizer.semicontinuous.places import Places, root
+from optimizer.semicontinuous.tree import Tree, branch
+
+#: objectives nearer than this share of the yardstick are equal
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Found:
+    """The best counterweights that were found."""
+
+    unbalance: Complex  # (K,) kg m; where none that keeps the ceilings was found, those closest to them
+    kept: bool  # whether they keep the ceilings
+    lower_bound: float  # of all that are within the limits; inf where it is proven that none are
+    nodes: int
+    ended: str | None = None  # "time" or "size" where that ended the search before the asked gap
+    method: str = TREE
+    proven: bool = False  # equals are not told apart
+
+
+def search(
+    statement: Statement,
+    least: Real,
+    continuous: Complex,
+    at_least: float,
+    gap: float,
+    yardstick: float,
+    share: float,
+    time_limit_s: float,
+) -> Found:
+    """The counterweights with the smallest objective, and of those with the same webs the lightest.
+
+    Parameters
+    ----------
+    statement : one program (no leading axes), one that the kernel takes, with finite limits.
+    least : (K,) kg m, the least unbalance that is fitted on every web; 0 where there is none.
+    continuous : (K,) kg m, its optimum whatever the least.
+    at_least : lower bound of that optimum.
+    gap : that is asked, in units of the objective.
+    share : by which the objective of the lightest may be above that of the best, in units of the objective.
+    """
+    end = time.monotonic() + time_limit_s
+
+    def spent() -> bool:
+        return time.monotonic() >= end
+
+    places = root(least, statement.limits)
+    incumbent = Incumbent(statement, places, _EQUAL * yardstick)
+    sharing(incumbent, continuous)
+    if incumbent.unbalance is None:
+        within = _within(statement, places, continuous, spent)
+        if not within.kept:
+            return within
+        incumbent.offer(within.unbalance[None])
+    tree = branch(incumbent, at_least, gap, lambda bound: False, spent)
+    bound = min(max(at_least, tree.lower_bound), incumbent.least)
+    assert incumbent.unbalance is not None  # that keeps the ceilings was offered
+    lightest = lightened(incumbent, incumbent.unbalance, min(share, max(bound + gap - incumbent.least, 0.0)))
+    closed = incumbent.least - bound <= gap
+    return Found(lightest, True, bound, tree.nodes, _ended(tree, closed))
+
+
+def _ended(tree: Tree, closed: bool) -> str | None:
+    return None if closed else "size" if tree.full else "time"
+
+
+def _within(statement: Statement, places: Places, continuous: Complex, spent: Callable[[], bool]) -> Found:
+    """The first counterweights that keep the ceilings, or the proof that there are none."""
+    incumbent = Incumbent(statement.excess(), places, 0.0)
+
+    def kept() -> bool:
+        return incumbent.least <= CEILING_TOLERANCE
+
+    sharing(incumbent, continuous)
+    tree = Tree(-np.inf, 0, False)
+    if not kept():
+        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, spent)
+    u = np.zeros(places.least.shape, complex) if incumbent.unbalance is None else incumbent.unbalance
+    none = min(tree.lower_bound, incumbent.least) > CEILING_TOLERANCE
+    ended = None if kept() or none else _ended(tree, False)
+    return Found(u, kept(), np.inf if none else -np.inf, tree.nodes, ended)
