@@ -20,6 +20,8 @@ from optimizer.curve import TurnResponse, peaks
 _WITHIN = np.array([-0.75, -0.25, 0.25, 0.75])
 #: share of what is added up at which it has cancelled
 _DUST = 1e-13
+#: by this share of them constants differ that are not one
+_ALIKE = 1e-12
 #: cuts of a quantity that are kept from one round to the next
 _MOST_CUTS = 16
 
@@ -52,6 +54,11 @@ class Cut(NamedTuple):
         """What it comes to with an unbalance (K,)."""
         vector = self.constant + np.sum(self.influence * u)
         return self.floor + float(abs(vector.real if self.scalar else vector)) + scatter.of(self.influence, u)
+
+    def alike(self, other: "Cut") -> bool:
+        """Whether both are of one angle and, beside a jump, of one side of it: they differ by rounding."""
+        apart = abs(self.constant - other.constant) > _ALIKE * max(abs(self.constant), abs(other.constant))
+        return self.angle_deg is not None and self.angle_deg == other.angle_deg and not apart
 
 
 class Reached(NamedTuple):
@@ -192,7 +199,8 @@ class Pool:
         new = False
         for cuts, each, least in zip(self.cuts, found, matters, strict=True):
             known = max(cut.at(u, self.scatter) for cut in cuts)
-            if each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps):
+            above = each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps)
+            if above and not any(each.cut.alike(cut) for cut in cuts):
                 cuts.append(each.cut)
                 new = True
         return new

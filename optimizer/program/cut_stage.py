@@ -15,6 +15,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.cut import Pool
+from optimizer.program.cut_attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cut_proof import Proof, proofs, resting_proof, times, units
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.reference.assembled import NoPoint, Target, solved
@@ -25,8 +26,6 @@ from optimizer.program.statement import CEILING_TOLERANCE, Statement
 
 #: rounds of a stage before it ends with what is proven
 _MOST_ROUNDS = 60
-#: tolerance of the solver and multiple of the margins, and what is tried where that leaves more open than asked
-_ATTEMPTS = ((1e-10, 1.0), (1e-10, 20.0), (1e-12, 1.0), (1e-8, 50.0))
 #: limits beyond this multiple of the natural reach cannot bind
 _REACH = 10.0
 #: for what has begun when time is up
@@ -35,6 +34,8 @@ _LAST_S = 1e-2
 _COARSE = 1e-4
 #: share of a goal below which samples of the turn tell no more
 _SAMPLED = 1e-4
+#: share of a gap from which on it is the solver that leaves it open
+_LOST = 0.5
 #: share of the gap asked for that brackets may leave open
 _OPEN = 0.1
 #: by this share of their size ceilings are lowered, so that the answer keeps them; raised on the edge of what can be
@@ -94,6 +95,8 @@ class Search:
         self.program, self.pool, self.kept, self.inside = program, pool, kept, inside
         self.of_mass = kept.most.size == len(program.goals)
         self.raised = raised
+        # nothing has to be kept, nor is it one that is measured by 1: an excess over ceilings, the trade of a front
+        self.free = not (kept.most.size or program.ceilings or program.limited or program.goals[-1].unit)
         self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
         self.unit = units(program)
         statement = times(program.statement(program.first), 1.0 / self.unit[program.goal_of])
@@ -119,11 +122,12 @@ class Search:
         told : whether a value and its bound are all that has to be known.
         """
         best, proof = self.inside, None if self.of_mass else self._resting()
-        attempts, gap, rounds, coarse, timed_out = list(_ATTEMPTS), np.inf, 0, True, False
+        attempts, gap = list(FREELY if self.free else WITHIN), np.inf
+        rounds, coarse, timed_out = 0, True, False
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
             statement = self.program.statement(self.pool.cuts)
-            found = self._solved(statement, *attempts[0])
+            found = self._solved(statement, attempts[0])
             if found is None:
                 attempts, coarse = attempts[1:], False
                 continue
@@ -141,15 +145,29 @@ class Search:
             best = min(best, self._kept(point), key=self.figure)
             bound = -np.inf if proof is None else proof.bound
             gap = self.figure(best) - bound
-            if gap <= enough * (best.mass if self.of_mass else 1.0) or told(self.figure(best), bound):
+            if gap <= self._wanted(enough, best) or told(self.figure(best), bound):
                 break
             if not self._learnt(statement, u, point.values):
                 proof = self._closed(proof)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
+            elif self.free and self._said(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap:
+                # not cuts are missing but digits of the multipliers
+                attempts = [*attempts[1:], attempts[0]]
         else:
             timed_out = self._late()
         return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
+
+    def _wanted(self, enough: float, best: Point) -> float:
+        """Gap that ends the search, in units of what is small.
+
+        Of a mass no more is to be had than what is paid for the room between what the solver keeps and what the bound
+        counts with: more rounds do not narrow it.
+        """
+        if not self.of_mass:
+            return enough
+        room = self.kept.counted - self.kept.most + self.margin
+        return enough * best.mass + float(np.sum(self.price * np.maximum(room, 0.0)))
 
     def _late(self) -> bool:
         return time.thread_time() >= self.until
@@ -175,9 +193,12 @@ class Search:
 
     def _apart(self, statement: Statement, u: Complex, values: Values) -> bool:
         """Whether a point comes to more than its statement says by more than samples leave open."""
-        said = self.program.of_goals(statement.largest(statement.rows(statement.norms.sizes(u))))
-        over = float(np.max((values.goals - said) / self.program.units))
+        over = float(np.max((values.goals - self._said(statement, u)) / self.program.units))
         return over > _SAMPLED or values.excess > _SAMPLED
+
+    def _said(self, statement: Statement, u: Complex) -> Real:
+        """(goals,) what a point comes to by its statement."""
+        return self.program.of_goals(statement.largest(statement.rows(statement.norms.sizes(u))))
 
     def figure(self, point: Point) -> float:
         """What is minimised."""
@@ -194,22 +215,17 @@ class Search:
             share = min(share, _LOWERED)
         return min(_OPEN * share, _COARSE)
 
-    def _solved(self, statement: Statement, tolerance: float, margins: float) -> tuple[Complex, list[Proof]] | None:
-        """The point of finitely many cuts, and what its multipliers prove.
-
-        Parameters
-        ----------
-        margins : multiple of what is kept back so that the point keeps what it has to.
-        """
+    def _solved(self, statement: Statement, attempt: Attempt) -> tuple[Complex, list[Proof]] | None:
+        """The point of finitely many cuts, and what its multipliers prove."""
         program, goal_of, case_of = self.program, self.program.goal_of, self.program.case_of
         posed = times(statement, 1.0 / self.unit[goal_of])
         mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
-        lowered = -_RAISED if self.raised else margins * _LOWERED
+        lowered = -_RAISED if self.raised else attempt.margins * _LOWERED
         largest = float(np.max(np.abs(posed.norms.constant)))
         stage: CostStage = "mass" if self.of_mass else "objective"
         data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
         highest = posed.largest(posed.floor)
-        aimed = self.aimed = self.kept.most - margins * self.margin - self.missed
+        aimed = self.aimed = self.kept.most - attempt.margins * self.margin - self.missed
 
         def sums(n: int, most: float) -> list[Target]:
             """The sums of a goal, none above a level."""
@@ -220,9 +236,10 @@ class Search:
         of_target = program.goal_of_case[program.goal_of_case < aimed.size]
         last = len(program.goals) - 1
         left = max(self.until - time.thread_time(), _LAST_S)
-        posed_as = data, tolerance, left, goal_of == last, targets, sums(last, 0.0)
-        found = solved(*posed_as, self.about)
-        if isinstance(found, NoPoint) and self.about is not None:
+        posed_as = data, attempt.tolerance, left, goal_of == last, targets, sums(last, 0.0)
+        about = self.about if attempt.boosted else None
+        found = solved(*posed_as, about, attempt.regularization)
+        if isinstance(found, NoPoint) and about is not None:
             # what was boosted about another point may be worse than what was not
             found = solved(*posed_as)
         if isinstance(found, NoPoint):

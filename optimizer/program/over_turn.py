@@ -304,6 +304,7 @@ class _Terms:
         self.floor: list[float] = []
         self.group: list[int] = []
         self.rows: list[str] = []
+        self.known: set[str] = set()
         self.scalar: list[bool] = []
 
     def add(self, group: int, row: Row) -> None:
@@ -326,12 +327,16 @@ class _Terms:
         # of a root mean square the cuts have no angle
         called = f"{name} {len(self.rows)}" if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
         called = called if quantity.scenario is None else f"{called} in {quantity.scenario}"
+        if called in self.known:
+            # beside a jump both limits are of one angle
+            called = f"{called}, {len(self.rows)}"
         self._end(group, called, weighed.offset + weighed.weight * cut.floor)
 
     def _end(self, group: int, name: str, floor: float) -> None:
         self.floor.append(floor)
         self.group.append(group)
         self.rows.append(name)
+        self.known.add(name)
 
 
 def _sum(row: Row, u: Complex, scatter: Scatter) -> float:

@@ -19,6 +19,8 @@ from optimizer.arrays import Complex, Real
 from optimizer.program.reference.boost import boosted
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution
 
+#: of the solver, if nothing else is asked
+REGULARIZATION = 1e-8
 #: rows of a second-order cone in the plane: size, real part, imaginary part
 _PLANE = 3
 
@@ -112,7 +114,12 @@ class Assembly:
         return np.concatenate(self._constants)
 
     def solve(
-        self, cost: Real, tolerance: float, time_limit_s: float, about: Real | None = None
+        self,
+        cost: Real,
+        tolerance: float,
+        time_limit_s: float,
+        about: Real | None = None,
+        regularization: float = REGULARIZATION,
     ) -> tuple[Real, Real] | NoPoint:
         """Solve by clarabel: variables and the multipliers of all rows.
 
@@ -121,12 +128,14 @@ class Assembly:
         tolerance : of the gap, absolute and relative, and of feasibility, in scaled units.
         time_limit_s : after which the solver gives up.
         about : (columns,) variables near an optimum, by which the cones are boosted.
+        regularization : that the solver adds to what it factors; with less it sees more digits, or none.
         """
         import clarabel
 
         settings = clarabel.DefaultSettings()
         settings.verbose = False
         settings.time_limit = time_limit_s
+        settings.static_regularization_constant = regularization
         settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
         matrix, constant = self.matrix(), self.constant()
         turned = None if about is None else boosted(constant + matrix @ about, self._first_rows())
@@ -211,6 +220,7 @@ def solved(
     targets: Sequence[Target] = (),
     sums: Sequence[Target] = (),
     about: Real | None = None,
+    regularization: float = REGULARIZATION,
 ) -> Assembled | NoPoint:
     """Solve a scaled program of any groups, with its multipliers in the form of :class:`ConeProgram`.
 
@@ -224,6 +234,7 @@ def solved(
     sums : sums of groups, the largest of which is minimised where there are several: the most that each may come to
         is above its own by the same.
     about : variables near an optimum, of a program that may have other rows of one term.
+    regularization : of the solver.
     """
     shape = data.shape
     webs, groups = shape.webs, shape.groups[-1] + 1
@@ -276,7 +287,7 @@ def solved(
         cost[levels:most_of_sums], cost[most_of_sums] = 0.0, 1.0
         most = np.array([each.most for each in sums])
         program.nonnegative(most, dense(levels, -_membership(sums)), dense(most_of_sums, np.ones((len(sums), 1))))
-    found = program.solve(cost, tolerance, time_limit_s, about)
+    found = program.solve(cost, tolerance, time_limit_s, about, regularization)
     if isinstance(found, NoPoint):
         return found
     v, dual = found
