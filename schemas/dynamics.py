@@ -92,6 +92,9 @@ class RowGas(RowSeries):
     chambers: tuple[Chamber, ...] = Field(
         description="head and crank side of every cylinder", examples=[[{"side": "head"}]]
     )
+    displacement_m: tuple[Metres, ...] = Field(
+        description="travel from the outer dead centre, over which an indicator draws the pressures", examples=[[0.0]]
+    )
     force_N: tuple[Newtons, ...] = Field(
         description="gas force on the row's pistons, all sides", examples=[[-238008.0]]
     )

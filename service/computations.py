@@ -281,5 +281,8 @@ COMPUTATIONS: dict[str, Computation] = {
         _picture("force", "The hodograph of the first-order force, before and after"),
         _picture("moment", "The hodograph of the first-order moment, before and after"),
         _picture("bearings", "The loads of the main bearings as the shaft sees them, with their smallest circles"),
+        _picture("indicator", "Indicator diagrams: pressure in the cylinders over the travel of the pistons"),
+        _picture("stages", "The scheme of the eight balancing stages"),
+        _picture("orders", "The hodographs of force and moment of every order"),
     )
 }

@@ -60,7 +60,7 @@ def _indicated_power(scene: Prepared) -> Real:
 
 def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
     """Gas of every row."""
-    cycle = scene.results["gas"]
+    cycle, motion = scene.results["gas"], scene.results["kinematics"]
     total, force = cycle.forces.total, cycle.forces.force
 
     assert isinstance(scene.machine, ReciprocatingMachine)  # of the kinematics
@@ -91,6 +91,7 @@ def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
             RowGas(
                 **labels,
                 chambers=tuple(chamber(k, side, names[k]) for side in range(2 * len(names[k]))),
+                displacement_m=_series(motion.displacement[k]),
                 force_N=_series(total[k]),
                 indicated_power_W=float(cycle.power[k]),
             )
@@ -293,7 +294,7 @@ OVER_THE_TURN = (
     Output(
         "gas",
         "pressures and gas forces of every row, indicated power",
-        ("gas", "indicated_work"),
+        ("kinematics", "gas", "indicated_work"),
         gas,
         Columns(_gas_columns),
     ),

@@ -211,8 +211,10 @@ def _thinned(points: list[Point]) -> list[Point]:
         return points
     kept = []
     for index in range(_BINS):
-        bin_ = points[index * len(points) // _BINS : (index + 1) * len(points) // _BINS]
-        kept += sorted({min(bin_, key=lambda point: point[1]), max(bin_, key=lambda point: point[1])})
+        bin_ = range(index * len(points) // _BINS, (index + 1) * len(points) // _BINS)
+        # in the order of the line, which may come back
+        ends = {choose(bin_, key=lambda k: points[k][1]) for choose in (min, max)}
+        kept += [points[k] for k in sorted(ends)]
     return [points[0], *kept, points[-1]]
 
 

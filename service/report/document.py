@@ -88,7 +88,7 @@ def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[F
     yield verdict.result(request, answer)
     yield inputs.inputs(request, answer.reference_plane_m)
     yield balance.layout(request, answer)
-    yield balance.stages(answer.stages, missing)
+    yield balance.stages(request.machine, answer.stages, missing)
     yield balance.counterweights(request, answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)

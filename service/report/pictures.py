@@ -13,9 +13,12 @@ from schemas.requests import OptimizeRequest
 from service.drawings.svg import Drawing, beside
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci
+from service.report.chapters.orders import order_hodographs
 from service.report.first_order import hodographs
 from service.report.front import front as drawn_front
+from service.report.indicator import indicators
 from service.report.side import side as drawn_side
+from service.report.stage_scheme import stage_scheme
 
 #: what a picture without a page around it is written in
 _FONT = "sans-serif"
@@ -64,11 +67,31 @@ def _bearings(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     return beside(words, loci(request.machine, found))
 
 
+def _indicator(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    drawn = [] if answer.gas is None else list(indicators(request.machine, answer.gas))
+    return beside("indicator diagrams", drawn)
+
+
+def _stages(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    return stage_scheme(request.machine, answer.stages or ())
+
+
+def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    figures = [] if answer.orders is None else order_hodographs(answer.orders)
+    drawn = [each for one in figures for each in one.drawings]
+    if not drawn:
+        raise OutOfRange([FieldProblem(("machine",), "no order has a force or a moment to draw")])
+    return beside("hodographs of force and moment, order by order", drawn)
+
+
 front = Picture(("residual",), _front)
 side = Picture(("residual",), _side)
 force = Picture(("residual",), partial(_hodograph, 0))
 moment = Picture(("residual",), partial(_hodograph, 1))
 bearings = Picture(("main_bearings",), _bearings)
+indicator = Picture(("gas",), _indicator)
+stages = Picture(("stages",), _stages)
+orders = Picture(("orders",), _orders)
 
 
 def svg(drawing: Drawing) -> bytes:

@@ -6,10 +6,20 @@ import pytest
 
 from tests.browser.portal import ALL_PANELS, Portal, ask, cells
 
-ALWAYS = ("counterweights", "hodographs", "over-angle", "orders", "pareto", "accuracy", "sweep")
+ALWAYS = (
+    "counterweights",
+    "hodographs",
+    "over-angle",
+    "orders",
+    "pareto",
+    "accuracy",
+    "sweep",
+    "picture-orders",
+    "picture-stages",
+)
 DRIVEN = ("torque", "rod-loads", "flywheel", "main-bearings")
 MACHINES = {
-    "2d12": (*ALWAYS, "cranks", *DRIVEN),
+    "2d12": (*ALWAYS, "cranks", "picture-indicator", *DRIVEN),
     # by inertia alone
     "v8-cross-plane": (*ALWAYS, "cranks", "torque", "rod-loads"),
     "scroll-three-pins": (*ALWAYS, "pin-loads"),

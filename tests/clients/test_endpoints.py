@@ -47,6 +47,8 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
         (lambda: next(service.rows(job)),),
         (lambda: next(service.events(job)),),
     ]
+    pictures = [path.rpartition("/")[2] for _, path in described if path.startswith("/v1/pictures/")]
+    calls += [(service.picture, name, {}) for name in pictures]
     for call, *given in calls:
         with pytest.raises(_Sent):
             call(*given)

@@ -134,7 +134,7 @@ def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
     ("output", "title", "figures"),
     [
         ("kinematics", "Motion", 3),
-        ("gas", "Gas", 2),
+        ("gas", "Gas", 4),
         ("piston_force", "Piston forces", 3),
         ("rod_loads", "Rod loads", 4),
         ("torque", "Torque", 1),

@@ -74,8 +74,8 @@ def test_the_policy_forbids_what_is_not_there(page: Page) -> None:
 def test_whoever_cannot_see_it_is_told_what_is_what(page: Page) -> None:
     assert ("html", {"lang": "en"}) in page.elements
     drawings = [attributes for tag, attributes in page.elements if tag == "svg"]
-    # five of machine and first order, and two for each of four orders
-    assert len(drawings) == 13
+    # five of machine and first order, the stages, and two for each of four orders
+    assert len(drawings) == 14
     assert all(found["role"] == "img" and found["aria-label"] for found in drawings)
     assert all(found["scope"] in ("col", "row") for tag, found in page.elements if tag == "th")
     assert [tag for tag, _ in page.elements if re.fullmatch("h[1-6]", tag)][:2] == ["h1", "h2"]
@@ -111,9 +111,9 @@ def test_characters_that_do_not_print_are_replaced(made: Make) -> None:
 
 def test_every_drawing_is_well_formed_by_itself(hostile: Document) -> None:
     found = drawings(html(hostile))
-    assert len(found) == 12
+    assert len(found) == 13
     shapes = {child.tag.rpartition("}")[2] for drawing in found for child in drawing}
-    assert shapes == {"path", "circle", "text"}
+    assert shapes == {"path", "circle", "text", "g"}
 
 
 def drawings(content: bytes) -> list[ElementTree.Element]:

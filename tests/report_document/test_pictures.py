@@ -33,7 +33,7 @@ def test_a_picture_is_shapes_alone_and_says_what_it_shows(name: str) -> None:
     assert not {key for key in attributes if key.startswith("on") or "href" in key or key == "style"}
 
 
-@pytest.mark.parametrize("name", ["front", "side", "force", "moment"])
+@pytest.mark.parametrize("name", ["front", "side", "force", "moment", "stages"])
 def test_it_is_the_one_of_the_report(name: str) -> None:
     one = COMPUTATIONS[f"picture_{name}"]
     of_report = [

@@ -55,7 +55,11 @@ export async function ask(method, path, { body, headers, signal, waiting } = {})
 }
 
 export const get = async (path, options) => (await ask("GET", path, options)).json();
-export const post = async (path, body, options) => (await ask("POST", path, { body, ...options })).json();
+// what is no JSON is a text, as a picture is
+export const post = async (path, body, options) => {
+  const found = await ask("POST", path, { body, ...options });
+  return found.headers.get("content-type")?.includes("json") ? found.json() : found.text();
+};
 
 // Server-sent events. The browser's own reader cannot send a key.
 export async function* events(path, signal) {

@@ -15,6 +15,7 @@ import { flywheel, mainBearings, rodLoads, torque } from "./panels/dynamics.js";
 import { hodographs, orders, overAngle } from "./panels/first_order.js";
 import { missing, offered, Panels } from "./panels/panels.js";
 import { pareto } from "./panels/pareto.js";
+import { indicator, orderHodographs, stageScheme } from "./panels/pictures.js";
 import { pins } from "./panels/pins.js";
 import { sweep } from "./panels/sweep.js";
 import { load as loadPlots } from "./plots.js";
@@ -27,7 +28,7 @@ import { theme } from "./theme.js";
 const MODEL = "OptimizeRequest";
 const FIRST = "2d12";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
-const PANELS = [counterweights, cranks, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
+const PANELS = [counterweights, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, sweep];
 const STEP = { step_deg: 2 };
 const LINK_LATER_MS = 400;
 

@@ -51,7 +51,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     if answer.stages is not None:
-        yield balance.stages(answer.stages, ())
+        yield balance.stages(request.machine, answer.stages, ())
     yield from outputs(request.machine, answer)
 
 
@@ -68,7 +68,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
         beside = two_orders(answer.residual.orders)
         yield balance.first_order(request.machine, before, after, answer.floor, "with counterweights", beside)
     if answer.stages is not None:
-        yield balance.stages(answer.stages, ())
+        yield balance.stages(request.machine, answer.stages, ())
     yield from outputs(request.machine, answer)
 
 

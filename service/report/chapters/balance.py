@@ -26,6 +26,7 @@ from service.report.first_order import hodographs
 from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
+from service.report.stage_scheme import stage_scheme
 from service.validation import pointer
 
 _FIRST_ORDER = (
@@ -99,7 +100,7 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
     )
 
 
-def stages(found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:
+def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Chapter:
     """The eight balancing stages, or what the machine lacks for them."""
     title = "The eight balancing stages"
     if found is None:
@@ -120,7 +121,13 @@ def stages(found: Sequence[Stage] | None, missing: Sequence[FieldProblem]) -> Ch
         ["stage", "<quantity", "<formula"],
         [(one.stage, one.quantity, formula(one.formula)) for one in found],
     )
-    return Chapter(title, (values, where, formulas, *_rules(found)))
+    drawn = Figure(
+        (stage_scheme(machine, found),),
+        "Scheme of the stages, from the front at shaft angle 0, each with a scale of its own: cranks black, row axes "
+        "dash-dotted, forces orange and dashed without counterweights, blue what they leave. What turns is a circle "
+        "with an arrow, what keeps its direction a line; of a moment the line is the trace of its plane.",
+    )
+    return Chapter(title, (drawn, values, where, formulas, *_rules(found)))
 
 
 def _rules(found: Sequence[Stage]) -> Iterator[Block]:

@@ -8,7 +8,6 @@ from typing import Any, TypeVar
 
 from schemas.dynamics import (
     BearingLoad,
-    Chamber,
     Flywheel,
     Gas,
     Kinematics,
@@ -16,7 +15,6 @@ from schemas.dynamics import (
     Overturning,
     PistonForce,
     RodLoads,
-    RowGas,
     RowPistonForce,
     RowSeries,
     Torque,
@@ -27,6 +25,7 @@ from service.report.chapters.bearing_loci import bearing_loci
 from service.report.chapters.inputs import row_name
 from service.report.charts import MAX_LINES, Line, chart, over_turn
 from service.report.formula import formula
+from service.report.indicator import MAX_ROWS, chamber_name, indicators
 
 Row = TypeVar("Row", bound=RowSeries)
 
@@ -77,18 +76,11 @@ def _kinematics(machine: Machine, found: Kinematics) -> Chapter:
     return Chapter("Motion", (extremes(_EXTREMES, found.angle_deg, parts), *figures))
 
 
-def _chamber(row: RowGas, chamber: Chamber) -> str:
-    """Side, and which cylinder where a row has several."""
-    if len(row.chambers) <= 2:
-        return chamber.side
-    return f"{chamber.name or f'cylinder {chamber.cylinder + 1}'}, {chamber.side}"
-
-
 def _gas(machine: Machine, found: Gas) -> Chapter:
     chambers = [
         (
             row_name(machine, row.throw, row.row),
-            _chamber(row, chamber),
+            chamber_name(row, chamber),
             min(chamber.pressure_Pa),
             max(chamber.pressure_Pa),
             chamber.suction_opens_deg,
@@ -99,7 +91,7 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
         for chamber in row.chambers
     ]
     pressures = [
-        Line(f"{row_name(machine, row.throw, row.row)} {_chamber(row, chamber)}", chamber.pressure_Pa)
+        Line(f"{row_name(machine, row.throw, row.row)} {chamber_name(row, chamber)}", chamber.pressure_Pa)
         for row in found.rows
         for chamber in row.chambers
     ]
@@ -109,6 +101,9 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
         "row", "side", "#lowest, Pa", "#highest, Pa", "#suction opens, deg", "#discharge opens, deg",
         "#indicated work a turn, J",
     ]  # fmt: skip
+    words = "Indicator diagrams: absolute pressure over the travel of the piston."
+    if len(found.rows) > MAX_ROWS:
+        words += f" Drawn are the first {MAX_ROWS} of {len(found.rows)} rows."
     return Chapter(
         "Gas",
         (
@@ -119,6 +114,7 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
                 [*powers, ("machine", found.indicated_power_W)],
             ),
             extremes("Gas force on the piston, N", found.angle_deg, forces),
+            *(Figure((one,), words if k == 0 else "") for k, one in enumerate(indicators(machine, found))),
             figure("pressure", "Pa", found.angle_deg, pressures, "Absolute pressure in the chambers."),
             figure("gas force", "N", found.angle_deg, forces, f"Gas force on the pistons. {_SIGNS}", tabled=True),
         ),

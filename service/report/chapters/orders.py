@@ -1,5 +1,6 @@
 """What shakes at multiples of the shaft speed."""
 
+from collections.abc import Iterator
 from functools import partial
 
 from schemas.first_order import ResidualOrders
@@ -23,8 +24,16 @@ def orders(found: OrdersComparison) -> Chapter:
     left = {one.order: one for one in found.after or ()}
     rows = [_row(str(one.order), one, left.get(one.order)) for one in found.before]
     words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
-    drawn = [_hodographs(one, left.get(one.order)) for one in found.before]
-    return Chapter("Orders", (Paragraph(words), table("", _HEADS, rows), *(one for one in drawn if one is not None)))
+    return Chapter("Orders", (Paragraph(words), table("", _HEADS, rows), *order_hodographs(found)))
+
+
+def order_hodographs(found: OrdersComparison) -> Iterator[Figure]:
+    """The ellipses of every order that has any."""
+    left = {one.order: one for one in found.after or ()}
+    for one in found.before:
+        drawn = _hodographs(one, left.get(one.order))
+        if drawn is not None:
+            yield drawn
 
 
 def _hodographs(was: Order, left: Order | None) -> Figure | None:
