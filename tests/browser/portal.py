@@ -12,6 +12,8 @@ from playwright.sync_api import ConsoleMessage, Locator, Page, Request
 ARTEFACTS = Path(__file__).parents[2] / "artefacts" / "portal"
 ALL_PANELS = (
     "counterweights",
+    "what-if",
+    "versions",
     "cranks",
     "hodographs",
     "over-angle",

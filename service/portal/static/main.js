@@ -18,6 +18,8 @@ import { pareto } from "./panels/pareto.js";
 import { indicator, orderHodographs, stageScheme } from "./panels/pictures.js";
 import { pins } from "./panels/pins.js";
 import { sweep } from "./panels/sweep.js";
+import { versions } from "./panels/versions.js";
+import { whatIf } from "./panels/what_if.js";
 import { load as loadPlots } from "./plots.js";
 import { Schema } from "./schema.js";
 import { forget, keepSession, last, ofTab, session } from "./session.js";
@@ -28,7 +30,11 @@ import { theme } from "./theme.js";
 const MODEL = "OptimizeRequest";
 const FIRST = "2d12";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
+<<<<<<< HEAD
 const PANELS = [counterweights, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, sweep];
+=======
+const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
+>>>>>>> 676b932 (What if: weights as fitted with what remains, limits and speed on sliders, versions side by side)
 const STEP = { step_deg: 2 };
 const LINK_LATER_MS = 400;
 
@@ -181,7 +187,7 @@ async function run() {
     } else sketch();
     keepLink();
     embedding.say("answer", { request, answer });
-    await panels.show({ request, answer, number, schema, model: MODEL, keep, kept: state.kept, call: { method: "POST", path: "v1/optimize", body } });
+    await panels.show({ request, answer, number, schema, model: MODEL, keep, kept: state.kept, adopt: (other) => take(other, null), call: { method: "POST", path: "v1/optimize", body } });
     if (number === runs) Object.assign(results.dataset, { drawn: number, ms: Math.round(performance.now() - started) });
   } catch (error) {
     if (error.name === "AbortError" || number !== runs) return;

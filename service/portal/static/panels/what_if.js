@@ -1,0 +1,164 @@
+// What if: weights as they will be fitted beside the optimum, limits and speed moved, the residual at every key stroke.
+
+import { post } from "../api.js";
+import { h, table } from "../dom.js";
+import { figure, number, share } from "../format.js";
+import { quantity, read } from "../quantity.js";
+
+// masses and angles that a workshop likes, from the coarsest
+const ROUNDINGS = [[1, 5], [0.5, 5], [0.5, 1], [0.2, 1], [0.1, 1], [0.1, 0.5], [0.05, 0.5], [0.01, 0.1], [0.001, 0.01]];
+const WORSE = 0.01;
+
+const peaks = (state) => [state.force.peak_N, state.moment.peak_Nm];
+const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(12));
+const change = (now, was) => (was > 0 ? `${now >= was ? "+" : "−"}${share(Math.abs(now / was - 1))}` : now > 0 ? "from nothing" : "±0 %");
+
+// the newest of calls that overtake one another
+function newest() {
+  let running = null;
+  return async (path, body) => {
+    running?.abort();
+    const mine = running = new AbortController();
+    try {
+      return await post(path, body, { signal: mine.signal });
+    } catch (error) {
+      if (error.name === "AbortError") return null;
+      throw error;
+    }
+  };
+}
+
+export const whatIf = {
+  id: "what-if", title: "What if: weights as fitted, limits, speed",
+  about: "Type the weights as they will be made; what remains is computed at every key stroke.",
+  draw(body, context) {
+    const { answer } = context;
+    if (!answer.counterweights.length || !answer.residual.after || (answer.balance_shafts ?? []).length) {
+      body.replaceChildren(h("p", {}, "There are no counterweights of one shaft to change here."));
+      return;
+    }
+    body.replaceChildren(...fitted(context), ...limits(context));
+  },
+};
+
+function fitted({ request, answer, told }) {
+  const { machine } = request;
+  const shaped = (one) => (one.shape ? { radius_m: one.radius_m } : {});
+  const weights = answer.counterweights.map(({ web, mass_kg: mass, angle_deg: angle, ...more }) => ({ web, mass_kg: mass, angle_deg: angle, ...shaped(more) }));
+  const result = h("div", { class: "residual", role: "status" });
+  const inputs = [];
+  const call = newest();
+  const ask = (counterweights) => ({ machine, counterweights: counterweights.filter((one) => one.mass_kg > 0), outputs: ["residual"] });
+  const tell = (found) => {
+    const [force, moment] = peaks(found.residual.after);
+    const [leastForce, leastMoment] = peaks(answer.residual.after);
+    const [bareForce, bareMoment] = peaks(answer.residual.before);
+    result.replaceChildren(table("What remains", ["", "without", "optimum", "as fitted", "against the optimum"], [
+      ["peak force, N", number(bareForce), number(leastForce), number(force), change(force, leastForce)],
+      ["peak moment, N m", number(bareMoment), number(leastMoment), number(moment), change(moment, leastMoment)],
+      ["total mass, kg", number(null), number(answer.total_mass_kg), number(found.total_mass_kg), change(found.total_mass_kg, answer.total_mass_kg)]]));
+    result.dataset.of = JSON.stringify(weights.map((one) => [one.mass_kg, one.angle_deg]));
+  };
+  const compute = async () => {
+    const wrong = inputs.filter(({ input, unit }) => !Number.isFinite(quantity(read(input.value, unit), unit)) || input.value.trim() === "");
+    for (const { input } of inputs) input.setAttribute("aria-invalid", String(wrong.some((one) => one.input === input)));
+    if (wrong.length) return;
+    const question = ask(weights);
+    told({ method: "POST", path: "v1/analyze", body: question });
+    try {
+      const found = await call("v1/analyze", question);
+      if (found) tell(found);
+    } catch (error) {
+      result.replaceChildren(h("p", { class: "error" }, [error.message, ...(error.errors ?? []).map((one) => one.message)].join(" ")));
+    }
+  };
+  const cell = (index, name, unit) => {
+    const input = h("input", { type: "text", value: figure(weights[index][name], 6).replaceAll(",", ""), autocomplete: "off",
+      "aria-label": `${name === "mass_kg" ? "mass, kg" : "angle, °"}, ${weights[index].web}, as fitted`, input: () => {
+        weights[index][name] = quantity(read(input.value, unit), unit);
+        compute();
+      } });
+    inputs.push({ input, unit, index, name });
+    return h("td", { class: "cell is-number" }, input);
+  };
+  const rows = answer.counterweights.map((one, index) => h("tr", {}, h("th", { scope: "row" }, one.web),
+    h("td", { class: "number" }, figure(one.mass_kg)), h("td", { class: "number" }, one.mass_kg > 0 ? figure(one.angle_deg) : "–"),
+    cell(index, "mass_kg", "kg"), cell(index, "angle_deg", "deg")));
+  const put = (masses) => {
+    masses.forEach((one, index) => Object.assign(weights[index], one));
+    for (const { input, index, name } of inputs) input.value = String(weights[index][name]);
+  };
+  const said = h("span", { role: "status" });
+  // the coarsest rounding that costs at most one per cent in force and moment
+  const suggest = async () => {
+    const least = peaks(answer.residual.after);
+    const scale = peaks(answer.residual.before);
+    for (const [mass, angle] of ROUNDINGS) {
+      const tried = answer.counterweights.map((one) => ({ mass_kg: rounded(one.mass_kg, mass), angle_deg: rounded(one.angle_deg, angle) }));
+      const found = await call("v1/analyze", ask(weights.map((one, index) => ({ ...one, ...tried[index] }))));
+      if (!found) return;
+      if (!peaks(found.residual.after).every((now, index) => now <= least[index] + WORSE * Math.max(least[index], WORSE * scale[index]))) continue;
+      put(tried);
+      said.textContent = `Rounded to ${mass} kg and ${angle}°.`;
+      tell(found);
+      return;
+    }
+    said.textContent = "No rounding down to 1 g and 0.01° keeps within one per cent.";
+  };
+  const back = () => {
+    put(answer.counterweights.map((one) => ({ mass_kg: one.mass_kg, angle_deg: one.angle_deg })));
+    said.textContent = "";
+    compute();
+  };
+  compute();
+  return [
+    h("div", { class: "grid" }, h("div", { class: "wide" }, h("table", {}, h("caption", {}, "Optimum, and as fitted"),
+      h("thead", {}, h("tr", {}, ["web", "mass, kg", "angle, °", "fitted mass, kg", "fitted angle, °"].map((head) => h("th", { scope: "col" }, head)))), h("tbody", {}, rows)))),
+    h("div", { class: "buttons" }, h("button", { type: "button", class: "small", click: suggest }, "Suggest a rounding"),
+      h("button", { type: "button", class: "small", click: back }, "As the optimum"), said), result];
+}
+
+// all largest masses and the speed, in per cent of what was asked
+function limits({ request, answer, adopt }) {
+  const call = newest();
+  const result = h("div", { class: "moved", role: "status" });
+  const slider = (id, title) => {
+    const shown = h("output", { for: id }, "100 %");
+    const input = h("input", { id, type: "range", min: 50, max: 150, step: 1, value: 100, input: () => {
+      shown.textContent = `${input.value} %`;
+      compute();
+    } });
+    return { input, line: h("div", { class: "slide" }, h("label", { for: id }, title), input, shown) };
+  };
+  const [mass, speed] = [slider("what-mass", "Largest masses"), slider("what-speed", "Speed")];
+  const moved = () => {
+    const changed = structuredClone(request);
+    const [part, pace] = [mass.input, speed.input].map((input) => Number(input.value) / 100);
+    const scaled = (value, unit, by) => (value === null || value === undefined ? value : Number((quantity(value, unit) * by).toPrecision(12)));
+    const { machine } = changed;
+    if (part !== 1) for (const web of machine.webs ?? []) web.max_mass_kg = scaled(web.max_mass_kg, "kg", part);
+    if (pace !== 1) {
+      machine.speed_rpm = scaled(machine.speed_rpm, "rpm", pace);
+      if (machine.overspeed_rpm) machine.overspeed_rpm = scaled(machine.overspeed_rpm, "rpm", pace);
+    }
+    return changed;
+  };
+  const compute = async () => {
+    try {
+      const found = await call("v1/optimize", { ...moved(), outputs: ["residual"] });
+      if (found) result.replaceChildren(summary(found, answer));
+    } catch (error) {
+      result.replaceChildren(h("p", { class: "error" }, error.message));
+    }
+  };
+  return [h("h3", {}, "Limits and speed"), mass.line, speed.line, result,
+    h("div", { class: "buttons" }, h("button", { type: "button", class: "small", click: () => adopt(moved()) }, "Take these limits"))];
+}
+
+function summary(found, answer) {
+  if (!found.residual.after) return h("p", { class: "error" }, "No counterweights meet the ceilings then.");
+  const row = (title, now, was) => [title, number(was), number(now), change(now, was)];
+  const [was, now] = [answer, found].map(({ residual }) => peaks(residual.after));
+  return table("The optimum then", ["", "now", "then", "change"], [row("peak force, N", now[0], was[0]), row("peak moment, N m", now[1], was[1]),
+    row("total mass, kg", found.total_mass_kg, answer.total_mass_kg)]);
+}

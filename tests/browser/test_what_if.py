@@ -1,0 +1,89 @@
+"""What if: weights as fitted, limits and speed; versions side by side. Every figure is that of the API."""
+
+from pathlib import Path
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.portal import Portal, ask, cells
+
+
+def _number(text: str) -> float:
+    return float(text.replace(",", ""))
+
+
+def test_what_remains_of_weights_as_fitted(portal: Portal, url: str) -> None:
+    portal.open("2d12", ("what-if",))
+    panel = portal.panel("what-if")
+    panel.get_by_label("mass, kg, 2a, as fitted").fill("50,5")
+    panel.get_by_label("angle, °, 1a, as fitted").fill("175")
+    expect(panel.locator(".residual")).to_have_attribute("data-of", "[[60,175],[60,180],[50.5,0],[60,0]]")
+    request = ask(url, "/v1/examples/2d12")
+    weights = [("1a", 60, 175), ("1b", 60, 180), ("2a", 50.5, 0), ("2b", 60, 0)]
+    given = [{"web": web, "mass_kg": mass, "angle_deg": angle} for web, mass, angle in weights]
+    body = {"machine": request["machine"], "counterweights": given, "outputs": ["residual"]}
+    after = ask(url, "/v1/analyze", body)["residual"]["after"]
+    rows = cells(panel.locator(".residual"))
+    assert _number(rows[0][3]) == pytest.approx(after["force"]["peak_N"], rel=1e-4)
+    assert _number(rows[1][3]) == pytest.approx(after["moment"]["peak_Nm"], rel=1e-4)
+    # analytic: the sum of the masses
+    assert _number(rows[2][3]) == 230.5
+
+
+def test_a_rounding_is_suggested(portal: Portal) -> None:
+    portal.open("2d12", ("what-if",))
+    panel = portal.panel("what-if")
+    panel.get_by_role("button", name="Suggest a rounding").click()
+    panel.get_by_text("Rounded to").wait_for()
+    rows = cells(panel.locator(".residual"))
+    for row in rows[:2]:
+        assert _number(row[3]) <= 1.0101 * _number(row[2])
+    mass = float(panel.get_by_label("mass, kg, 2a, as fitted").input_value())
+    assert mass != 52.7004
+    assert mass == pytest.approx(52.7, abs=0.5)
+
+
+def test_limits_and_speed_are_moved(portal: Portal, url: str) -> None:
+    portal.open("2d12", ("what-if",))
+    panel = portal.panel("what-if")
+    panel.locator("#what-mass").fill("80")
+    panel.locator("#what-speed").fill("110")
+    request = ask(url, "/v1/examples/2d12")
+    request["machine"]["speed_rpm"] = 550
+    for web in request["machine"]["webs"]:
+        web["max_mass_kg"] = 48
+    answer = ask(url, "/v1/optimize", request)
+    force = f"{answer['residual']['after']['force']['peak_N']:,.1f}"
+    panel.locator(".moved").get_by_text(force).wait_for()
+    panel.get_by_role("button", name="Take these limits").click()
+    portal.drawn(2)
+    machine = portal.bodies("/v1/optimize")[-1]["machine"]
+    assert (machine["speed_rpm"], machine["webs"][0]["max_mass_kg"]) == (550, 48)
+    assert portal.input("/machine/speed_rpm").input_value() == "550"
+
+
+def test_versions_stand_side_by_side(portal: Portal) -> None:
+    portal.open("v60", ("versions",))
+    portal.page.evaluate("localStorage.removeItem('counterweight-versions')")
+    panel = portal.panel("versions")
+    for name, speed in (("slow", "600"), ("fast", "900")):
+        portal.input("/machine/speed_rpm").fill(speed)
+        portal.optimise()
+        panel.locator("#version-name").fill(name)
+        panel.get_by_role("button", name="Keep this version").click()
+    panel.get_by_label("compare slow").check()
+    results, asked = panel.locator(".compared table").all()
+    rows = {row[0]: row[1:] for row in cells(results)}
+    slow, fast = (_number(text) for text in rows["peak force, N"])
+    # analytic: forces grow with the square of the speed
+    assert fast == pytest.approx(2.25 * slow, rel=1e-3)
+    assert cells(asked) == [["machine speed_rpm", "600", "900"]]
+    with portal.page.expect_download() as download:
+        panel.get_by_role("button", name="Export all").click()
+    panel.get_by_role("button", name="Remove slow").click()
+    expect(panel.locator(".versions li")).to_have_count(1)
+    panel.locator("#version-file").set_input_files(Path(download.value.path()))
+    expect(panel.locator(".versions li")).to_have_count(2)
+    panel.get_by_role("button", name="Open slow").click()
+    portal.drawn(4)
+    assert portal.bodies("/v1/optimize")[-1]["machine"]["speed_rpm"] == 600
