@@ -6,9 +6,10 @@ import pytest
 
 from tests.browser.portal import ALL_PANELS, Portal, ask, cells
 
-<<<<<<< HEAD
 ALWAYS = (
     "counterweights",
+    "what-if",
+    "versions",
     "hodographs",
     "over-angle",
     "orders",
@@ -18,9 +19,6 @@ ALWAYS = (
     "picture-orders",
     "picture-stages",
 )
-=======
-ALWAYS = ("counterweights", "what-if", "versions", "hodographs", "over-angle", "orders", "pareto", "accuracy", "sweep")
->>>>>>> 676b932 (What if: weights as fitted with what remains, limits and speed on sliders, versions side by side)
 DRIVEN = ("torque", "rod-loads", "flywheel", "main-bearings")
 MACHINES = {
     "2d12": (*ALWAYS, "cranks", "picture-indicator", *DRIVEN),

@@ -30,11 +30,7 @@ import { theme } from "./theme.js";
 const MODEL = "OptimizeRequest";
 const FIRST = "2d12";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
-<<<<<<< HEAD
-const PANELS = [counterweights, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, sweep];
-=======
-const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, pareto, accuracy, torque, rodLoads, flywheel, mainBearings, pins, sweep];
->>>>>>> 676b932 (What if: weights as fitted with what remains, limits and speed on sliders, versions side by side)
+const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, sweep];
 const STEP = { step_deg: 2 };
 const LINK_LATER_MS = 400;
 
