@@ -126,7 +126,7 @@ class Loads(Model):
         description="largest torque on a base of the machine's own, over the whole turn, magnitude", examples=[62000.0]
     )
     shared_base_peak_Nm: NewtonMetres = Field(
-        description="largest of shared_base_Nm among the samples, magnitude", examples=[41000.0]
+        description="largest of shared_base_Nm, over the whole turn, magnitude", examples=[41000.0]
     )
     angular_acceleration_rad_s2: Annotated[tuple[float, ...] | None, Unit("rad/s2")] = Field(
         description="eps of the shaft for its inertia; null without flywheel", examples=[None]

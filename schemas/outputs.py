@@ -257,6 +257,12 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
         Column("peak_overturning_Nm", "number", "N m", "largest overturning couple over the turn, magnitude"),
     ),
     "roll": (Column("peak_roll_Nm", "number", "N m", "largest roll moment over the turn without its mean, magnitude"),),
+    "loads": (
+        Column("peak_crosshead_pin_N", "number", "N", "largest rod force of a running row over the turn, magnitude"),
+        Column("peak_sudden_stop_N", "number", "N", "largest rod force of gas alone over the turn, magnitude"),
+        Column("own_base_peak_Nm", "number", "N m", "largest torque on a base of the machine's own, magnitude"),
+        Column("shared_base_peak_Nm", "number", "N m", "largest torque on a base shared with the driver, magnitude"),
+    ),
     "main_bearings": (
         Column("peak_bearing_load_N", "number", "N", "largest load of all main bearings, with the counterweights"),
         Column("peak_bending_Nm", "number", "N m", "largest bending moment inside the shaft, with the counterweights"),
@@ -281,6 +287,7 @@ COLUMNS_OF_EACH: dict[str, OfEach] = {
             Column("balance_rate_sideways", "number", None, "what its counterweights do across the crank, as a share"),
         ),
     ),
+    "loads": OfEach("bearings", (Column("bearing_weight_N", "number", "N", "weight on this bearing"),)),
     "main_bearings": OfEach(
         "bearings", (Column("bearing_peak_N", "number", "N", "largest load of this bearing, with the counterweights"),)
     ),

@@ -1,14 +1,15 @@
 """Loads as a designer of parts asks for them, from the forces over the turn."""
 
 from collections.abc import Iterator
+from typing import Any
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.effects.results import GasCycle
 from optimizer.figures.dynamics import rows_of
-from optimizer.figures.output import Output
-from optimizer.figures.peaks import of_rows, of_torque
+from optimizer.figures.output import Columns, Output
+from optimizer.figures.peaks import largest_of_rows, of_rows, of_torque
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion, own_angle
@@ -18,6 +19,7 @@ from optimizer.scene import Prepared
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
 from schemas.machine import ReciprocatingMachine
+from schemas.outputs import labels
 from schemas.throws import row_cylinders
 
 
@@ -37,7 +39,7 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
         driver_Nm=float(integrals.mean),
         shared_base_Nm=tuple(beyond.tolist()),
         own_base_peak_Nm=float(of_torque(scene, found.rotating_friction).lower),
-        shared_base_peak_Nm=float(np.max(np.abs(beyond))),
+        shared_base_peak_Nm=float(of_torque(scene, found.rotating_friction - integrals.mean).lower),
         # J eps is what the constant torque of the driver leaves over
         angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
         bearing_weights=tuple(_weights(scene, machine, fitted)),
@@ -64,7 +66,7 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     at_centres = _at_dead_centres(scene)
     guides = _guides(scene, machine)
     rows = [row for throw in machine.throws for row in throw.rows]
-    for k, labels in rows_of(scene):
+    for k, place in rows_of(scene):
         three = {
             "gas": float(np.max(np.abs(forces.gas[k]))),
             "inertia": float(np.max(np.abs(forces.inertia[k]))),
@@ -73,7 +75,7 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
         link = rows[k].connecting_rod
         worst = max(three, key=lambda name: three[name])
         yield RowLoad(
-            **labels,
+            **place,
             reciprocating_mass_kg=float(masses[k]),
             rod_rotating_mass_kg=0.0 if link is None else float(link.rotating_kg),
             rotating_mass_kg=float(rows[k].rotating_kg),
@@ -147,7 +149,7 @@ def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] |
 
 
 def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> tuple[Real, Real]:
-    """Planes [m] and masses [kg] of all that turns with the shaft, with counterweights (webs,) kg m."""
+    """Planes [m] and masses [kg] (..., P) of all that turns with the shaft, with counterweights (..., webs) kg m."""
     parts = [(throw.position_m, throw.rotating_mass_kg) for throw in machine.throws]
     parts += [(throw.position_m + row.offset_m, row.rotating_kg) for throw in machine.throws for row in throw.rows]
     parts += [(part.position_m, part.mass_kg) for part in machine.shaft_parts]
@@ -155,22 +157,34 @@ def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
     if fitted is None:
         return places, masses
     webs = scene.layout.webs
-    return np.append(places, webs.position), np.append(masses, np.abs(fitted) / webs.radius)
+    # of designs without counterweights they are nan
+    return _joined(places, webs.position), _joined(masses, np.nan_to_num(np.abs(fitted)) / webs.radius)
+
+
+def _joined(one: Any, other: Any) -> Any:
+    """Side by side on the last axis, leading axes broadcast."""
+    leading = np.broadcast_shapes(one.shape[:-1], other.shape[:-1])
+    return np.concatenate([np.broadcast_to(each, (*leading, each.shape[-1])) for each in (one, other)], axis=-1)
+
+
+def _on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:
+    """Weights on the main bearings, (..., B) N, with counterweights (..., webs) kg m."""
+    places, masses = _turning(scene, machine, fitted)
+    # without a direction they have one all the same, whichever it is
+    down = direction(np.asarray(0.0 if machine.gravity_deg is None else machine.gravity_deg))
+    load = masses * GRAVITY * np.asarray(down)[..., None]
+    if machine.gravity_deg is not None:
+        rows = scene.layout.reciprocating
+        places, load = _joined(places, rows.position), _joined(load, along_axis(rows.mass, rows.axis, down))
+    influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
+    found: Complex = (influence @ load[..., None])[..., 0]
+    return found
 
 
 def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[BearingWeight]:
     if not machine.bearings:
         return
-    places, masses = _turning(scene, machine, fitted)
-    # without a direction they have one all the same, whichever it is
-    down = direction(np.asarray(0.0 if machine.gravity_deg is None else machine.gravity_deg))
-    load = masses * GRAVITY * down
-    if machine.gravity_deg is not None:
-        rows = scene.layout.reciprocating
-        places = np.append(places, rows.position)
-        load = np.append(load, along_axis(rows.mass, rows.axis, down))
-    influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
-    for bearing, weight in zip(machine.bearings, (influence @ load).tolist(), strict=True):
+    for bearing, weight in zip(machine.bearings, _on_bearings(scene, machine, fitted).tolist(), strict=True):
         yield BearingWeight(
             name=bearing.name,
             weight_N=abs(weight),
@@ -191,9 +205,28 @@ def _whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Comple
     return (machine.stationary_mass_kg + moving) * GRAVITY
 
 
+def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
+    friction, mean = scene.results.get("friction"), scene.results["torque_integrals"].mean
+    constant = 0.0 if friction is None else friction.torque
+    found = {
+        "peak_crosshead_pin_N": largest_of_rows(scene, "rod").lower,
+        "peak_sudden_stop_N": largest_of_rows(scene, "rod_at_rest").lower,
+        "own_base_peak_Nm": of_torque(scene, constant).lower,
+        "shared_base_peak_Nm": of_torque(scene, constant - mean).lower,
+    }
+    if machine.bearings:
+        weights = np.abs(_on_bearings(scene, machine, fitted))
+        names = labels([bearing.name for bearing in machine.bearings])
+        found |= {f"bearing_weight_N.{name}": weights[..., k] for k, name in enumerate(names)}
+    return found
+
+
 LOADS = Output(
     "loads",
     "loads on piston rod, pin, covers, frame, guides, base and bearings",
     ("gas", "piston_force", "rod_forces", "torque", "torque_integrals", "whole_turn"),
     _figure,
+    Columns(_columns, needs=("friction", "torque_integrals", "whole_turn")),
 )

@@ -181,6 +181,13 @@ def _drive_figures(answer: OptimizeAnswer | AnalyzeAnswer) -> Any:
         yield "peak_overturning_Nm", answer.overturning.peak_Nm
     if answer.roll is not None:
         yield "peak_roll_Nm", answer.roll.before.peak_Nm
+    if answer.loads is not None:
+        yield "peak_crosshead_pin_N", max(row.crosshead_pin_N for row in answer.loads.rows)
+        yield "peak_sudden_stop_N", max(row.stop_over_the_turn_N for row in answer.loads.rows)
+        yield "own_base_peak_Nm", answer.loads.own_base_peak_Nm
+        yield "shared_base_peak_Nm", answer.loads.shared_base_peak_Nm
+        for weight in answer.loads.bearing_weights:
+            yield f"bearing_weight_N.{weight.name}", weight.weight_N
     if answer.main_bearings is not None:
         peaks = {one.name: None if one.after is None else one.after.peak_N for one in answer.main_bearings.bearings}
         fitted = None not in peaks.values()

@@ -13,7 +13,7 @@ from tests.analyze.engines import UNEVEN, cylinder, engine, trace
 from tests.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table
 
 GOAL = {"moment_weight": 1.5, "direction_weights": {"x": 1.0, "y": 0.8}}
-TURN = ["gas", "piston_force", "rod_loads", "torque", "flywheel", "overturning", "roll", "main_bearings"]
+TURN = ["gas", "piston_force", "rod_loads", "torque", "flywheel", "overturning", "roll", "loads", "main_bearings"]
 DRIVE = [*TURN, "orders", "stages", "internal_moment", "balance_rate"]
 TABLE = {"angle_deg": [0, 90, 200, 360], "torque_Nm": [10, 12, 14, 10]}
 

@@ -9,6 +9,7 @@ from optimizer.outputs import OUTPUTS
 from service.documents.examples import bodies as examples
 from tests.validation import bodies, pack
 from tests.validation.comparison import Comparison
+from tests.validation.contents import CONTENTS
 from tests.validation.document import DOCUMENT, MISPRINTS, shown
 
 ROOT = Path(__file__).parents[2]
@@ -49,6 +50,21 @@ def test_the_document_has_every_machine_of_the_multibody_program() -> None:
         theirs, ours, allowed = float(row[3]), float(row[4]), float(row[6])
         # six figures of each are shown
         assert abs(ours - theirs) <= allowed + 1e-5 * abs(theirs)
+
+
+def test_every_row_of_the_sources_contents_has_its_place() -> None:
+    _, words = DOCUMENT.read_text().split("\n## Where each part of the sources is computed\n")
+    rows = re.findall(r"^\| (?!source|---)(.+?) \| (.+?) \|$", words, re.MULTILINE)
+    source, of_source = "", dict[str, list[str]]()
+    for what, place in rows:
+        assert place
+        source = next((name for name in CONTENTS if re.match(rf"{name}\b", what)), source)
+        of_source.setdefault(source, []).append(what)
+    assert list(of_source) == list(CONTENTS)
+    for name, topics in CONTENTS.items():
+        parts = {part.strip() for what in of_source[name] for part in re.split(r"[;:]", what)}
+        lost = [topic for topic in topics if not any(topic in what for what in (*of_source[name], *parts))]
+        assert not lost, (name, lost)
 
 
 def test_the_contents_name_what_there_is() -> None:
