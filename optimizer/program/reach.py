@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.scaling import natural_reach, single_reach
@@ -22,6 +22,8 @@ _FAR = 1e3
 _MARGIN = 1.0 + 1e-9
 #: rows whose influences agree to this many eps are one response; what they differ by is within the rounding of a bound
 _SAME = 8 * np.finfo(float).eps
+#: of one rounding
+_EPS = float(np.finfo(float).eps)
 #: rays that span a space by less than this share of their size do not span it
 _FLAT = 1e-7
 #: largest component of a vector that supports a cone
@@ -88,7 +90,7 @@ def bounded(statement: Statement, level: float) -> Statement:
     limits = statement.limits
     far = far_limits(statement)
     while np.any(far):
-        mass = min(_mass(statement, far, level), float(limits.max_total_mass))
+        mass = np.minimum(_masses(statement, far, level), limits.max_total_mass)
         near = far & (limits.max_mass < mass)
         if not np.any(near):
             return replace(statement, limits=replace(limits, max_mass=np.where(far, mass, limits.max_mass)))
@@ -96,19 +98,23 @@ def bounded(statement: Statement, level: float) -> Statement:
     return statement
 
 
-def _mass(statement: Statement, far: np.ndarray, level: float) -> float:
-    """Mass with which the far webs carry whatever they carry in the lightest optimum, kg."""
-    limits = statement.limits.only(far)
+def _masses(statement: Statement, far: np.ndarray, level: float) -> Real:
+    """Masses (K,) with which the far webs carry whatever they carry in the lightest optimum, kg; of the others inf."""
+    limits, masses = statement.limits.only(far), np.full(far.shape, np.inf)
     scattered = _scattered(statement, far, level)
     if scattered is not None:
-        return scattered
+        masses[far] = scattered
+        return masses
     rows, most, scalar = _responses(statement, far, level)
     if not np.any(most):
-        return 0.0
+        masses[far] = 0.0
+        return masses
     influence = rows * limits.radius
     plain = np.all(limits.free) and len(most) <= 2 and not np.any(scalar)
-    mass = _MARGIN * (_in_planes(influence, most) if plain else _in_sectors(influence, limits, most, scalar))
-    return mass if np.isfinite(mass) else LARGEST
+    together = _in_planes(influence, most) if plain else _in_sectors(influence, limits, most, scalar)
+    each = _MARGIN * np.minimum(together, _told(influence[~scalar], most[~scalar]))
+    masses[far] = np.where(np.isfinite(each), each, LARGEST)
+    return masses
 
 
 def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | None:
@@ -166,6 +172,31 @@ def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Rea
     return np.array(rows), np.array(most) * _MARGIN, np.array(kinds)
 
 
+def _told(influence: Real | Complex, most: Real) -> Real:
+    """Masses (n,) of webs that are told by what they change, of which every c has |c_s| <= most_s, kg; else inf.
+
+    Each is G c, with G a left inverse of the influences, but for the error 1 - G A of that.
+
+    Parameters
+    ----------
+    influence : (s, n) of one kilogram.
+    """
+    rows, webs = influence.shape
+    if rows < webs or not np.any(most):
+        return np.full(webs, np.inf)
+    matrix = influence / np.where(most > 0, most, np.min(most[most > 0]))[:, None]
+    size = np.max(np.abs(matrix), axis=0)
+    if not np.all((size > SMALLEST) & np.isfinite(size)):
+        return np.full(webs, np.inf)
+    matrix = matrix / size
+    inverse = np.linalg.pinv(matrix)
+    error = np.abs(np.eye(webs) - inverse @ matrix) + (4 + rows) * _EPS * (np.abs(inverse) @ np.abs(matrix))
+    carried, lost = np.sum(np.abs(inverse), axis=1), np.sum(error, axis=1)
+    if not np.max(lost) < 0.5:
+        return np.full(webs, np.inf)
+    return (carried + lost * np.max(carried) / (1.0 - np.max(lost))) / size
+
+
 def _in_planes(influence: Real, most: Real) -> float:
     """Mass that carries every c with |c_s| <= most_s on webs without sectors: on one of them, or on two planes, kg.
 
@@ -177,7 +208,7 @@ def _in_planes(influence: Real, most: Real) -> float:
         return float(most[0] / np.max(np.abs(influence)))
     a, b = influence
     apart = np.abs(a[:, None] * b - b[:, None] * a)
-    apart = apart - 8 * np.finfo(float).eps * (np.abs(a[:, None] * b) + np.abs(b[:, None] * a))
+    apart = apart - 8 * _EPS * (np.abs(a[:, None] * b) + np.abs(b[:, None] * a))
     each = np.abs(b) * most[0] + np.abs(a) * most[1]
     pairs = each[:, None] + each
     return float(np.min(np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)))

@@ -188,7 +188,8 @@ def _blended(statement: Statement, u: Complex, safe: Solution, target: float) ->
     if value <= target or value <= safe.objective:
         return u
     step = min(1.0, (value - target) / (value - safe.objective) * (1.0 + 1e-12))
-    return u + step * (safe.unbalance - u)
+    # far from both of them the step is rounded by more than a thin sector is wide
+    return statement.limits.into(u + step * (safe.unbalance - u))
 
 
 def proven(statement: Statement, solution: Solution, candidates: Iterable[Multipliers]) -> Solution:

@@ -1,0 +1,66 @@
+"""How far webs without a limit have to be looked into."""
+
+import numpy as np
+import pytest
+
+from optimizer.arrays import Complex
+from optimizer.mechanics.angles import direction
+from optimizer.program.limits import Limits
+from optimizer.program.reach import _told, within_reach
+from optimizer.program.reference.solver import _blended
+from optimizer.program.solution import evaluated
+from optimizer.program.statement import combined, statement, weighted_peak
+from optimizer.response import Phasors, Response
+from tests.program.cases import SOLVER
+
+#: of a web that is all but free: where a cone is held up by next to nothing
+STEEP = 89.999999
+
+
+def limits(webs: int, half_angle: float, max_mass: float = np.inf, radius: float = 0.25) -> Limits:
+    edge, ones = direction(half_angle), np.ones(webs)
+    return Limits(
+        radius * ones, max_mass * ones, ones < 0, ones + 0j, edge.real * ones, edge.imag * ones, np.asarray(np.inf)
+    )
+
+
+@pytest.mark.parametrize("webs", [1, 2, 3])
+@pytest.mark.parametrize("scale", [1.0, 1e-9])
+def test_webs_that_are_told_by_what_they_change(webs: int, scale: float) -> None:
+    """Analytic: each carries no more than its largest multiple that all responses allow."""
+    rng = np.random.default_rng(webs)
+    for _ in range(20):
+        matrix = rng.normal(size=(3, webs)) * scale ** rng.uniform(0, 1, webs)
+        masses: Complex = rng.normal(size=(2, webs)).T @ np.array([1, 1j])
+        told = _told(matrix, np.abs(matrix @ masses))
+        assert np.all(np.abs(masses) <= told)
+    assert np.all(np.isinf(_told(rng.normal(size=(webs - 1, webs)), np.ones(webs - 1))))
+
+
+def test_one_web_is_told_by_one_response() -> None:
+    """Analytic: half a unit a kilogram, and one unit at most."""
+    assert _told(np.array([[0.5]]), np.array([1.0])) == pytest.approx([2.0], rel=1e-12)
+
+
+def test_webs_that_cannot_be_told_apart_are_not() -> None:
+    assert np.all(np.isinf(_told(np.array([[1.0, 1.0], [2.0, 2.0]]), np.ones(2))))
+    assert np.all(np.isinf(_told(np.array([[1.0, 0.0], [2.0, 0.0]]), np.ones(2))))
+
+
+def test_a_web_that_is_all_but_free_has_a_proven_reach() -> None:
+    """Analytic: |10 + u| is at most 20 kg m, twice that of rest, so that |u| is at most 30 kg m."""
+    force = Response("force", "N", Phasors(10.0 + 0j, 0j), np.ones(1))
+    program = statement(combined([weighted_peak(force, 1.0)], "sum"), [], limits(1, STEEP))
+    assert within_reach(program, SOLVER).limits.max_mass == pytest.approx([30.0 / 0.25], rel=1e-8)
+
+
+def test_what_is_blended_stays_in_its_sector() -> None:
+    """Far from both the step is rounded by more than the sector is wide; a bound then stood above the mass."""
+    force = Response("force", "N", Phasors(10.0 + 0j, 0j), np.ones(1))
+    within = limits(1, STEEP, 1e15)
+    program = statement(combined([weighted_peak(force, 1.0)], "sum"), [], within)
+    safe = evaluated(program, within.into(np.array([-1.0 + 5.4j])))
+    far = within.into(1e14 * np.array([-1.0 - 5.0j]))
+    for target in (12.0, 15.0, 40.0):
+        found = _blended(program, far, safe, target)
+        assert np.all(np.abs(within.into(found) - found) <= 4e-16 * np.abs(found))
