@@ -154,7 +154,7 @@ class CornerCertificate(Model):
     )
     implied_max_mass_kg: dict[Name, Kilograms] = Field(
         description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"
-        " it is proven that some optimum, and the lightest, lies within them",
+        " those of the front, as a bound at one point speaks of all others",
         examples=[{"1a": 412.5}],
     )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
@@ -246,6 +246,12 @@ class ParetoFront(Model):
     )
     ends: Ends | None = Field(None, description="the ends; null if infeasible", examples=[None])
     scale: Scale | None = Field(None, description="what gaps are relative to; null if infeasible", examples=[None])
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        default_factory=dict,
+        description="largest masses that every bound of the front counts with, of webs without a limit or with one"
+        " beyond any need: it is proven that whatever the front is made of, and the lightest, lies within them",
+        examples=[{"1a": 412.5}],
+    )
     infeasibility: Infeasibility | None = Field(
         None, description="which ceilings conflict; only if infeasible", examples=[None]
     )

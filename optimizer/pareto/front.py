@@ -34,8 +34,14 @@ _END_SHARE = 0.3
 _END_STEPS = 12
 #: parts of the asked share of t, each tried where the least mass could not be certified with the one before
 _ALLOWANCES = (1.0, 0.5, 0.2)
+#: where webs have no limit, peaks are looked into up to so many times those at the ends
+_ROOM = 2.0
+#: most limits that are tried until what is found lies within
+_REACHES = 4
 #: intersections that show where the front bends before its points are spread
 _SOUNDINGS = 16
+#: share of the range to which they do
+_SOUNDED = 1e-3
 
 
 @dataclass(frozen=True)
@@ -47,7 +53,6 @@ class Point:
     proof: Multipliers  # of the corner, one row for each peak, of which the corner is what they weigh
     mass_proof: Multipliers | None  # of the mass likewise; None where the least mass was not asked for
     mass_limit: Real  # (2,) largest peaks that the bound of the mass allows
-    max_mass: Real  # (K,) kg, limits that the proof counts with
 
 
 @dataclass(frozen=True)
@@ -58,6 +63,7 @@ class Front:
     ideal: Real  # (2,) proven: no counterweights have a smaller force, none a smaller moment
     size: Real  # (2,) what gaps are relative to (:func:`_size`)
     ideal_proofs: tuple[Multipliers, Multipliers]  # of the ideal's parts, each with one row
+    trade: Trade  # within the limits that every proof counts with
     undecided: bool = False  # the ceilings are on the very boundary; the point comes closest to keeping them
 
 
@@ -78,23 +84,53 @@ def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solve
     -------
     Front, or the proof that the ceilings cannot be kept.
     """
-    alone: list[Solution] = []
-    for program in trade.alone:
-        each = within_reach(program, solver)
-        found = optima(each.alone(), _SHARPNESS, True, solver).one()
-        if isinstance(found, Unreachable):
-            return found
-        alone.append(found)
+    smallest = _smallest(trade, solver)
+    if isinstance(smallest, Unreachable):
+        return smallest
+    trade, alone = smallest
     ideal = np.array([_bound(each, found) for each, found in zip(trade.alone, alone, strict=True)])
     proofs = _of_ends(trade, alone)
-    size = _size(trade, np.array([found.unbalance for found in alone]))
+    size = _size(trade, np.array([one.unbalance for one in alone]))
     try:
-        if not all(found.keeps_ceilings for found in alone):
+        if not all(one.keeps_ceilings for one in alone):
             raise _Undecided
         points = _between(trade, ideal, proofs, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass, solver)
     except _Undecided:
-        return Front((_closest(trade, alone, ideal, proofs, least_mass),), ideal, size, proofs, undecided=True)
-    return Front(points, ideal, size, proofs)
+        points = (_closest(trade, alone, ideal, proofs, least_mass),)
+        return Front(points, ideal, size, proofs, trade, undecided=True)
+    return Front(points, ideal, size, proofs, trade)
+
+
+def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
+    """What makes each peak smallest, and the trade within the reach in which all of its front is proven.
+
+    A corner of one line is held against the points of all, so they are all to be within the same limits: those in which
+    each peak is smallest, and those in which everything lies that is no worse than twice what is found there.
+    """
+    if not trade.far:
+        return _alone(trade, solver)
+    force, moment = (within_reach(program, solver).limits.max_mass for program in trade.alone)
+    within = trade.within(np.maximum(force, moment), np.zeros(2))
+    for _ in range(_REACHES):
+        found = _alone(within, solver)
+        if isinstance(found, Unreachable):
+            return found
+        u = np.array([one.unbalance for one in found[1]])
+        peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
+        if np.all(peaks <= within.known):
+            break
+        within = trade.within(np.maximum(within.both.limits.max_mass, trade.reach(_ROOM * peaks)), _ROOM * peaks)
+    return found
+
+
+def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
+    found: list[Solution] = []
+    for program in trade.alone:
+        one = optima(program.alone(), _SHARPNESS, True, solver).one()
+        if isinstance(one, Unreachable):
+            return one
+        found.append(one)
+    return trade, found
 
 
 def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipliers]:
@@ -118,7 +154,7 @@ def _closest(
     of_mass = None
     if least_mass and found.mass_multipliers is not None:
         of_mass = trade.of_one(which, found.mass_multipliers.admissible(trade.alone[which]))
-    return Point(found, ideal, proofs[which], of_mass, limit, trade.both.limits.max_mass)
+    return Point(found, ideal, proofs[which], of_mass, np.minimum(limit, trade.known))
 
 
 def _between(
@@ -173,7 +209,7 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     share : how much of t the answer may lie above the smallest.
     """
     best: Solution | None = None
-    program = within_reach(trade.along(anchor, unit), solver)
+    program = trade.along(anchor, unit)
     for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
         found = optima(program.alone(), part * share, least_mass, solver).one()
         if isinstance(found, Unreachable):
@@ -189,11 +225,10 @@ def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float
     of_mass = best.mass_multipliers if least_mass else None
     return Point(
         best,
-        anchor + trade.parameter(_bound(program, best), anchor, unit) * unit,
+        np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.known),
         trade.per_peak(usable, unit),
         None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
-        anchor + trade.parameter(best.mass_target, anchor, unit) * unit,
-        program.limits.max_mass,
+        np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.known),
     )
 
 
@@ -278,7 +313,7 @@ def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, sol
     depth = np.zeros(sounded.size)
     for i in range(1, _SOUNDINGS):
         anchor = start + sounded[i] * step
-        point = _meet(trade, anchor, np.abs(step), False, share, solver)
+        point = _meet(trade, anchor, np.abs(step), False, max(share, _SOUNDED), solver)
         depth[i] = np.min((anchor - trade.peaks(point.solution.unbalance)) / np.abs(step))
     curve = np.array([sounded - depth, 1.0 - sounded - depth])
     length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])

@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -108,11 +108,11 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: So
     if isinstance(found, Unreachable):
         return _Made(_infeasible(request, machine, solver), solve_s, found.certify_s)
     certify_s = sum(point.solution.certify_s for point in found.points)
-    return _Made(_certified(request, machine, scene, traded, found), solve_s, certify_s)
+    return _Made(_certified(request, machine, scene, found), solve_s, certify_s)
 
 
-def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded: Trade, found: Front) -> ParetoFront:
-    points = [_point(request, machine, scene, traded, found, each) for each in found.points]
+def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front) -> ParetoFront:
+    points = [_point(request, machine, scene, found, each) for each in found.points]
     kept = undominated(points)
     square = scene.omega_squared
     ideal, scale = found.ideal * square, found.size * square
@@ -124,7 +124,7 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded
         smallest_moment_Nm=last.weighted_moment_peak_Nm,
         smallest_moment_lower_bound_Nm=float(ideal[1]),
         force_at_smallest_moment_N=last.weighted_force_peak_N,
-        multipliers=_of_ends(traded, found, square) if request.multipliers else None,
+        multipliers=_of_ends(found, square) if request.multipliers else None,
     )
     excess = max(
         (ends.smallest_force_N - ends.smallest_force_lower_bound_N) / scale[0],
@@ -143,13 +143,13 @@ def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, traded
         knee=knee(kept),
         ends=ends,
         scale=Scale(force_N=float(scale[0]), moment_Nm=float(scale[1])),
+        implied_max_mass_kg=implied_max_mass(machine, found.trade.both.limits.max_mass[None])[0],
     )
 
 
-def _point(
-    request: ParetoRequest, machine: Machine, scene: Prepared, traded: Trade, found: Front, point: Point
-) -> ParetoPoint:
-    solution, square, limits = point.solution, scene.omega_squared, traded.both.limits
+def _point(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front, point: Point) -> ParetoPoint:
+    solution, square, traded = point.solution, scene.omega_squared, found.trade
+    limits = traded.both.limits
     found_there = solution.unbalance
     if request.objective.symmetric:
         found_there = symmetric(traded.both.alone(), found_there[None])[0]
@@ -198,7 +198,7 @@ def _point(
             mass_yardstick_kg=float(judged.mass_yardstick) if request.objective.least_mass else None,
             mass_force_limit_N=limit[0],
             mass_moment_limit_Nm=limit[1],
-            implied_max_mass_kg=implied_max_mass(machine, point.max_mass[None])[0],
+            implied_max_mass_kg=implied_max_mass(machine, limits.max_mass[None])[0],
             method=solution.method,
         ),
         multipliers=_of_point(traded, point, square) if request.multipliers else None,
@@ -207,19 +207,17 @@ def _point(
 
 def _of_point(traded: Trade, point: Point, omega_squared: float) -> Multipliers:
     """The proofs of a point: of its corner, and of its mass."""
-    of_mass = point.mass_proof
-    both = replace(traded.both, limits=replace(traded.both.limits, max_mass=point.max_mass))
+    both, of_mass = traded.both, point.mass_proof
     return Multipliers(
         objective=named(both, physical(both, point.proof, "parameter", omega_squared)),
         mass=None if of_mass is None else named(both, physical(both, of_mass, "mass", omega_squared)),
     )
 
 
-def _of_ends(traded: Trade, found: Front, omega_squared: float) -> EndMultipliers:
+def _of_ends(found: Front, omega_squared: float) -> EndMultipliers:
     """The proofs of both smallest peaks."""
-    force, moment = (
-        named(traded.both, physical(traded.both, each, "objective", omega_squared)) for each in found.ideal_proofs
-    )
+    both = found.trade.both
+    force, moment = (named(both, physical(both, each, "objective", omega_squared)) for each in found.ideal_proofs)
     return EndMultipliers(smallest_force=force, smallest_moment=moment)
 
 

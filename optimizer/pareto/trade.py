@@ -1,7 +1,7 @@
 """Two peaks that are traded for one another, and the programs that stand on them."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -9,6 +9,7 @@ from optimizer.arrays import Complex, Real
 from optimizer.formulate import limited
 from optimizer.limits import limits
 from optimizer.program.certificate import Multipliers
+from optimizer.program.reach import bounded, far_limits
 from optimizer.program.statement import Norms, Statement, combined, statement, weighted_peak
 from optimizer.response import Response
 from schemas.machine import Machine
@@ -21,10 +22,13 @@ class Trade:
 
     both : the program min max(F, M), kg m and kg m^2 (over omega^2).
     alone : min F and min M.
+    known : (2,) peaks up to which all that can be reached is reached within the limits, and no heavier; inf where these
+        are the machine's own.
     """
 
     both: Statement
     alone: tuple[Statement, Statement]
+    known: Real = field(default_factory=lambda: np.full(2, np.inf))
 
     def peaks(self, u: Complex) -> Real:
         """Weighted peak force [kg m] and moment [kg m^2] with counterweights u (..., K), (..., 2)."""
@@ -43,6 +47,26 @@ class Trade:
     def at_rest(self) -> Real:
         """Peaks without counterweights (2,)."""
         return self.peaks(np.zeros(self.both.limits.radius.shape, complex))
+
+    def within(self, max_mass: Real, known: Real) -> "Trade":
+        """The same with other limits of the webs (K,), kg."""
+        both, force, moment = (
+            replace(each, limits=replace(each.limits, max_mass=max_mass)) for each in (self.both, *self.alone)
+        )
+        return Trade(both, (force, moment), known)
+
+    def reach(self, peaks: Real) -> Real:
+        """Limits of the webs (K,) [kg] within which lies all that no peak of is above these (2,), all finite.
+
+        Whatever comes to such peaks, its like lies within them: one that changes as much, and is no heavier.
+        """
+        nothing = np.zeros(2)
+        return bounded(self.along(nothing, peaks), 1.0 - self._shift(nothing, peaks)).limits.max_mass
+
+    @property
+    def far(self) -> bool:
+        """Whether a web has no limit, or one beyond any need, for a peak alone or for both."""
+        return any(np.any(far_limits(each)) for each in (*self.alone, self.both))
 
     def along(self, anchor: Real, unit: Real) -> Statement:
         """min max_i (P_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit.

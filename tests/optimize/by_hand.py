@@ -244,11 +244,11 @@ def of_front(request: JSON, front: JSON, plane: float) -> dict[str, tuple[mpf, f
     """
     body = {**request["machine"], "max_total_mass_kg": front["max_total_mass_kg"]}
     objective, ones = request["objective"], {"force": 1, "moment": 1}
-    ceilings, across = ceilings_of(objective), directions_of(objective)
+    ceilings, across, reaches = ceilings_of(objective), directions_of(objective), front["implied_max_mass_kg"]
     ends = front["ends"]
     found = {
         name: (
-            bound(body, plane, ends["multipliers"][name], ones, across, ceilings),
+            bound(body, plane, ends["multipliers"][name], ones, across, ceilings, 0, reaches),
             ends[f"{name}_lower_bound_{unit}"],
         )
         for name, unit in (("smallest_force", "N"), ("smallest_moment", "Nm"))
@@ -256,10 +256,11 @@ def of_front(request: JSON, front: JSON, plane: float) -> dict[str, tuple[mpf, f
     for k, point in enumerate(front["points"]):
         proofs, told = point["multipliers"], point["certificate"]
         corner = weighed(proofs["objective"], told["force_N"], told["moment_Nm"])
-        found[f"corner {k}"] = bound(body, plane, proofs["objective"], ones, across, ceilings), corner
+        assert told["implied_max_mass_kg"] == reaches
+        found[f"corner {k}"] = bound(body, plane, proofs["objective"], ones, across, ceilings, 0, reaches), corner
         if proofs["mass"] is not None:
             allowed = weighed(proofs["mass"], told["mass_force_limit_N"], told["mass_moment_limit_Nm"])
-            lightest = bound(body, plane, proofs["mass"], ones, across, ceilings, 1) - allowed
+            lightest = bound(body, plane, proofs["mass"], ones, across, ceilings, 1, reaches) - allowed
             found[f"mass {k}"] = max(lightest, mp.mpf(0)), told["mass_lower_bound_kg"]
     return found
 
