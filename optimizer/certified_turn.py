@@ -235,7 +235,8 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
         least = {name: _least(alone, group) for name, group in groups.items()}
     value = {name: each.goals[0].value * square for name, each in least.items()}
     bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
-    given = given_ceilings(request.objective)
+    # of all orders the ceilings are among what is limited over the turn
+    given = given_ceilings(request.objective) if request.objective.orders == "first" else []
     both = dict.fromkeys(
         (name, each.field, each.ceiling)
         for each in asked.limited

@@ -139,11 +139,6 @@ def given_ceilings(objective: Objective) -> list[tuple[Ceiling, float]]:
     return [(each, allowed) for each, allowed in all_of if allowed is not None]
 
 
-def ceilings(objective: Objective) -> Mapping[str, float]:
-    """The same by response: the largest peaks allowed, N and N m."""
-    return {each.name: allowed for each, allowed in given_ceilings(objective)}
-
-
 def limited(responses: Sequence[Response], objective: Objective) -> list[tuple[Response, float]]:
     """Responses, and components of them, that have a ceiling, with the largest peaks allowed: N and N m."""
     by_name = {response.name: response for response in responses}

@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.curve import TurnResponse
 from optimizer.errors import MissingInput
-from optimizer.formulate import RESPONSES, ceilings, weights
+from optimizer.formulate import RESPONSES, Ceiling, given_ceilings, weights
 from optimizer.formulate import limited as limited_responses
 from optimizer.limits import limits
 from optimizer.mechanics.layout import Layout
@@ -23,6 +23,7 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.cut import EXACT, Quantity, Scatter
 from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
 from optimizer.program.statement import Row, combined, weighted_peak
+from optimizer.projected import component
 from optimizer.response import Response
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.base import FieldProblem
@@ -195,11 +196,8 @@ class _Asked:
 
     def limited(self) -> Iterator[Limited]:
         """Ceilings, whatever is weighed on peaks."""
-        if self.objective.orders == "all":
-            allowed = ceilings(self.objective)
-            for each, q in zip(RESPONSES.values(), self._of_shaking(), strict=True):
-                if each.name in allowed:
-                    yield self._limited(each.ceiling_field, each.limit, q, allowed[each.name])
+        for each, allowed in given_ceilings(self.objective) if self.objective.orders == "all" else ():
+            yield self._limited(each.field, each.limit, self._of_frame_under(each), allowed)
         load, specific = self.objective.bearing_ceiling_N, self.objective.specific_load_ceiling_Pa
         if load is not None:
             for q in self._of_bearings("peak"):
@@ -214,6 +212,15 @@ class _Asked:
     def _of_shaking(self) -> range:
         """Force and moment of all orders."""
         return self._placed("shaking", lambda: [self._quantity(each) for each in shaking(self.turn, self.layout)])
+
+    def _of_frame_under(self, ceiling: Ceiling) -> int:
+        """What a ceiling limits of force or moment of all orders: all of it, or its component."""
+        name, _, axis = ceiling.name.partition(":")
+        whole = self._of_shaking()[list(RESPONSES).index(name)]
+        if not axis:
+            return whole
+        response, sense = self.quantities[whole].response, float(self.layout.sense)
+        return self._placed(ceiling.name, lambda: [self._quantity(component(response, axis, sense))])[0]
 
     def _of_roll(self) -> range:
         def moment() -> list[Quantity]:

@@ -41,8 +41,7 @@ class Turn:
     def seen(self, response: str, degrees: float) -> Number:
         """A response without counterweights at a shaft angle, as the shaft sees it."""
         machine, on_shaft = self.machine, response.partition(":")[0] in ("bearing", "bending")
-        turn = direction(degrees) + machine.blur
-        turn = turn if self.sense is ONE else turn.conjugate()
+        turn = self.turned(degrees)
         found = ZERO
         for row in self.rows:
             own = row.crank * row.axis.conjugate() * turn
@@ -59,6 +58,11 @@ class Turn:
             size = mass.product * machine.wide * self.factor(response, mass.position)
             found = found + (mass.co + machine.blur) * size
         return found * machine.square
+
+    def turned(self, degrees: float) -> Number:
+        """A unit vector that turns with the shaft."""
+        turn = direction(degrees) + self.machine.blur
+        return turn if self.sense is ONE else turn.conjugate()
 
     def factor(self, response: str, position: Number) -> Number:
         """What a unit of force in a plane adds to a response."""

@@ -4,8 +4,8 @@
 
 Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts: each is
 the response at one shaft angle, which is evaluated here from rods and masses. That no angle between is worse is not
-covered, nor are gas, friction, root mean squares, continuous shafts, goals in their order, balance shafts, scenarios
-and tolerances.
+covered, nor are gas, friction, root mean squares, roll, continuous shafts, goals in their order, balance shafts,
+scenarios and tolerances.
 verify.py, verify_curves.py, verify_program.py and verify_numbers.py have to lie beside this file.
 """
 
@@ -45,8 +45,8 @@ from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Statement, o
 
 #: fields of an objective that look at the whole turn and are known here
 FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
-
-
+#: components on the frame, of which the real part alone counts
+ALONG = [name for name in CEILINGS if ":" in name]
 #: products of cuts with rows, masses and webs that are evaluated at a time
 MOST = 30_000
 
@@ -163,6 +163,8 @@ class Program:
             if abs(p).high <= 0:
                 continue
             start, factors, cap = self._capped(limit)
+            if limit / "angle_deg" and (limit / "response").text() in ALONG:
+                p = (limit / "x").number()
             least = least + p.along(start) - abs(p) * cap
             slopes = [slope + factor * p for slope, factor in zip(slopes, factors)]
         beta = (proof / "budget").number(0.0, least=0) if machine.budget else ZERO
@@ -183,7 +185,8 @@ class Program:
         """What a ceiling limits, and how much it allows."""
         response, goal = (one / "response").text(), self.goal
         kind, _, name = response.partition(":")
-        if one / "scenario" or (one / "angle_deg" and not self.turn.knows(response)):
+        along = bool(name) and kind in NAMES
+        if one / "scenario" or (one / "angle_deg" and not self.turn.knows(kind if along else response)):
             raise NotCovered(one)
         if not one / "angle_deg":
             if response not in self.exact.caps:
@@ -191,7 +194,13 @@ class Program:
             co, counter = self.machine.before[kind]
             start = co if not name else co + counter.conjugate() * (ONE if name == "x" else -ONE)
             return start, self._factors(kind, ONE), self.exact.caps[response]
-        start = self.turn.seen(response, (one / "angle_deg").double())
+        degrees = (one / "angle_deg").double()
+        if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
+            # the real part of what is turned to the frame and to the axis
+            back = self.turn.turned(degrees) * (ONE if name == "x" else -J)
+            factors = [factor * back.conjugate() for factor in self._factors(kind, ONE)]
+            return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
+        start = self.turn.seen(response, degrees)
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":
             raise NotCovered(goal / "specific_load_ceiling_Pa")
         field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import optimizer
-from optimizer.formulate import RESPONSES, Weighable, ceilings, formulate, smallest_peak
+from optimizer.formulate import RESPONSES, Weighable, formulate, given_ceilings, smallest_peak
 from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
@@ -135,7 +135,7 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
         # half-way from what it is to what it can be
         limit = 0.5 * (float(scene.responses[2].to(free.unbalance).peak) + least.objective) * scene.omega_squared
         _register(monkeypatch, limit)
-        assert ceilings(REQUEST.objective) == {"couple": limit}
+        assert [(each.name, most) for each, most in given_ceilings(REQUEST.objective)] == [("couple", limit)]
     scene, program, found = _solved(REQUEST)
     assert program.names.terms[2].response == "couple"
     mass = np.asarray(program.mass(found.unbalance))

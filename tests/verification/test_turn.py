@@ -54,6 +54,10 @@ _KINDS: dict[str, dict[str, Any]] = {
         "machine": _machine(),
         "objective": {"orders": "all", "bearing_weight": 1e-3, "bearing_measure": "specific", "force_ceiling_N": 60000},
     },
+    "along the axes": {
+        "machine": _machine(rotation="cw"),
+        "objective": {"orders": "all", "force_ceiling_x_N": 3800, "moment_ceiling_y_Nm": 730},
+    },
     "no limits": {"machine": _machine([web("a", -0.2, None), web("c", 0.65, None)]), "objective": {"orders": "all"}},
 }
 
@@ -113,17 +117,20 @@ _PRESSURES = {"suction_pressure_Pa": 1e5, "discharge_pressure_Pa": 4e5, "ambient
 _GAS = _PRESSURES | {"relative_clearance": 0.1, "expansion_exponent": 1.2, "compression_exponent": 1.3}
 
 
-@pytest.mark.parametrize("what", ["gas", "rms", "continuous", "priorities", "tolerances"])
+@pytest.mark.parametrize("what", ["gas", "rms", "continuous", "priorities", "tolerances", "roll"])
 def test_what_is_not_covered_is_named(what: str) -> None:
     body = copy.deepcopy(_KINDS["bearings"])
     goal = body["objective"]
     where = {"rms": "/request/objective/bearing_measure", "continuous": "/request/fidelity/shaft"}
     where |= {"priorities": "/request/objective/priorities", "tolerances": "/request/tolerances"}
+    where["roll"] = "/request/objective/roll_weight"
     where["gas"] = "/request/machine/throws/0/rows/0/cylinder"
     if what == "gas":
         body["machine"]["throws"][0]["rows"][0]["cylinder"] = {"bore_m": 0.1, "acting": "head", **_GAS}
     elif what == "rms":
         goal["bearing_measure"] = "rms"
+    elif what == "roll":
+        goal["roll_weight"] = 1
     elif what == "continuous":
         body["fidelity"] = {"shaft": "continuous"}
     elif what == "tolerances":
