@@ -13,6 +13,7 @@ from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import touched_by_mass
 from optimizer.figures.proof import implied_max_mass, named, named_excess, physical
+from optimizer.figures.turn_prices import prices_over_turn
 from optimizer.fixed import beside, fixed_masses
 from optimizer.formulate import RESPONSES, given_ceilings
 from optimizer.formulate import limited as limited_responses
@@ -28,7 +29,7 @@ from optimizer.program.verdict import CONTRADICTED, INFEASIBLE, Claim, Verdict, 
 from optimizer.scene import Prepared
 from schemas.answers import Certificate, GoalReached
 from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
-from schemas.limits import MachineLimit
+from schemas.limits import MachineLimit, ShadowPrice
 from schemas.proof import BoundMultipliers, InfeasibilityMultipliers, Multipliers
 from schemas.requests import OptimizeRequest
 
@@ -94,6 +95,11 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     judged = _judged(request, asked.program, found, u, values, mass)
     late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
     ended = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. " if late else ""
+    touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
+    gap, several = float(judged.gap[0]), request.robust or request.objective.priorities
+    prices: tuple[ShadowPrice, ...] = ()
+    if not (several or np.isnan(gap)):
+        prices = prices_over_turn(posed(request), asked, found.proof, u, shown.all_of_them, touched, gap)
     return CertifiedTurn(
         str(judged.status),
         f"{ended}{judged.reason}",
@@ -103,10 +109,8 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
         found.certify_s,
         {
             **shown.fields,
-            "active_limits": tuple(
-                dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values)))
-            ),
-            "shadow_prices": (),
+            "active_limits": touched,
+            "shadow_prices": prices,
             "sensitivity": None
             if any(each.response.turning is not None for each in asked.program.quantities)
             else sensitivity.over_turn(asked.program, u, values, square),

@@ -17,8 +17,8 @@ from optimizer.certified_shapes import certified_shapes
 from optimizer.certified_turn import certified_turn
 from optimizer.errors import MissingInput
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
+from optimizer.figures.limits import of_ceilings, of_limits, quantity_of, touched_limits
 from optimizer.figures.limits import shadow_prices as priced
-from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
 from optimizer.figures.sensitivity import of_first_order
 from optimizer.fixed import beside
@@ -178,11 +178,14 @@ def _prices(
     if np.isnan(gap) or best.searched or request.machine.web_groups:
         # what limits cost those of any mass says nothing of what can be chosen, nor does one web of a group give way
         return ()
-    prices = shadow_prices(best.program, best.unbalance, best.found.multipliers)
+    machine, objective = request.machine, request.objective
+    quantity = quantity_of(machine, objective)
+    assert quantity is not None  # the first order has a weight, or the objective looks at the whole turn
+    prices = mapped(shadow_prices(best.program, best.unbalance, best.found.multipliers), lambda array: array[0])
     return priced(
-        request.machine,
-        request.objective,
-        mapped(prices, lambda array: array[0]),
+        machine,
+        quantity,
+        (*of_limits(machine, prices), *of_ceilings(objective, prices, scene.omega_squared)),
         fitted,
         touched,
         scene.omega_squared,

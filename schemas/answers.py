@@ -163,8 +163,8 @@ class OptimizeAnswer(OutputFields, Answer):
     shadow_prices: tuple[ShadowPrice, ...] = Field(
         (),
         description="price of every limit that the answer touches or that holds the objective up, webs in the "
-        "machine's order and then the machine's limits; empty if infeasible, where the objective looks at the "
-        "whole turn, and with scenarios or tolerances",
+        "machine's order and then the machine's limits; empty if infeasible, and with priorities, scenarios or "
+        "tolerances",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
     )
     worst_case: WorstCase | None = Field(

@@ -32,7 +32,9 @@ MachineLimit = Literal[
 
 
 PriceUnit = Literal[
-    "N/kg", "N/(kg m)", "N/deg", "N/N", "N/(N m)", "N m/kg", "N m/(kg m)", "N m/deg", "N m/N", "N m/(N m)"
+    "N/kg", "N/(kg m)", "N/deg", "N/N", "N/(N m)", "N/Pa",
+    "N m/kg", "N m/(kg m)", "N m/deg", "N m/N", "N m/(N m)", "N m/Pa",
+    "Pa/kg", "Pa/(kg m)", "Pa/deg", "Pa/N", "Pa/(N m)", "Pa/Pa",
 ]  # fmt: skip
 
 
@@ -44,7 +46,8 @@ class ShadowPrice(Model):
     value: float = Field(
         ge=0,
         description="fall of the objective per unit of the limit, the objective taken as a force (over the force "
-        "weight) or, where the force has no weight, as a moment; 0 if it cannot be told from 0 by the certificate",
+        "weight) or, where the force has no weight, as a moment, then as a bearing load, bending moment or roll; 0 if "
+        "it cannot be told from 0 by the certificate",
         examples=[102.8],
     )
     unit: PriceUnit = Field(description="unit of the value; sectors are opened to both sides", examples=["N/kg"])

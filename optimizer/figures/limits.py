@@ -1,6 +1,6 @@
 """Limits that counterweights touch, and what each costs, in the units of a designer: newtons per kilogram."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple, get_args
 
 import numpy as np
@@ -58,10 +58,24 @@ def touched_by_mass(machine: Machine, mass_kg: Real) -> tuple[MachineLimit, ...]
     return tuple(name for name, limit in MACHINE_LIMITS.items() if limit.touched(machine, mass_kg, nowhere))
 
 
+class Quantity(NamedTuple):
+    """What an objective is told as: the objective over a weight is of this unit."""
+
+    weight: float
+    unit: str
+
+
+def quantity_of(machine: Machine, objective: Objective) -> Quantity | None:
+    """Force, or moment where the force has no weight; None where neither has."""
+    wanted = weights(machine, objective)
+    weighed = (Quantity(float(wanted[each.name]), each.unit) for each in RESPONSES.values() if wanted[each.name] > 0)
+    return next(weighed, None)
+
+
 def shadow_prices(
     machine: Machine,
-    objective: Objective,
-    prices: ShadowPrices,
+    quantity: Quantity,
+    prices: Iterable[Priced],
     counterweights: Sequence[Counterweight],
     touched: Collection[MachineLimit],
     omega_squared: float,
@@ -72,29 +86,29 @@ def shadow_prices(
 
     Parameters
     ----------
-    prices : of one program, in objective over omega^2; ceilings force first.
+    prices : of one program, in objective over omega^2.
     touched : limits of the machine that the counterweights touch.
     gap, at_rest : certified gap, and objective without counterweights, over omega^2.
     """
-    wanted = weights(machine, objective)
-    weight, quantity = next((wanted[each.name], each.unit) for each in RESPONSES.values() if wanted[each.name] > 0)
     active = {each.web: each.active_limits for each in counterweights}
     return tuple(
         ShadowPrice(
             limit=each.limit,
             web=each.web,
             # where a whole limit is worth less than the gap its price cannot be told from 0; a limit of 0 has a price
-            value=each.price * omega_squared / weight if each.size == 0.0 or each.price * each.size > gap else 0.0,
-            unit=_UNITS[f"{quantity}/{each.unit}"],
+            value=each.price * omega_squared / quantity.weight
+            if each.size == 0.0 or each.price * each.size > gap
+            else 0.0,
+            unit=_UNITS[f"{quantity.unit}/{each.unit}"],
         )
-        for each in priced(machine, objective, prices, omega_squared)
+        for each in prices
         if each.limit in (touched if each.web is None else active[each.web])
         or each.price * each.size > _WORTH * at_rest
     )
 
 
-def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_squared: float) -> Iterator[Priced]:
-    """What every limit costs that is given, web by web, then of the machine."""
+def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
+    """What every limit of mass and place costs that is given, web by web, then of the machine."""
     of_webs = {
         name: (limit.unit, size.tolist(), limit.price(machine, prices).tolist())
         for name, limit in WEB_LIMITS.items()
@@ -109,7 +123,15 @@ def priced(machine: Machine, objective: Objective, prices: ShadowPrices, omega_s
     for limit_name, limit in MACHINE_LIMITS.items():
         if limit.size(machine) < np.inf:
             yield Priced(limit_name, None, float(limit.price(machine, prices)), float(limit.size(machine)), limit.unit)
+
+
+def of_ceilings(objective: Objective, prices: ShadowPrices, omega_squared: float) -> Iterator[Priced]:
+    """What every ceiling of the first order costs that is given."""
     for (each, allowed), price in zip(given_ceilings(objective), prices.ceiling.tolist(), strict=True):
-        unit = f"({each.unit})" if " " in each.unit else each.unit
         # an objective over omega^2 per ceiling over omega^2
-        yield Priced(each.limit, None, price / omega_squared, allowed, unit)
+        yield Priced(each.limit, None, price / omega_squared, allowed, per(each.unit))
+
+
+def per(unit: str) -> str:
+    """A unit as it stands behind a stroke."""
+    return f"({unit})" if " " in unit else unit

@@ -4,18 +4,22 @@ from typing import Any
 
 import pytest
 
-from schemas.answers import Certificate
+from schemas.answers import Certificate, OptimizeAnswer
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized
 
 
-def _certificate(objective: dict[str, Any], **more: Any) -> Certificate:
+def _answer(objective: dict[str, Any], **more: Any) -> OptimizeAnswer:
     rod = {"connecting_rod": {"length_m": 0.35, "mass_kg": 3.0}}
     throws = [throw(0.0, 0.0, [row(90.0, 10.0, **rod)], rotating=5.0), throw(0.4, 110.0, [row(60.0, 8.0, **rod)])]
     bearings = [{"name": name, "position_m": place} for name, place in (("A", -0.1), ("B", 0.2), ("C", 0.5))]
-    body = machine(throws, [web("a", -0.05, 30.0), web("b", 0.45, 30.0)], bearings=bearings, **more)
+    body = machine(throws, [web("a", -0.05, 30.0), web("b", 0.45, 30.0)], bearings=bearings) | more
     asked = {"machine": body, "objective": {**objective, "least_mass": False}, "accuracy": {"relative_gap": 1e-9}}
-    found = optimized(asked).certificate
+    return optimized(asked)
+
+
+def _certificate(objective: dict[str, Any], **more: Any) -> Certificate:
+    found = _answer(objective, **more).certificate
     assert found is not None
     return found
 
@@ -44,3 +48,37 @@ def test_the_price_of_the_budget_is_its_multiplier() -> None:
     higher, lower = (_certificate(goal, max_total_mass_kg=most).objective for most in (2.002, 1.998))
     assert found.multipliers.objective.budget > 0.0
     assert found.multipliers.objective.budget == pytest.approx((lower - higher) / 0.004, rel=1e-3)
+
+
+@pytest.mark.parametrize("orders", ["first", "all"])
+def test_prices_are_told_in_the_units_of_limits(orders: str) -> None:
+    """Independent: central differences of certified optima."""
+    sizes = {"diameter_m": 0.05, "length_m": 0.04}
+    bearings = [{"name": n, "position_m": z, **sizes} for n, z in (("A", -0.1), ("B", 0.2), ("C", 0.5))]
+    alone = {"bearing_weight": 1, "bearing_measure": "specific", "force_weight": 0, "moment_weight": 0}
+    cap = 1.02 * _certificate(alone, bearings=bearings).objective
+    goal = {"force_weight": 2.0, "orders": orders}
+
+    def found(by: float) -> OptimizeAnswer:
+        return _answer(goal | {"specific_load_ceiling_Pa": cap * (1.0 + by)}, bearings=bearings)
+
+    told, higher, lower = (found(by) for by in (0.0, 1e-3, -1e-3))
+    assert told.active_limits == ("specific_load_ceiling",)
+    (price,) = [one for one in told.shadow_prices if one.limit == "specific_load_ceiling"]
+    assert price.unit == "N/Pa"
+    assert lower.certificate is not None
+    assert higher.certificate is not None
+    fall = (lower.certificate.objective - higher.certificate.objective) / (2e-3 * cap)
+    assert price.value == pytest.approx(fall / 2.0, rel=1e-3)
+
+
+def test_a_full_web_has_a_price_of_bearing_load() -> None:
+    """Independent: central differences of certified optima."""
+    goal = {"bearing_weight": 2.0, "force_weight": 0, "moment_weight": 0}
+    found = {most: _answer(goal, webs=[web("a", -0.05, most), web("b", 0.45, 30.0)]) for most in (1.0, 1.001, 0.999)}
+    (price,) = [one for one in found[1.0].shadow_prices if one.limit == "max_mass"]
+    assert (price.web, price.unit) == ("a", "N/kg")
+    higher, lower = (found[most].certificate for most in (1.001, 0.999))
+    assert higher is not None
+    assert lower is not None
+    assert price.value == pytest.approx((lower.objective - higher.objective) / 0.002 / 2.0, rel=1e-3)
