@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 
-from tests.validation import arrangements, bodies, printed_tables, scroll, thermal
+from tests.validation import arrangements, bodies, printed_tables, rotor, scroll, thermal
 from tests.validation.comparison import Comparison, Misprint
 
 CHAPTERS: dict[str, Callable[[], Iterator[Comparison]]] = {
@@ -10,6 +10,7 @@ CHAPTERS: dict[str, Callable[[], Iterator[Comparison]]] = {
     "Tables of the 2D12": printed_tables.comparisons,
     "Rating of the 2D12": thermal.comparisons,
     "Scroll pins": scroll.comparisons,
+    "Rotor by influence coefficients": rotor.comparisons,
     "Rigid bodies in EXUDYN": bodies.comparisons,
 }
 #: chapters that need nothing but this package
@@ -19,6 +20,7 @@ AT_ONCE = tuple(title for title in CHAPTERS if "EXUDYN" not in title)
 def misprints() -> Iterator[Misprint]:
     yield from printed_tables.misprints()
     yield from arrangements.misprints()
+    yield from rotor.misprints()
 
 
 def figures(one: Misprint) -> tuple[str, ...]:
