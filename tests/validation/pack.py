@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Iterator
 
-from tests.validation import arrangements, bodies, printed_tables, rotor, scroll, thermal
+from tests.validation import arrangements, bodies, harmonics, printed_tables, rotor, scroll, thermal
 from tests.validation.comparison import Comparison, Misprint
 
 CHAPTERS: dict[str, Callable[[], Iterator[Comparison]]] = {
     "Crank arrangements": arrangements.comparisons,
+    "Harmonics of the piston": harmonics.comparisons,
     "Tables of the 2D12": printed_tables.comparisons,
     "Rating of the 2D12": thermal.comparisons,
     "Scroll pins": scroll.comparisons,
