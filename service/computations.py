@@ -25,6 +25,7 @@ class Form:
     suffix : of a file that holds it.
     headers : what a client is told about it beyond its media type.
     compressed : in itself, so that no coding makes it smaller.
+    asked : whether the function takes the request too, before the answer.
     """
 
     media_type: str
@@ -32,9 +33,18 @@ class Form:
     suffix: str
     headers: tuple[tuple[str, str], ...] = ()
     compressed: bool = False
+    asked: bool = False
+
+    def content(self, asked: Any, found: Any) -> bytes:
+        """The answer to a request in this form."""
+        write = resolve_name(self.write)
+        made: bytes = write(asked, found) if self.asked else write(found)
+        return made
 
 
 JSON = Form("application/json", "service.computations:json_bytes", ".json")
+#: media type of workbooks (.xlsx)
+XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 
 
 def json_bytes(found: "Model") -> bytes:
@@ -56,7 +66,7 @@ class Computation:
     forms : in which the answer is there; of several the header `Accept` chooses, the first for those who take all.
     options : fields of the request that the command line may give in place of the file.
     picture : () -> (title, answer) -> SVG, for the command line.
-    workbook : request, answer -> xlsx, for the command line.
+    workbook : request, answer -> xlsx, for the command line; then requests may be workbooks too.
     examples : folder of example bodies.
     long : takes seconds: such computations never occupy all workers.
     later : may be asked for as a job, by `Prefer: respond-async`.
@@ -130,6 +140,12 @@ def _picture(name: str, what: str) -> Computation:
     )
 
 
+def _workbook(write: Reference, name: str) -> Form:
+    """Request and answer as a workbook."""
+    headers = (("Content-Disposition", f'attachment; filename="{name}"'),)
+    return Form(XLSX, write, ".xlsx", headers, compressed=True, asked=True)
+
+
 COMPUTATIONS: dict[str, Computation] = {
     one.name: one
     for one in (
@@ -145,6 +161,7 @@ COMPUTATIONS: dict[str, Computation] = {
             chapters="service.report.chapters.answers:optimized",
             options=("outputs",),
             workbook="service.workbook.answers:answered",
+            forms=(JSON, _workbook("service.workbook.answers:answered", "counterweights.xlsx")),
             later=True,
         ),
         Computation(

@@ -43,8 +43,12 @@ _SUBJECT = re.compile(r"^\w+ should")
 _AFTERTHOUGHT = re.compile(r" after validation.*")
 
 
-class UnreadableJson(ValueError):
-    """The bytes are not JSON; sending them again does not help."""
+class UnreadableBody(ValueError):
+    """The bytes are not what they are announced as; sending them again does not help."""
+
+
+class UnreadableJson(UnreadableBody):
+    """The bytes are not JSON."""
 
 
 class InvalidRequest(ValueError):

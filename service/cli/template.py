@@ -13,16 +13,13 @@ Example = Annotated[str, typer.Option("--example", metavar="NAME", help="Machine
 
 def template(to: Target, example: Example = "single-horizontal") -> None:
     """Write a machine as a workbook, for `counterweight optimize machine.xlsx -o answer.xlsx`."""
-    import json
-
-    from service.documents.examples import UnknownExample, load
-    from service.workbook.files import workbook
-    from service.workbook.sheets import written
+    from service.documents.examples import UnknownExample
+    from service.documents.template import template as made
 
     if to.suffix.lower() != WORKBOOK:
         fail(f"the name of the workbook must end in {WORKBOOK}")
     try:
-        to.write_bytes(workbook(written(json.loads(load(example)))))
+        to.write_bytes(made(example))
     except UnknownExample:
         fail("there is no example of this name; `counterweight examples` lists them")
     except OSError as error:

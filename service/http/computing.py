@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import AsyncIterator, Awaitable, Callable, Sequence
+from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import ExitStack
 from typing import Annotated, BinaryIO, TypeVar
 
@@ -12,12 +12,12 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from schemas.base import Model
-from service.computations import Computation, Form
+from service.computations import XLSX, Computation, Form
 from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
 from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, coding_of, liked
-from service.http.request_body import read_body
+from service.http.request_body import announced, read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
 from service.validation import check, read_json
@@ -61,13 +61,17 @@ class Computing:
         self.limits = SizeLimits.of(settings)
 
     async def body(self, request: Request) -> bytes:
-        """The body of a request that needs the solver.
+        """The JSON body of a request that needs the solver.
 
         Raises
         ------
         NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, OverShare
         """
         self._readiness.require()
+        announced(request)
+        return await self._body(request)
+
+    async def _body(self, request: Request) -> bytes:
         body = await read_body(request, self._max_body_bytes, self._body_timeout_s, holding(request))
         if self._quotes:
             request.state.body = body
@@ -89,21 +93,24 @@ class Computing:
 
         Raises
         ------
-        NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableJson, InvalidRequest, OverShare,
+        NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableBody, InvalidRequest, OverShare,
         MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
             all of which have a row in the table of :mod:`service.http.errors`, as those of jobs have.
         """
-        form = _form(request, asked_for.forms)
-        body = await self.body(request)
+        form = _form(request, asked_for)
+        self._readiness.require()
+        workbook = announced(request, XLSX if asked_for.workbook else None) == XLSX
+        body = await self._body(request)
 
         def accept() -> Response:
             question = self.checked(asked_for.asks, body).model_dump_json().encode()
             return accepted(request, *desk_of(request).later(asked_for.name, question, idempotency_key(request)))
 
-        if asked_for.later and prefers_later(request):
+        # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows
+        if asked_for.later and prefers_later(request) and not workbook and form is asked_for.forms[0]:
             return await threads_of(request).run(holding(request).who, accept)
 
-        task = Task(asked_for, form, body, self.limits, coding_of(request))
+        task = Task(asked_for, form, body, self.limits, coding_of(request), workbook)
         with self._tracing.span(asked_for.name):
             outcome = await _while_connected(request, lambda: self._pool.run(task, holding(request).who))
         found = self._judged(outcome, asked_for.name)
@@ -141,14 +148,18 @@ class Computing:
         return outcome
 
 
-def _form(request: Request, forms: Sequence[Form]) -> Form:
-    """The form that a client accepts best; what there is in one form only is answered in that."""
-    if len(forms) == 1:
-        return forms[0]
-    offered = {form.media_type: form for form in forms}
+def _form(request: Request, asked_for: Computation) -> Form:
+    """The form that a client accepts best; of what there is in one form only, and of answers in JSON, that one."""
+    first, *others = asked_for.forms
+    if not others:
+        return first
+    offered = {form.media_type: form for form in asked_for.forms}
     form = liked(request, offered)
     if form is None:
-        raise NotAcceptable(tuple(offered))
+        if asked_for.answer is None:
+            raise NotAcceptable(tuple(offered))
+        # as it was answered before there were other forms
+        return first
     return form
 
 

@@ -29,7 +29,7 @@ from service.jobs.results import UnknownColumn
 from service.jobs.rows import UnknownJob
 from service.jobs.schema import WrongSchema
 from service.jobs.store import KeyReused, QuotaExceeded, TooManyJobs
-from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, pointer
+from service.validation import MAX_ERRORS, InvalidRequest, UnreadableBody, UnreadableJson, pointer
 from service.watch.readiness import NotReady
 from service.workers.pool import Busy, TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
@@ -122,6 +122,7 @@ _internal = _fixed(500, "Internal error", "The service failed; its log says why.
 
 FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     UnreadableJson: lambda error: Fault(400, "Unreadable JSON", f"The body is not JSON: {error}."),
+    UnreadableBody: lambda error: Fault(400, "Unreadable body", f"The body is no workbook: {error}."),
     ClientDisconnect: _fixed(400, "Incomplete request", "The body ended early."),
     NotAcceptable: _fixed(406, "Not acceptable"),
     BodyTooSlow: _fixed(408, "Body too slow"),

@@ -15,7 +15,7 @@ from starlette.responses import Response
 from schemas.base import Model
 from schemas.problem import Problem
 from schemas.sweep import SweepRequest
-from service.computations import COMPUTATIONS
+from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
 from service.guard.keys import PUBLIC
 from service.http.errors import PROBLEM_JSON
@@ -24,9 +24,12 @@ from service.http.kept import Kept
 #: statuses that every computing route may answer with
 COMPUTE_PROBLEMS = (400, 408, 413, 415, 422, 503)
 
+#: content that is no text
+BINARY: dict[str, Any] = {"schema": {"type": "string", "format": "binary"}}
+
 _REF = "#/components/schemas/{model}"
 _DESCRIPTIONS: dict[int | str, str] = {
-    400: "unreadable JSON",
+    400: "unreadable body",
     401: "no key, or a wrong one",
     403: "the key does not allow this",
     404: "no such resource",
@@ -34,7 +37,7 @@ _DESCRIPTIONS: dict[int | str, str] = {
     408: "the body did not arrive in time",
     409: "in conflict with what is there",
     413: "body too large",
-    415: "the body is not announced as JSON",
+    415: "the body is not announced as what is read here",
     422: "invalid machine or request; `errors` names the fields",
     429: "busy; `Retry-After` says when to try again",
     503: "not ready; `Retry-After` says when to try again",
@@ -61,10 +64,12 @@ def _needs_key(path: str, operation: dict[str, Any]) -> None:
         operation["responses"] |= {str(status): found for status, found in problems(401, 403, 429).items()}
 
 
-def request_body(model: type[Model], folder: str = "") -> dict[str, Any]:
-    """The body of a computing route, with the examples of a folder."""
-    content = {"schema": _ref(model), "examples": _examples(model, folder)}
-    return {"requestBody": {"required": True, "content": {"application/json": content}}}
+def request_body(model: type[Model], folder: str = "", workbook: bool = False) -> dict[str, Any]:
+    """The body of a computing route, with the examples of a folder; JSON, and a workbook where one is read."""
+    content: dict[str, Any] = {"application/json": {"schema": _ref(model), "examples": _examples(model, folder)}}
+    if workbook:
+        content[XLSX] = BINARY
+    return {"requestBody": {"required": True, "content": content}}
 
 
 def example_body(model: type[Model]) -> dict[int | str, dict[str, Any]]:

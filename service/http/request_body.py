@@ -15,7 +15,7 @@ _UTF_8 = (("charset", "utf-8"), ("charset", "utf8"))
 
 
 class UnsupportedMedia(ValueError):
-    """The body is not announced as JSON in UTF-8."""
+    """The body is not announced as something that is read here."""
 
 
 class BodyTooLarge(ValueError):
@@ -31,8 +31,6 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float, holding:
 
     Raises
     ------
-    UnsupportedMedia
-        if the content is not announced as uncompressed JSON in UTF-8.
     BodyTooLarge
         if it is, or says it is, larger than ``max_bytes``.
     BodyTooSlow
@@ -42,7 +40,6 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float, holding:
     ClientDisconnect
         if it ends early.
     """
-    require_json(request)
     # counted here and not by the framework, which answers an oversized Content-Length in plain text
     announced = request.headers.get("content-length", "")
     too_large = BodyTooLarge(f"The body is larger than {max_bytes} bytes.")
@@ -61,22 +58,30 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float, holding:
     return bytes(body)
 
 
-def require_json(request: Request) -> None:
-    """Check the announced content: ``application/json`` or ``application/*+json``, UTF-8, not compressed.
+def announced(request: Request, other: str | None = None) -> str:
+    """The announced content: ``application/json``, also for ``application/*+json``, or another media type.
+
+    Parameters
+    ----------
+    other : that is read too, if any.
 
     Raises
     ------
     UnsupportedMedia
-        if it is anything else, or nothing was announced.
+        if it is anything else, nothing was announced, it is compressed, or JSON in another code than UTF-8.
     """
     kind, parameters = _media_type(request.headers.get("content-type", "text/plain"))
+    if request.headers.get("content-encoding", "identity").strip().lower() != "identity":
+        raise UnsupportedMedia("Send the body uncompressed.")
+    if other is not None and kind == other:
+        return other
     if not (kind == "application/json" or (kind.startswith("application/") and kind.endswith("+json"))):
-        raise UnsupportedMedia("Send the body as Content-Type: application/json.")
+        known = "application/json" + ("" if other is None else f" or {other}")
+        raise UnsupportedMedia(f"Send the body as Content-Type: {known}.")
     # charset* and charset*0 are forms of mail, which HTTP does not have here
     if any(name.startswith("charset") and (name, value) not in _UTF_8 for name, value in parameters):
         raise UnsupportedMedia("Send the body in UTF-8.")
-    if request.headers.get("content-encoding", "identity").strip().lower() != "identity":
-        raise UnsupportedMedia("Send the body uncompressed.")
+    return "application/json"
 
 
 def _media_type(announced: str) -> tuple[str, list[tuple[str, str]]]:

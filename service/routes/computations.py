@@ -11,7 +11,7 @@ from starlette.responses import JSONResponse, Response
 from service.computations import COMPUTATIONS, Computation
 from service.guard.access import require
 from service.http.computing import computing_of
-from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body
+from service.http.openapi import BINARY, COMPUTE_PROBLEMS, problems, request_body
 
 
 class BytesRoute(APIRoute):
@@ -37,7 +37,7 @@ def router() -> APIRouter:
             response_model=one.answers,
             response_class=Response if one.answers is None else JSONResponse,
             responses=_responses(one),
-            openapi_extra=request_body(one.asks, one.examples),
+            openapi_extra=request_body(one.asks, one.examples, one.workbook is not None),
         )
     return made
 
@@ -52,7 +52,9 @@ def _endpoint(one: Computation) -> Callable[[Request], Coroutine[Any, Any, Respo
 
 def _responses(one: Computation) -> dict[int | str, dict[str, Any]]:
     if one.answer is not None:
-        return problems(*COMPUTE_PROBLEMS)
+        others = {form.media_type: BINARY for form in one.forms[1:]}
+        told: dict[int | str, dict[str, Any]] = {200: {"content": others}} if others else {}
+        return {**told, **problems(*COMPUTE_PROBLEMS)}
     content = {form.media_type: {"schema": {"type": "string"}} for form in one.forms}
     # what there is in one form only is answered in that
     more = (406,) if len(one.forms) > 1 else ()

@@ -1,15 +1,19 @@
 """Machines to start from."""
 
 from functools import cache
+from typing import Annotated
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Query
 from starlette.requests import Request
 from starlette.responses import Response
 
 from schemas.requests import OptimizeRequest
+from service.computations import XLSX
 from service.documents.examples import Examples, catalogue, load
+from service.documents.template import template
+from service.guard.threads import in_threads
 from service.http.kept import Kept
-from service.http.openapi import example_body, problems
+from service.http.openapi import BINARY, example_body, problems
 
 router = APIRouter(tags=["examples"])
 
@@ -35,6 +39,27 @@ async def list_examples(request: Request) -> Response:
 async def read_example(request: Request, name: str) -> Response:
     """The very body one can post to `/v1/optimize`."""
     return _example(name).answer(request)
+
+
+@router.get(
+    "/v1/template.xlsx",
+    operation_id="read_template",
+    summary="An example as a workbook, to be changed into one's own and posted",
+    response_class=Response,
+    responses={200: {"description": "a workbook", "content": {XLSX: BINARY}}, **problems(404, 422)},
+)
+@in_threads
+def read_template(
+    request: Request,
+    example: Annotated[str, Query(description="name of the example", max_length=64)] = "single-horizontal",
+) -> Response:
+    """`POST /v1/optimize` takes it with its media type, and answers with one to who accepts that."""
+    return _template(example).answer(request, **{"Content-Disposition": 'attachment; filename="machine.xlsx"'})
+
+
+@cache
+def _template(name: str) -> Kept:
+    return Kept(template(name), XLSX)
 
 
 @cache

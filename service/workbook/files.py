@@ -1,10 +1,11 @@
 """Sheets as files: xlsx, read without running anything and written without anything that runs."""
 
 import io
+import re
 import warnings
 from collections.abc import Iterator
 from typing import Any
-from zipfile import BadZipFile, ZipFile
+from zipfile import ZipFile
 
 from openpyxl import Workbook, load_workbook
 from openpyxl.cell.cell import TYPE_FORMULA
@@ -12,23 +13,31 @@ from openpyxl.styles import Font
 from openpyxl.utils import get_column_letter
 
 from service.plain import plain
+from service.validation import UnreadableBody
 from service.workbook.sheets import Cell, Misplaced, Sheets
 
 #: unpacked; a machine of a hundred webs takes a hundredth of it
 _MOST_BYTES = 20_000_000
+_MOST_PARTS = 1_000
 _MOST_LINES = 10_000
 _MOST_COLUMNS = 300
 #: of a cell, which the format allows
 _LONGEST = 32_767
 _WIDEST = 60
+#: of XML, in whatever code: no workbook has such
+_DEFINES = re.compile(rb"<\0*!\0*(?:D\0*O\0*C\0*T|E\0*N\0*T)", re.IGNORECASE)
 
 
-class UnreadableWorkbook(ValueError):
+class UnreadableWorkbook(UnreadableBody):
     """The bytes are no workbook, or one that is too large."""
 
 
-def workbook_sheets(content: bytes) -> Sheets:
+def workbook_sheets(content: bytes, most_bytes: int = _MOST_BYTES) -> Sheets:
     """The cells of a workbook; of formulas the values that were saved with them, as nothing is computed here.
+
+    Parameters
+    ----------
+    most_bytes : that it may hold unpacked.
 
     Raises
     ------
@@ -36,7 +45,7 @@ def workbook_sheets(content: bytes) -> Sheets:
     Misplaced
         if a formula has no value, or a cell holds neither number nor text.
     """
-    _require_small(content)
+    _require_small(content, most_bytes)
     try:
         with warnings.catch_warnings():
             # what it does not support, such as rules of validation, is of no use here
@@ -58,14 +67,20 @@ def workbook_sheets(content: bytes) -> Sheets:
     return found
 
 
-def _require_small(content: bytes) -> None:
+def _require_small(content: bytes, most_bytes: int) -> None:
     try:
         with ZipFile(io.BytesIO(content)) as archive:
-            size = sum(part.file_size for part in archive.infolist())
-    except (BadZipFile, ValueError) as error:
+            parts = archive.infolist()
+            if len(parts) > _MOST_PARTS or sum(part.file_size for part in parts) > most_bytes:
+                raise UnreadableWorkbook(f"it holds more than {most_bytes / 1e6:g} MB or {_MOST_PARTS} files")
+            # what is read ends where the part says that it ends; definitions could be repeated without end
+            if any(_DEFINES.search(archive.read(part)) for part in parts):
+                raise UnreadableWorkbook("it defines its own entities")
+    except UnreadableWorkbook:
+        raise
+    # whatever the library raises on files that are broken
+    except Exception as error:
         raise UnreadableWorkbook("it is no xlsx file") from error
-    if size > _MOST_BYTES:
-        raise UnreadableWorkbook(f"it holds more than {_MOST_BYTES / 1e6:g} MB")
 
 
 def _lines(values: Any, texts: Any, wrong: list[str]) -> Iterator[list[Cell]]:

@@ -12,9 +12,9 @@ import sys
 import time
 import traceback
 from collections.abc import Iterator, Mapping
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from pathlib import Path
-from pkgutil import resolve_name
 from tempfile import TemporaryFile
 from typing import BinaryIO
 
@@ -23,7 +23,7 @@ from service.coding import SMALL_BYTES, Coding, coded
 from service.computations import Computation, Form
 from service.faults import kept
 from service.guard.sizes import SizeLimits
-from service.validation import InvalidRequest, UnreadableJson, check, read_json
+from service.validation import InvalidRequest, UnreadableBody, check, read_json
 from service.workers.messages import say
 
 #: below the event loop, above the workers of sweeps
@@ -31,7 +31,7 @@ _NICENESS = 5
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
 #: faults of the request; anything else is a fault of the service
-REFUSALS = (UnreadableJson, InvalidRequest, NotComputable)
+REFUSALS = (UnreadableBody, InvalidRequest, NotComputable)
 
 
 class OutOfMemory(Exception):
@@ -44,13 +44,17 @@ class NoRoom(Exception):
 
 @dataclass(frozen=True)
 class Task:
-    """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker."""
+    """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.
+
+    workbook : whether the body is one; else it is JSON.
+    """
 
     computation: Computation
     form: Form
     body: bytes
     limits: SizeLimits
     coding: Coding | None = None
+    workbook: bool = False
 
 
 @dataclass(frozen=True)
@@ -162,11 +166,13 @@ def perform(task: Task) -> Outcome:
     """The outcome of a task; nothing escapes."""
     begun = time.perf_counter()
     try:
-        asked = check(task.computation.asks, read_json(task.body))
-        task.limits.require(asked)
-        with kept() as faults:
-            found = task.computation.function(asked)
-        content = resolve_name(task.form.write)(found)
+        body, said = _read(task)
+        with said:
+            asked = check(task.computation.asks, body)
+            task.limits.require(asked)
+            with kept() as faults:
+                found = task.computation.function(asked)
+        content = task.form.content(asked, found)
         coding = None if task.form.compressed or len(content) <= SMALL_BYTES else task.coding
         if coding is not None:
             content = coded(content, coding)
@@ -178,6 +184,17 @@ def perform(task: Task) -> Outcome:
         return Refused.because(OutOfMemory("The computation needs more memory than one request is given."))
     except Exception as error:
         return Crashed("\n".join(_frames(error)), str(error))
+
+
+def _read(task: Task) -> tuple[object, AbstractContextManager[None]]:
+    """The body, and what says where its problems are; of a workbook in which cells."""
+    if not task.workbook:
+        return read_json(task.body), nullcontext()
+    # only who sends workbooks pays for the library
+    from service.workbook.body import cells_named, read_workbook
+
+    found = read_workbook(task.body)
+    return found.body, cells_named(found)
 
 
 def _frames(error: BaseException) -> Iterator[str]:

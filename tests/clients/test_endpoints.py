@@ -41,6 +41,8 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
         (service.verify, {}, {}),
         (service.report, {}, tmp_path / "report.pdf"),
         (service.drawings, {}, tmp_path / "drawings.zip"),
+        *((service.picture, path.rpartition("/")[2], {}) for _, path in described if path.startswith("/v1/pictures/")),
+        (service.template, tmp_path / "machine.xlsx"),
         (service.later, "v1/match", {}),
         (lambda: next(service.sweeps()),),
         *((call, job) for call in (service.state, service.result, service.metadata, service.resume, service.end)),

@@ -13,13 +13,20 @@ from optimizer.analyze import analyze
 from schemas.requests import AnalyzeRequest
 
 ANGLES, PLACES = st.floats(-180.0, 180.0), st.floats(-1.0, 1.0)
-RODS = st.none() | st.fixed_dictionaries(
-    {"length_m": st.floats(0.5, 2.0), "mass_kg": st.floats(0.0, 50.0)},
-    optional={"reciprocating_share": st.floats(0.0, 1.0)},
+RODS = (
+    st.none()
+    | st.fixed_dictionaries(
+        {"length_m": st.floats(0.5, 2.0), "mass_kg": st.floats(0.0, 50.0)},
+        optional={"reciprocating_share": st.floats(0.0, 1.0)},
+    )
+    | st.just({"length_m": 0.8, "mass_kg": 40.0, "centre_of_mass_m": 0.25})
+)
+PARTS = st.just(
+    [{"name": "a", "mass_kg": 3.0, "motion": "reciprocating"}, {"name": "b", "mass_kg": 2.0, "motion": "rotating"}]
 )
 ROWS = st.fixed_dictionaries(
     {"axis_deg": ANGLES, "reciprocating_mass_kg": st.floats(1.0, 300.0), "connecting_rod": RODS},
-    optional={"offset_m": st.floats(-0.1, 0.1)},
+    optional={"offset_m": st.floats(-0.1, 0.1), "parts": PARTS},
 )
 THROWS = st.fixed_dictionaries(
     {

@@ -41,6 +41,7 @@ OPERATIONS = {
     ("get", "/v1/effects"): "list_effects",
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
+    ("get", "/v1/template.xlsx"): "read_template",
     ("get", "/healthz"): "healthz",
     ("get", "/v1/version"): "read_version",
     ("get", "/readyz"): "readyz",

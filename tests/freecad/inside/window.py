@@ -10,7 +10,7 @@ from loop import complete
 from PySide import QtCore, QtGui
 
 #: generous: the machine is busy
-_WITHIN_S = 120.0
+_WITHIN_S = 300.0
 
 
 def main():

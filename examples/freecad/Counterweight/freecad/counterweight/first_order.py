@@ -36,13 +36,20 @@ def rows(throws: Sequence[Mapping[str, Any]]) -> Iterator[Row]:
         for row in throw.get("rows", ()):
             rod = row.get("connecting_rod") or {}
             mass, share = rod.get("mass_kg", 0.0), rod.get("reciprocating_share", 1 / 3)
+            if rod.get("centre_of_mass_m") is not None:
+                share = rod["centre_of_mass_m"] / rod["length_m"]
+            parts = row.get("parts", ())
             yield (
                 throw["position_m"] + row.get("offset_m", 0.0),
                 crank,
                 radians(row["axis_deg"]),
-                row["reciprocating_mass_kg"] + share * mass,
-                (1 - share) * mass,
+                row.get("reciprocating_mass_kg", 0.0) + share * mass + _parts(parts, "reciprocating"),
+                (1 - share) * mass + _parts(parts, "rotating"),
             )
+
+
+def _parts(parts: Sequence[Mapping[str, Any]], motion: str) -> float:
+    return float(sum(part["mass_kg"] for part in parts if part["motion"] == motion))
 
 
 def _crank(throw: Mapping[str, Any]) -> complex:

@@ -31,6 +31,7 @@ Document = Dict[str, Any]
 _LATER = (429, 503)
 _ACTIVE = ("queued", "running")
 _REPORTS = {".html": "text/html", ".pdf": "application/pdf"}
+_WORKBOOK = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet"
 _TABLES = {".ndjson": "ndjson", ".csv": "csv", ".parquet": "parquet", ".arrow": "arrow"}
 
 
@@ -150,6 +151,21 @@ class Service:
             found: str = answer.read().decode()
         return found
 
+    def template(self, path: str | Path, example: str = "single-horizontal") -> Path:
+        """Write an example to a workbook, .xlsx, to be changed into a machine of one's own."""
+        target = Path(path)
+        with self._send("GET", f"v1/template.xlsx?{urlencode({'example': example})}") as answer:
+            target.write_bytes(answer.read())
+        return target
+
+    def optimize_workbook(self, machine: str | Path, path: str | Path) -> Path:
+        """Write the answer to a workbook to another one; what is refused names the cells."""
+        target = Path(path)
+        headers = {"Content-Type": _WORKBOOK, "Accept": _WORKBOOK}
+        with self._send("POST", "v1/optimize", Path(machine).read_bytes(), headers) as answer:
+            target.write_bytes(answer.read())
+        return target
+
     def sweep(self, request: Mapping[str, Any]) -> Document:
         """Start a sweep, exactly once however often this has to be tried; its state, with its ``id``."""
         return self._json("POST", "v1/sweeps", request, {"Idempotency-Key": str(uuid.uuid4())})
@@ -230,9 +246,13 @@ class Service:
         return found
 
     def _send(
-        self, method: str, path: str, body: Mapping[str, Any] | None = None, headers: Mapping[str, str] | None = None
+        self,
+        method: str,
+        path: str,
+        body: Mapping[str, Any] | bytes | None = None,
+        headers: Mapping[str, str] | None = None,
     ) -> HTTPResponse:
-        content = None if body is None else json.dumps(body, allow_nan=False).encode()
+        content = body if body is None or isinstance(body, bytes) else json.dumps(body, allow_nan=False).encode()
         kind = {} if body is None else {"Content-Type": "application/json"}
         request = Request(self._where(path), content, {**kind, **(headers or {})}, method=method)
         if self._key is not None:

@@ -1,0 +1,40 @@
+"""A workbook as the body of a request: what is wrong with it is said with its cell."""
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+
+from optimizer.errors import NotComputable
+from schemas.base import FieldProblem
+from service.validation import InvalidRequest
+from service.workbook.files import workbook_sheets
+from service.workbook.sheets import Misplaced, Read, read
+
+#: unpacked; a machine of a hundred webs takes a twentieth of it
+_MOST_BYTES = 4_000_000
+
+
+def read_workbook(content: bytes) -> Read:
+    """The request in a workbook.
+
+    Raises
+    ------
+    UnreadableWorkbook, InvalidRequest
+    """
+    try:
+        return read(workbook_sheets(content, _MOST_BYTES))
+    except Misplaced as error:
+        raise InvalidRequest(FieldProblem((), line) for line in error.lines) from None
+
+
+@contextmanager
+def cells_named(found: Read) -> Iterator[None]:
+    """Within it, what is wrong with a field is said with the cell that the field stands in."""
+    try:
+        yield
+    except (InvalidRequest, NotComputable) as error:
+        error.problems = _named(found, error.problems)
+        raise
+
+
+def _named(found: Read, problems: Sequence[FieldProblem]) -> list[FieldProblem]:
+    return [FieldProblem(one.path, f"{found.where(one)}: {one.message}") for one in problems]
