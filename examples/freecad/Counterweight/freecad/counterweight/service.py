@@ -146,7 +146,7 @@ class Service:
         return target
 
     def picture(self, name: str, request: Mapping[str, Any]) -> str:
-        """A drawing of the answer as SVG: front, side, force, moment or bearings."""
+        """A drawing of the answer as SVG: front, side, force, moment, bearings, indicator, stages or orders."""
         with self._send("POST", f"v1/pictures/{name}", request) as answer:
             found: str = answer.read().decode()
         return found
