@@ -28,11 +28,11 @@ quick: .venv/development $(kernels)
 	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/figures \
 	    tests/service/test_computations.py tests/optimize/test_optimize.py
 
-# compiled once, in a minute, not by every process that needs them;
+# compiled once, in half a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
 $(kernels): $(wildcard optimizer/program/kernel/*.py) .venv/runtime
 	rm -f $(@D)/*.nb[ic]
-	$(bin)/python -c "from optimizer.warm_up import warm_up; warm_up()"
+	$(bin)/python -m optimizer.compile_kernels
 	mkdir -p $(@D) && touch $@
 
 # the tests of the page need a browser: Debian's package, where it may be installed; else it says what is not tested
@@ -116,8 +116,9 @@ clean:
 	rm -rf .venv build artefacts
 
 .venv/runtime: requirements.txt pyproject.toml
+	@echo "installing $$(grep -c == requirements.txt) packages into .venv"
 	test -x $(bin)/python || $(PYTHON) -m venv .venv
-	$(pip) install --require-hashes --requirement requirements.txt
+	$(bin)/pip --disable-pip-version-check install --require-hashes --requirement requirements.txt
 	$(pip) install --no-deps --no-build-isolation --editable .
 	touch $@
 

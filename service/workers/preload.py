@@ -16,6 +16,9 @@ failure: str | None = None
 try:
     from pkgutil import resolve_name
 
+    # what is loaded when it is first needed, once for all workers
+    import scipy.spatial  # noqa: F401
+
     from optimizer.warm_up import warm_up
     from service.computations import COMPUTATIONS
     from service.workers import worker  # noqa: F401

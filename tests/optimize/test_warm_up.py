@@ -3,9 +3,12 @@
 import subprocess
 import sys
 from importlib import import_module
+from pathlib import Path
 
 import pytest
 
+from optimizer.compile_kernels import last_first
+from optimizer.program.kernel import symmetries
 from optimizer.warm_up import warm_up
 
 _SOLVERS = {"numba", "cvxpy", "clarabel"}
@@ -19,6 +22,16 @@ def test_both_solvers_are_loaded_and_have_run() -> None:
     )
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
     assert ran.stdout.strip() == str(sorted(_SOLVERS))
+
+
+def test_what_is_compiled_beside_is_what_answers_need() -> None:
+    """Of other types it would be kept twice: once as it is compiled beside, once as it is called."""
+    warm_up()
+    last_first()
+    kept = Path(symmetries.__file__).parent / "__pycache__"
+    version = f"py{sys.version_info.major}{sys.version_info.minor}"
+    for name in ("direction", "longest_step", "second_order", "take_step", "means", "worst_turned", "least_changes"):
+        assert len(list(kept.glob(f"*.{name}-*.{version}.*.nbc"))) <= 1, name
 
 
 def test_a_wrong_answer_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:
