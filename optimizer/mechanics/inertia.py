@@ -34,8 +34,7 @@ def rotating(layout: Layout) -> Wrench:
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
     force, couple = _summed(layout, rotating_forces(layout).co, layout.rotating.position)
-    nothing = np.zeros(force.shape, complex)
-    return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
+    return Wrench(Phasors(force, np.zeros(force.shape, complex)), Phasors(couple, np.zeros(couple.shape, complex)))
 
 
 def rotating_forces(layout: Layout) -> Phasors:
@@ -58,8 +57,8 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    force, couple = _summed(layout, np.array([forces.co, forces.counter]), layout.reciprocating.position)
-    return Wrench(Phasors(force[0], force[1]), Phasors(couple[0], couple[1]))
+    co, counter = (_summed(layout, each, layout.reciprocating.position) for each in (forces.co, forces.counter))
+    return Wrench(Phasors(co[0], counter[0]), Phasors(co[1], counter[1]))
 
 
 def reciprocating_forces(
