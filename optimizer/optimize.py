@@ -37,6 +37,7 @@ from optimizer.program.statement import Statement
 from optimizer.required import missing
 from optimizer.scene import Prepared
 from optimizer.shapes import envelopes
+from optimizer.turn_residual import with_turn
 from schemas.answers import Certificate, OptimizeAnswer, Timing
 from schemas.counterweights import Counterweight
 from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
@@ -116,6 +117,8 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
     best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
     reporting = time.perf_counter()
     figures = answered(replace(scene, shafts=best.shafts), best.unbalance, always, best.fields)
+    if request.objective.orders == "all":
+        figures["residual"] = with_turn(figures["residual"], scene, best.chosen)
     worst = _nothing_off(request, scene, best.chosen, best.fields)
     end = time.perf_counter()
     return OptimizeAnswer(

@@ -63,6 +63,23 @@ class ResidualOrders(Model):
     )
 
 
+class TurnPeaks(Model):
+    """Peaks of force and moment with all orders, each to 1e-8."""
+
+    force_peak_N: Newtons = Field(description="largest force over the turn", examples=[13010.2])
+    moment_peak_Nm: NewtonMetres = Field(description="largest moment over the turn", examples=[20110.0])
+
+
+class TurnResidual(Model):
+    """All orders without and with counterweights."""
+
+    before: TurnPeaks = Field(description="without counterweights", examples=[{"force_peak_N": 13010.2}])
+    after: TurnPeaks | None = Field(
+        description="with the counterweights; null where there are none to show (infeasible)",
+        examples=[{"force_peak_N": 6970.1}],
+    )
+
+
 class Residual(Model):
     """First order without and with counterweights, and the second that they cannot change."""
 
@@ -72,6 +89,11 @@ class Residual(Model):
         examples=[{"force": {"peak_N": 4997.4}}],
     )
     orders: ResidualOrders = Field(description="orders 1 and 2 as phasors", examples=[{"before": [{"order": 1}, None]}])
+    turn: TurnResidual | None = Field(
+        None,
+        description="peaks of all orders; null where the objective looks at the first alone",
+        examples=[{"before": {"force_peak_N": 13010.2}}],
+    )
 
 
 class Floor(Model):

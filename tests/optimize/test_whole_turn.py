@@ -49,8 +49,17 @@ def test_one_throw_shakes_with_all_orders() -> None:
     assert proof.objective == pytest.approx(0.6964692, abs=2e-6)
     assert found.counterweights[0].mass_kg == pytest.approx(0.603531, abs=1e-3)
     assert found.main_bearings is None
+    turn = found.residual.turn
+    assert turn is not None
+    assert turn.after is not None
+    assert turn.before.force_peak_N == pytest.approx(1.3, rel=1e-8)
+    assert turn.after.force_peak_N == pytest.approx(proof.objective, rel=1e-7)
+    # analytic: all of it is in one plane, of which the moment is told
+    assert turn.after.moment_peak_Nm == pytest.approx(0.0, abs=1e-12)
     # the first order alone is another program
-    assert answered(machine, moment_weight=0)[1].objective == pytest.approx(0.5, rel=3e-6)
+    first, alone = answered(machine, moment_weight=0)
+    assert alone.objective == pytest.approx(0.5, rel=3e-6)
+    assert first.residual.turn is None
 
 
 def test_bearings_of_an_inline_six() -> None:
