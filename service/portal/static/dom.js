@@ -25,14 +25,17 @@ export function s(tag, attributes, ...children) {
 /** @type {(id: string) => any} an element of whatever kind the page has there */
 export const byId = (id) => document.getElementById(id);
 
+// with more columns each row becomes a card on a phone
+const NARROW = 4;
+
 export function table(caption, heads, rows) {
   const cell = (tag, content, attributes) =>
     h(tag, typeof content === "object" && content?.number ? { class: "number", ...attributes } : attributes,
       typeof content === "object" && content?.number ? content.text : content);
   return h("div", { class: "wide", tabindex: 0, role: "region", "aria-label": caption },
-    h("table", {},
+    h("table", { class: heads.length > NARROW ? "cards" : null },
       h("caption", {}, caption),
       h("thead", {}, h("tr", {}, heads.map((head) => cell("th", head, { scope: "col" })))),
       h("tbody", {}, rows.map((row) => h("tr", {},
-        row.map((content, index) => cell(index ? "td" : "th", content, index ? {} : { scope: "row" })))))));
+        row.map((content, index) => cell(index ? "td" : "th", content, index ? { "data-head": heads[index] } : { scope: "row" })))))));
 }

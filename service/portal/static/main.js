@@ -146,6 +146,7 @@ function begin() {
   runs += 1;
   running?.abort();
   byId("problem").replaceChildren();
+  byId("trouble").textContent = "";
   byId("answer").replaceChildren();
   byId("results").classList.add("stale", "empty");
   byId("progress").textContent = "A new machine: type it, then press Optimise.";
@@ -173,6 +174,7 @@ async function run() {
     if (number !== runs) return;
     form?.clear();
     byId("problem").replaceChildren();
+    byId("trouble").textContent = "";
     showAnswer(byId("answer"), request, answer, outputs(request.machine));
     results.classList.remove("empty");
     // what was typed meanwhile is not answered
@@ -199,7 +201,12 @@ async function complain(error) {
   embedding.failed(error);
   byId("results").classList.add("stale");
   await schema.catch(() => null);
-  const homeless = form ? form.blame(error.errors ?? []) : error.errors ?? [];
+  const errors = error.errors ?? [];
+  const homeless = form ? form.blame(errors) : errors;
+  // where the eye is after the button: above it, and beside it
+  const [first] = errors;
+  byId("trouble").textContent = first ? `${first.pointer.slice(1).replaceAll("/", " ")}: ${form ? form.meant(first.pointer, first.message) : first.message}` : error.message;
+  byId("progress").textContent = errors.length > 1 ? `Not computed: ${errors.length} fields are wrong.` : "Not computed.";
   byId("problem").replaceChildren(h("h2", {}, error.title ?? "Something went wrong"), h("p", {}, error.message),
     homeless.length ? h("ul", {}, homeless.map((one) => h("li", {}, `${one.pointer}: ${one.message}`))) : "");
 }

@@ -52,10 +52,12 @@ export function refusal({ objective }, { conflict, smallest, smallest_force_N: f
   const names = conflict.map((field) => CEILINGS[field]);
   const [mostForce, mostMoment] = [objective?.force_ceiling_N, objective?.moment_ceiling_Nm];
   const asked = [mostForce == null ? null : `${written(mostForce, "N")} of force`, mostMoment == null ? null : `${written(mostMoment, "N m")} of moment`].filter(Boolean);
+  // what has no ceiling is not computed
+  const reach = [force == null ? null : `the peak force can come down to ${figure(force)} N`,
+    moment == null ? null : `the peak moment can come down to ${figure(moment)} N m`].filter(Boolean);
   return [
     names.length > 1 ? `The ceilings of ${names.join(" and ")} cannot be met, alone or together.` : `The ceiling of the ${names[0]} cannot be met.`,
-    ...(asked.length ? [`Within these limits the peak force can come down to ${figure(force)} N (all else left free) and the peak moment to ${figure(moment)} N m `
-      + `(all else left free); the ceilings ask for ${asked.join(" and ")}.`] : []),
+    ...(asked.length && reach.length ? [`Within these limits ${reach.join(" and ")} (all else left free); ${asked.length > 1 ? "the ceilings ask" : "the ceiling asks"} for ${asked.join(" and ")}.`] : []),
     ...(smallest ?? []).map((one) => {
       const unit = one.ceiling_field.split("_").at(-1).replace("Nm", "N m");
       return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling asks for ${figure(one.ceiling)} ${unit}.`;

@@ -71,6 +71,15 @@ export async function recolour() {
   }
 }
 
+// on paper plots are scaled to their column, as pictures are
+const pictures = () => document.querySelectorAll(".plot .main-svg");
+addEventListener("beforeprint", () => {
+  for (const one of pictures()) one.setAttribute("viewBox", `0 0 ${one.getAttribute("width")} ${one.getAttribute("height")}`);
+});
+addEventListener("afterprint", () => {
+  for (const one of pictures()) one.removeAttribute("viewBox");
+});
+
 // one turn is a closed line, or two where gas takes two
 export const closed = (values) => [...values, values[0]];
 const end = (angles) => 360 * (Math.floor((angles.at(-1) ?? 0) / 360) + 1);
