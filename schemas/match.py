@@ -61,6 +61,14 @@ class MatchAccuracy(Model):
         description="certified gap asked for, relative to the objective with the parts as they are listed",
         examples=[1e-3],
     )
+    time_limit_s: Annotated[float, Strict()] = Field(
+        5.0,
+        gt=0,
+        le=30,
+        description="computing time after which a search with choose_counterweights solves no more assignments and says"
+        " its gap [s]",
+        examples=[5.0],
+    )
 
 
 class MatchRequest(Ruled):

@@ -102,10 +102,13 @@ def _with_chosen(request: MatchRequest, problem: Problem) -> _Best:
     """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
     chosen, listed = Chosen(request, problem, own_solver()), problem.listed[None]
     near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(listed))[0])
+    until = time.thread_time() + request.accuracy.time_limit_s
     value, bound, below = chosen.at(listed)
     known = {_key(problem, listed[0]): (float(value[0]), float(bound[0]), listed[0])}
     cut = best_plane(problem, below, float(value[0]), near)
     for _ in range(_ROUNDS):
+        if time.thread_time() >= until:
+            break
         best, _, mass = min(known.values(), key=lambda one: one[0])
         tried = searched(problem, below, mass[None])
         new = _unknown(problem, known, tried[below.at(problem.vectors(tried)) < best])
@@ -114,15 +117,26 @@ def _with_chosen(request: MatchRequest, problem: Problem) -> _Best:
         below = _solved(problem, chosen, known, new, below)
     best, _, mass = min(known.values(), key=lambda one: one[0])
     cut = best_plane(problem, below, best, near)
-    if best - cut.least <= near and not _few(problem):
+    if (best - cut.least <= near and not _few(problem)) or time.thread_time() >= until:
         return _Best(mass, cut.least - problem.rounding, False)
-    return _proven(problem, chosen, known, below, cut.least)
+    return _proven(problem, chosen, known, below, cut.least, until)
 
 
 def _proven(
-    problem: Problem, chosen: Chosen, known: dict[bytes, tuple[float, float, Real]], below: Minorants, bound: float
+    problem: Problem,
+    chosen: Chosen,
+    known: dict[bytes, tuple[float, float, Real]],
+    below: Minorants,
+    bound: float,
+    until: float,
 ) -> _Best:
-    """The best of all assignments whose minorants leave room for a better one, where they are not too many."""
+    """The best of all assignments whose minorants leave room for a better one, where they are not too many.
+
+    Parameters
+    ----------
+    bound : what is proven of all already.
+    until : of this thread's own time, when no more are solved.
+    """
     best, _, mass = min(known.values(), key=lambda one: one[0])
     cut = best_plane(problem, below, best, 0.0)
     left = candidates(problem, below, best, cut)
@@ -136,6 +150,9 @@ def _proven(
         new = _unknown(problem, known, open_still)
         if not new.size:
             break
+        if time.thread_time() >= until:
+            _, _, mass = min(known.values(), key=lambda one: one[0])
+            return _Best(mass, max(bound, cut.least) - problem.rounding, False)
         below = _solved(problem, chosen, known, new, below)
         remaining = open_still
     best, _, mass = min(known.values(), key=lambda one: one[0])

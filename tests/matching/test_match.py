@@ -79,6 +79,19 @@ def test_unequal_directions_and_the_larger_peak(largest: bool) -> None:
     assert found.certificate.objective == pytest.approx(best, rel=1e-9)
 
 
+def test_a_search_that_has_no_time_says_its_gap() -> None:
+    """Nothing but the assignment as listed is solved, and what is proven holds for the best of all."""
+    given, classes = machine([0.0, 90.0, 180.0, 270.0], [45.0, 135.0] * 2, (-0.7, 0.7), 0.2), parts(2, 4)
+    body = {"machine": given, "parts": classes, "choose_counterweights": True}
+    best = matched(body | {"accuracy": {"relative_gap": 1e-5}}).certificate
+    ended = matched(body | {"accuracy": {"relative_gap": 1e-5, "time_limit_s": 1e-9}})
+    assert ended.certificate.lower_bound is not None
+    assert best.objective is not None
+    assert ended.status == "inaccurate"
+    assert ended.certificate.objective == pytest.approx(ended.certificate.objective_as_listed, rel=1e-5)
+    assert ended.certificate.lower_bound <= best.objective * (1 + 1e-9) < ended.certificate.objective
+
+
 @pytest.mark.parametrize("most", [0.2, 40.0])
 def test_counterweights_chosen_with_the_parts(most: float) -> None:
     """Independent: every assignment with its own optimum, where counterweights are ample and where they are not."""
