@@ -15,6 +15,7 @@ from optimizer.program.compiled import both_stages, suits_kernel
 from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, interior_point, only
+from optimizer.program.slack_rows import settle_without_slack_rows
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, OPTIMUM_SHARE, Solution, Solutions
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
@@ -78,6 +79,8 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
     size = yardstick(statement)
     share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
     found = both_stages(statement, share, demand, least_mass) if suits_kernel(statement) else None
+    if found is not None:
+        settle_without_slack_rows(statement, share, demand, least_mass, found)
     answer = _nothing(statement) if found is None else _compiled(statement, found)
     for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
         program, asked = statement.chosen(n), Asked(float(share[n]), float(demand[n]), least_mass)

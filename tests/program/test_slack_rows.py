@@ -1,0 +1,72 @@
+"""Even layouts, whose force is nothing to begin with: least masses are proven by the compiled interior point."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.certified import certified
+from optimizer.formulate import formulate, responses
+from optimizer.mechanics.inertia import reciprocating, rotating
+from optimizer.mechanics.layout import layout
+from optimizer.own_solver import own_solver
+from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
+from optimizer.program.compiled import both_stages
+from optimizer.program.slack_rows import settle_without_slack_rows
+from optimizer.program.solution import INTERIOR_POINT
+from optimizer.program.verdict import yardstick
+from schemas.requests import OptimizeRequest
+from schemas.rules import Path
+from schemas.variation import with_fields
+
+THROWS, ORDERS = 9, 120
+
+
+def even(most: float) -> OptimizeRequest:
+    """Orders of nine even throws with two webs each, in columns, the larger of force and moment."""
+    throws = [
+        {"position_m": 0.2 * t, "crank_radius_m": 0.1, "crank_angle_deg": 0.0, "rotating_mass_kg": 10,
+         "rows": [{"axis_deg": 90, "reciprocating_mass_kg": 10}]}
+        for t in range(THROWS)
+    ]  # fmt: skip
+    webs = [
+        {"name": f"{t}{side}", "position_m": 0.2 * t + off, "counterweight_radius_m": 0.15, "max_mass_kg": most}
+        for t in range(THROWS)
+        for side, off in (("a", -0.06), ("b", 0.06))
+    ]
+    machine = {"kind": "reciprocating", "speed_rpm": 600, "throws": throws, "webs": webs}
+    base = OptimizeRequest.model_validate({"machine": machine, "objective": {"combine": "max"}})
+    random = np.random.default_rng(1)
+    orders = np.array([[0, *(1 + random.permutation(THROWS - 1))] for _ in range(ORDERS)])
+    columns: dict[Path, Any] = {
+        ("machine", "throws", t, "crank_angle_deg"): 360.0 / THROWS * orders[:, t] for t in range(THROWS)
+    }
+    varied = with_fields(base, columns)
+    assert isinstance(varied, OptimizeRequest)
+    return varied
+
+
+@pytest.mark.parametrize("most", [0.3, 1.0])
+def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: float) -> None:
+    request = even(most)
+    shaft = layout(request.machine)
+    square = np.broadcast_to(shaft.omega**2, (ORDERS,))
+    asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)))
+    best = certified(request, asked, square, own_solver())
+    assert set(best.found.method) == {INTERIOR_POINT}
+    assert set(best.status) == {"optimal"}
+    # the same program as both stages leave it: some of its masses are not proven
+    program = formulate(request.machine, request.objective, asked, square)
+    share = 1e-6 * yardstick(program)
+    found = both_stages(program, share, share, True)
+    left = np.flatnonzero(~found.certified)
+    assert left.size
+    low = found.mass_lower_bound[left].copy()
+    settle_without_slack_rows(program, share, share, True, found)
+    assert np.all(found.certified)
+    assert np.all(found.mass_lower_bound[left] >= low)
+    # what is proven is proven by the multipliers of the whole program
+    assert objective_lower_bound(program, found.multipliers) == pytest.approx(found.lower_bound, rel=1e-12)
+    proven = mass_lower_bound(program, found.mass_multipliers, found.mass_target)
+    assert proven == pytest.approx(found.mass_lower_bound, rel=1e-12)
+    assert np.all(program.objective(found.unbalance) <= found.lower_bound + share * (1 + 1e-9))
