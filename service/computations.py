@@ -117,10 +117,7 @@ class Computation:
 
 def _document(suffix: str, media_type: str, write: Reference, styles: str = "", compressed: bool = False) -> Form:
     """A form of the report; a browser may do nothing while it shows one but use the styles in it."""
-    headers = (
-        ("Content-Disposition", f'inline; filename="counterweights{suffix}"'),
-        ("Content-Security-Policy", f"default-src 'none'; {styles}frame-ancestors 'none'"),
-    )
+    headers = (("Content-Security-Policy", f"default-src 'none'; {styles}frame-ancestors 'none'"),)
     return Form(media_type, write, suffix, headers, compressed)
 
 
@@ -262,7 +259,7 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="report",
             path="/v1/report",
-            request="schemas.requests:OptimizeRequest",
+            request="schemas.report:ReportRequest",
             answer=None,
             compute="service.report.document:report",
             summary="A document on a machine and its counterweights, as HTML or PDF",

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from schemas.angles import Angles
 from schemas.base import FieldProblem, Model
-from schemas.machine import ReciprocatingMachine
+from schemas.machine import Machine, ReciprocatingMachine
+from schemas.report import ReportRequest
 from schemas.requests import Scene
 from schemas.rules import Path
 from schemas.sweep import SweepRequest
@@ -57,14 +58,17 @@ class SizeLimits:
             yield from self._problems(asked.base, ("base",))
             return
         if isinstance(asked, Scene):
-            yield from self._machine_problems(asked, (*at, "machine"))
+            yield from self._machine_problems(asked.machine, (*at, "machine"))
+        if isinstance(asked, ReportRequest):
+            for index, version in enumerate(asked.versions):
+                if version.machine is not None:
+                    yield from self._machine_problems(version.machine, ("versions", index, "machine"))
         angles = getattr(asked, "angles", None)
         if isinstance(angles, Angles) and angles.count > self.angles:
             message = f"a turn may hold at most {self.angles} samples here"
             yield FieldProblem((*at, "angles", "step_deg"), message)
 
-    def _machine_problems(self, asked: Scene, at: Path) -> Iterator[FieldProblem]:
-        machine = asked.machine
+    def _machine_problems(self, machine: Machine, at: Path) -> Iterator[FieldProblem]:
         counts = {"webs": (len(machine.webs), self.webs, "webs")}
         if isinstance(machine, ReciprocatingMachine):
             counts["throws"] = (len(machine.throws), self.throws, "throws")

@@ -17,6 +17,7 @@ from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
 from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, coding_of, liked
+from service.http.file_names import file_name
 from service.http.request_body import announced, read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
@@ -116,6 +117,8 @@ class Computing:
         found = self._judged(outcome, asked_for.name)
         varies = "Accept, Accept-Encoding" if len(asked_for.forms) > 1 else "Accept-Encoding"
         headers = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
+        if found.stem is not None:
+            headers["Content-Disposition"] = f"inline; {file_name(found.stem, form.suffix)}"
         if found.coding is not None:
             headers["Content-Encoding"] = found.coding
         if found.file is None:

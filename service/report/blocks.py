@@ -128,7 +128,10 @@ class Document:
     """A document.
 
     head : names and values under the title.
+    notes : paragraphs below them.
+    opening : how many chapters come before the list of contents.
     date : ISO 8601, UTC.
+    file_stem : what a file of it is called, without the ending.
     """
 
     title: str
@@ -136,8 +139,11 @@ class Document:
     date: str
     status: Literal["optimal", "inaccurate", "infeasible"]
     head: Table
+    notes: tuple[str, ...]
+    opening: int
     chapters: tuple[Chapter, ...]
     attachment: Attachment
+    file_stem: str
 
 
 def number(value: float | None) -> Cell:

@@ -8,11 +8,13 @@ from optimizer.optimize import optimize
 from optimizer.outputs import require_inputs
 from schemas.answers import OptimizeAnswer
 from schemas.base import FieldProblem
+from schemas.report import ReportRequest
 from schemas.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts
 from service.report.chapters import balance, inputs, reproduction, verdict
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
+from service.report.chapters.versions import compared
 from service.report.chapters.workshop import sheets
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
@@ -22,9 +24,13 @@ _STATUS = {
     "inaccurate": "not certified to the accuracy asked for",
     "infeasible": "infeasible",
 }
+#: of the head of the document, as it is filed
+_HEAD = ("project", "number", "revision", "drawing", "author", "checker")
+#: chapters of the first page, which the list of contents comes after
+_OPENING = 2
 
 
-def report(request: OptimizeRequest, at: datetime | None = None) -> Document:
+def report(request: ReportRequest, at: datetime | None = None) -> Document:
     """The report on a machine: what was asked, what was found, and the proof.
 
     The eight balancing stages are in it wherever the machine gives what they need, the other outputs as asked for.
@@ -36,9 +42,9 @@ def report(request: OptimizeRequest, at: datetime | None = None) -> Document:
     Raises
     ------
     MissingInput
-        if the machine lacks what a requested output needs.
+        if the machine, or that of a version, lacks what a requested output needs.
     """
-    full, missing = _with_stages(request)
+    full, missing = _with_stages(request.alone)
     return document(request, optimize(full), missing, at or datetime.now(UTC))
 
 
@@ -53,7 +59,7 @@ def _with_stages(request: OptimizeRequest) -> tuple[OptimizeRequest, tuple[Field
 
 
 def document(
-    request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...], at: datetime
+    request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...], at: datetime
 ) -> Document:
     """The document that says what an answer says.
 
@@ -67,6 +73,7 @@ def document(
     head = facts(
         "",
         [
+            *((name, value) for name in _HEAD if (value := getattr(request.document, name)) is not None),
             ("status", _STATUS[answer.status]),
             ("date", date),
             ("computed with", used),
@@ -79,17 +86,28 @@ def document(
         date=date,
         status=answer.status,
         head=head,
+        notes=tuple(filter(None, map(str.strip, (request.document.notes or "").splitlines()))),
+        opening=_OPENING,
         chapters=tuple(_chapters(request, answer, missing)),
+        file_stem=_file_stem(request),
         attachment=Attachment("request.json", reproduction.request_json(request)),
     )
 
 
-def _chapters(request: OptimizeRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...]) -> Iterator[Chapter]:
+def _file_stem(request: ReportRequest) -> str:
+    """What a file of the document is called: machine, number, revision."""
+    known = (request.machine.name or "counterweights", request.document.number, request.document.revision)
+    return " ".join(each for each in known if each is not None)
+
+
+def _chapters(request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...]) -> Iterator[Chapter]:
+    # on the first page: what it comes to, and what is to be made
     yield verdict.result(request, answer)
-    yield inputs.inputs(request, answer.reference_plane_m)
-    yield balance.layout(request, answer)
-    yield balance.stages(request.machine, answer.stages, missing)
     yield balance.counterweights(request, answer)
+    yield balance.layout(request, answer)
+    yield from compared(request, answer)
+    yield inputs.inputs(request, answer.reference_plane_m)
+    yield balance.stages(request.machine, answer.stages, missing)
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)

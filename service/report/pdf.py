@@ -39,6 +39,8 @@ def pdf(document: Document) -> bytes:
         "date": document.date,
         "attachment": document.attachment.name,
         "head": _table(document.head),
+        "notes": [_broken(note, _LONG_WORD) for note in document.notes],
+        "opening": document.opening,
         "chapters": [
             {"title": chapter.title, "blocks": [_block(block, drawings) for block in chapter.blocks]}
             for chapter in document.chapters

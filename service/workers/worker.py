@@ -77,6 +77,7 @@ class Answer:
     resident : memory that the worker holds now [bytes].
     file : of a large content, without a name: it is gone when nobody reads it any more.
     faults : what the service found wrong with its own answer, and says in it.
+    stem : what a file of the answer is called, without the ending; None where it has no name of its own.
     """
 
     content: bytes
@@ -87,6 +88,7 @@ class Answer:
     resident: int
     file: BinaryIO | None = None
     faults: tuple[str, ...] = ()
+    stem: str | None = None
 
 
 @dataclass(frozen=True)
@@ -177,7 +179,10 @@ def perform(task: Task) -> Outcome:
         if coding is not None:
             content = coded(content, coding)
         seconds = time.perf_counter() - begun
-        return Answer(content, coding, len(content), seconds, _certified(found), _resident(), faults=tuple(faults))
+        stem = getattr(found, "file_stem", None)
+        return Answer(
+            content, coding, len(content), seconds, _certified(found), _resident(), faults=tuple(faults), stem=stem
+        )
     except REFUSALS as error:
         return Refused.because(error)
     except MemoryError:

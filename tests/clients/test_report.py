@@ -52,7 +52,7 @@ def test_a_browser_lets_the_page_have_its_styles_and_nothing_else(url: str, body
     assert headers["content-security-policy"] == (
         "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
     )
-    assert headers["content-disposition"] == 'inline; filename="counterweights.html"'
+    assert headers["content-disposition"] == 'inline; filename="V 60 degrees, equal rows, clockwise.html"'
 
 
 def test_other_forms_there_are_none(url: str, body: Any) -> None:

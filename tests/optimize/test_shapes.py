@@ -11,6 +11,7 @@ from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
+from schemas.report import ReportRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import bodies
 from service.report.document import report
@@ -226,7 +227,7 @@ def test_ceilings_that_plates_cannot_keep() -> None:
 
 
 def test_a_report_shows_the_plates() -> None:
-    document = html(report(OptimizeRequest.model_validate(asked("segment")))).decode()
+    document = html(report(ReportRequest.model_validate(asked("segment")))).decode()
     assert "segment, radii" in document
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from schemas.requests import OptimizeRequest
+from schemas.report import ReportRequest
 from service.documents.examples import load
 from service.report.blocks import Document
 from service.report.document import report
@@ -18,9 +18,9 @@ AT = datetime(2026, 2, 3, 4, 5, 6, tzinfo=UTC)
 MARKUP = "<script>x</script><b>\"'&amp; #panic() $x$ *y* _z_ {{ 7*7 }}"
 
 
-def asked(example: str, **changes: Any) -> OptimizeRequest:
+def asked(example: str, **changes: Any) -> ReportRequest:
     """The request of an example, with other fields."""
-    return OptimizeRequest.model_validate({**json.loads(load(example)), **changes})
+    return ReportRequest.model_validate({**json.loads(load(example)), **changes})
 
 
 @pytest.fixture(scope="session")
@@ -42,4 +42,4 @@ def hostile() -> Document:
     machine["throws"][0]["name"] = machine["throws"][0]["rows"][0]["name"] = MARKUP
     machine["webs"][0]["name"] = machine["bearings"][0]["name"] = MARKUP
     body["outputs"] = ["kinematics", "main_bearings"]
-    return report(OptimizeRequest.model_validate(body), AT)
+    return report(ReportRequest.model_validate(body), AT)

@@ -52,7 +52,7 @@ def test_it_says_what_was_found(made: Make) -> None:
 def test_the_request_is_attached(made: Make) -> None:
     reader, _ = read(pdf(made("v60", outputs=["orders"])))
     ((content,),) = [reader.attachments[name] for name in reader.attachments]
-    assert json.loads(content) == asked("v60", outputs=["orders"]).model_dump(mode="json")
+    assert json.loads(content) == asked("v60", outputs=["orders"]).alone.model_dump(mode="json")
     assert list(reader.attachments) == ["request.json"]
 
 
@@ -61,7 +61,10 @@ def test_names_that_are_markup_are_names(hostile: Document) -> None:
     assert text.count(re.sub(r"\s", "", MARKUP)) > 5
     assert reader.metadata is not None
     assert reader.metadata.title == MARKUP
-    assert not any("/Annots" in page for page in reader.pages)
+    # the list of contents leads to its chapters; no name leads anywhere
+    links = [link.get_object() for page in reader.pages for link in page.get("/Annots", [])]
+    assert len(links) == len(hostile.chapters)
+    assert not [link for link in links if "/A" in link and link["/A"]["/S"] != "/GoTo"]
 
 
 def test_it_does_nothing_by_itself(hostile: Document) -> None:

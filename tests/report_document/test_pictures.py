@@ -57,7 +57,7 @@ def test_bearings_stand_two_to_a_row() -> None:
 def test_it_comes_by_post_and_what_is_missing_is_named() -> None:
     client = TestClient(create_app(Settings(), warm=False))
     with client:
-        body = asked("2d12").model_dump(mode="json")
+        body = asked("2d12").alone.model_dump(mode="json")
         found = client.post("/v1/pictures/front", json=body)
         assert (found.status_code, found.headers["content-type"]) == (200, "image/svg+xml")
         assert ElementTree.fromstring(found.content).get("font-family") == "sans-serif"

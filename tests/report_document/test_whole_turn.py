@@ -7,12 +7,19 @@ import pytest
 
 from optimizer.optimize import optimize
 from schemas.limits import MachineLimit, WebLimit
+from schemas.report import ReportRequest
+from schemas.requests import OptimizeRequest
 from service.report.chapters.balance import limits
 from service.report.document import report
 from service.report.html import html
 from service.verification import checker
 from tests.optimize.whole_turn import asked, inline_six
 from tests.report_document.conftest import asked as asked_of
+
+
+def of(request: OptimizeRequest) -> ReportRequest:
+    """The report on a request."""
+    return ReportRequest.model_validate(request.model_dump())
 
 
 @pytest.mark.parametrize(
@@ -24,13 +31,13 @@ from tests.report_document.conftest import asked as asked_of
 )
 def test_the_report_names_goals_and_ceilings(objective: dict[str, Any], words: str) -> None:
     request = asked(inline_six(), **objective)
-    assert words in html(report(request)).decode()
+    assert words in html(report(of(request))).decode()
 
 
 def test_what_goals_came_to_and_their_allowance_stand_in_the_report() -> None:
     goals = [{"goal": "external", "allowance": 0.01}, {"goal": "bearings"}]
     request = asked(inline_six(), bearing_weight=1, priorities=goals)
-    document = html(report(request)).decode()
+    document = html(report(of(request))).decode()
     assert "Goals before the last, in their order" in document
     assert "as the shaft sees them" in document
 

@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from schemas.requests import OptimizeRequest
+from schemas.report import ReportRequest
 from service.report.blocks import Figure
 from service.report.document import report
 from service.report.html import html
@@ -13,7 +13,7 @@ from tests.report_document.conftest import AT, asked
 
 def test_every_part_has_a_sheet() -> None:
     body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
-    made = report(OptimizeRequest.model_validate(body), AT)
+    made = report(ReportRequest.model_validate(body), AT)
     (chapter,) = [one for one in made.chapters if one.title == "Workshop sheets"]
     sheets = [block for block in chapter.blocks if isinstance(block, Figure)]
     text = "".join(sheet.drawings[0].svg() for sheet in sheets)

@@ -7,6 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 from optimizer.optimize import optimize
+from schemas.report import ReportRequest
 from schemas.requests import OptimizeRequest
 from service.cli import app
 from service.report.document import report
@@ -21,7 +22,7 @@ BODY = {"machine": crank(), "scenarios": TWO, "tolerances": {"mass_relative": 0.
 
 
 def test_the_report_says_what_was_asked_and_what_it_costs() -> None:
-    request = OptimizeRequest.model_validate(BODY)
+    request = ReportRequest.model_validate(BODY)
     document, answer = html(report(request)).decode(), optimize(request)
     assert "Scenarios: the largest weighted objective counts" in document
     assert "mass of a counterweight, share of it" in document
@@ -33,7 +34,7 @@ def test_the_report_says_what_was_asked_and_what_it_costs() -> None:
 
 
 def test_conflicting_scenarios_are_named_in_the_report() -> None:
-    request = OptimizeRequest.model_validate({**BODY, "objective": {"force_ceiling_N": 90}})
+    request = ReportRequest.model_validate({**BODY, "objective": {"force_ceiling_N": 90}})
     assert "scenarios as it is, turned conflict" in html(report(request)).decode()
 
 

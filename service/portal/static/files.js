@@ -16,6 +16,13 @@ export const fileName = (name, ending) => `${String(name ?? "").replace(/[^\p{L}
 
 export const saveJson = (content, name) => save(new Blob([`${JSON.stringify(content, null, 2)}\n`], { type: "application/json" }), name);
 
+// the name that the service gives a file
+function named(answer) {
+  const said = answer.headers.get("content-disposition") ?? "";
+  const coded = /filename\*=UTF-8''([^;]+)/.exec(said);
+  return coded ? decodeURIComponent(coded[1]) : /filename="([^"]*)"/.exec(said)?.[1];
+}
+
 const REPORTS = { html: "text/html", pdf: "application/pdf" };
 
 // Buttons for the report on a request, with everything that the machine has data for.
@@ -28,7 +35,7 @@ export function reports(request, outputs) {
     try {
       const body = { ...request, outputs };
       const answer = await ask("POST", "v1/report", { body, headers: { Accept: REPORTS[format] } });
-      save(await answer.blob(), `counterweights.${format}`);
+      save(await answer.blob(), named(answer) ?? `counterweights.${format}`);
       said.textContent = "";
     } catch (error) {
       said.textContent = error.message;

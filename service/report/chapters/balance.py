@@ -141,7 +141,7 @@ def _rules(found: Sequence[Stage]) -> Iterator[Block]:
     ]  # fmt: skip
     if rows:
         heads = [
-            "stage", "<rule of thumb", "#share", "#mass times radius, kg m", "#peak that it leaves", "unit", "source",
+            "stage", "<rule of thumb", "#share", "#mass times radius, kg m", "#peak that it leaves", "unit", "<source",
         ]  # fmt: skip
         yield table("Customary partial balances, for comparison", heads, rows)
 

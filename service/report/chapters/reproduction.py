@@ -8,11 +8,13 @@ from typing import Any
 
 from optimizer.effects.registry import EFFECTS
 from schemas.answers import EffectUse
-from schemas.requests import OptimizeRequest
+from schemas.report import ReportRequest
 from service.report.blocks import Chapter, Listing, Paragraph, table
 
 #: characters of a line of the listing
-_LINE = 118
+_LINE = 130
+#: fields that are the document's own, and no part of the optimisation
+_DOCUMENTS = ("document", "versions")
 _PACKAGES = ("counterweight", "numpy", "scipy", "clarabel", "cvxpy")
 
 
@@ -40,9 +42,15 @@ def versions() -> dict[str, str]:
     return {name: version(name) for name in _PACKAGES}
 
 
-def request_json(request: OptimizeRequest) -> str:
+def body(request: ReportRequest) -> dict[str, Any]:
+    """The request as it was read; what is the document's own only where it is given."""
+    found = request.model_dump(mode="json")
+    return {name: value for name, value in found.items() if name not in _DOCUMENTS or name in request.model_fields_set}
+
+
+def request_json(request: ReportRequest) -> str:
     """The request as it was read: SI units, defaults filled in, sorted keys, ASCII only."""
-    return "\n".join(_lines(request.model_dump(mode="json"), _LINE))
+    return "\n".join(_lines(body(request), _LINE))
 
 
 def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:
@@ -78,18 +86,20 @@ def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:
     yield end
 
 
-def digest(request: OptimizeRequest) -> str:
+def digest(request: ReportRequest) -> str:
     """SHA-256 of the request as JSON without blanks, keys sorted, ASCII only."""
-    content = json.dumps(request.model_dump(mode="json"), sort_keys=True, separators=(",", ":"))
+    content = json.dumps(body(request), sort_keys=True, separators=(",", ":"))
     return hashlib.sha256(content.encode()).hexdigest()
 
 
-def appendix(request: OptimizeRequest) -> Chapter:
+def appendix(request: ReportRequest) -> Chapter:
     """The request and its digest."""
+    own = [name for name in _DOCUMENTS if name in request.model_fields_set]
+    without = f" without {' and '.join(own)}" if own else ""
     words = (
         "This request, posted to /v1/report or given to the command counterweight report, makes this document again; "
-        "posted to /v1/optimize it answers the same figures as JSON. It is the request as it was read: numbers in SI "
-        "units, defaults filled in."
+        f"posted to /v1/optimize{without} it answers the same figures as JSON. It is the request as it was read: "
+        "numbers in SI units, defaults filled in."
     )
     check = (
         "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "

@@ -1,0 +1,142 @@
+"""Versions of a design beside the one of the report: what differs, and what each comes to."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+from optimizer.analyze import analyze
+from optimizer.errors import MissingInput
+from optimizer.optimize import optimize
+from schemas.answers import OptimizeAnswer
+from schemas.base import FieldProblem
+from schemas.counterweights import Counterweight
+from schemas.first_order import FirstOrder
+from schemas.report import ReportRequest, Version
+from schemas.requests import AnalyzeRequest
+from service.report.blocks import Block, Chapter, Paragraph, Table, digits, table
+from service.report.chapters.balance import shown
+from service.validation import pointer
+
+#: differences of a version that are listed; of more it is said how many there are
+_MOST = 30
+_THIS = "this one"
+_MISSING = object()
+
+
+class Column(NamedTuple):
+    """A version, computed."""
+
+    name: str
+    status: str
+    left: FirstOrder | None
+    mass_kg: float | None
+    fitted: Sequence[Counterweight]
+
+
+def compared(request: ReportRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
+    """The chapter, where there are versions.
+
+    Raises
+    ------
+    MissingInput
+        if the machine of a version lacks what its objective needs.
+    """
+    if not request.versions:
+        return
+    columns = [
+        Column(_THIS, answer.status, shown(answer)[1], answer.total_mass_kg, answer.counterweights),
+        *(_computed(request, place) for place in range(len(request.versions))),
+    ]
+    yield Chapter("Versions compared", (_figures(columns), _weights(columns), *_differences(request)))
+
+
+def _computed(request: ReportRequest, place: int) -> Column:
+    version = request.versions[place]
+    try:
+        if version.counterweights is not None:
+            machine = version.machine or request.machine
+            given = analyze(AnalyzeRequest(machine=machine, counterweights=version.counterweights))
+            left = given.residual.after if given.residual is not None else None
+            return Column(version.name, "given", left, given.total_mass_kg, given.counterweights)
+        found = optimize(request.asked_of(version))
+    except MissingInput as error:
+        raise MissingInput(FieldProblem(("versions", place, *path), said) for path, said in error.problems) from None
+    return Column(version.name, found.status, shown(found)[1], found.total_mass_kg, found.counterweights)
+
+
+def _figures(columns: Sequence[Column]) -> Table:
+    """Key figures, a column for each version, and by how much each differs from the first."""
+    rows: list[tuple[str | float | None, ...]] = [("counterweights", *(one.status for one in columns))]
+    figures = (
+        ("peak force, N", [one.left.force.peak_N if one.left else None for one in columns]),
+        ("peak moment, N m", [one.left.moment.peak_Nm if one.left else None for one in columns]),
+        ("total mass, kg", [one.mass_kg for one in columns]),
+    )
+    for name, values in figures:
+        rows.append((name, *values))
+        rows.append(("difference", "", *(_change(values[0], value) for value in values[1:])))
+    return table("Peaks of the first order, and mass", ["", *(f"#{one.name}" for one in columns)], rows)
+
+
+def _change(was: float | None, now: float | None) -> str:
+    if was is None or now is None:
+        return "–"
+    if not was:
+        return "0 %" if not now else "–"
+    # zero has no sign
+    return f"{100 * (now - was) / was + 0.0:+.2f} %".replace("-", "−") if now != was else "0 %"
+
+
+def _weights(columns: Sequence[Column]) -> Table:
+    """Mass and angle on every web of any version."""
+    webs = dict.fromkeys(one.web for column in columns for one in column.fitted)
+    by_web = [{one.web: one for one in column.fitted} for column in columns]
+    rows = [(web, *(_weight(fitted.get(web)) for fitted in by_web)) for web in webs]
+    return table("Counterweights: mass, kg, and angle, deg", ["web", *(column.name for column in columns)], rows)
+
+
+def _weight(one: Counterweight | None) -> str:
+    return "none" if one is None or not one.mass_kg else f"{digits(one.mass_kg)} at {digits(one.angle_deg)}"
+
+
+def _differences(request: ReportRequest) -> Iterator[Block]:
+    """What each version changes in machine and objective."""
+    rows: list[tuple[str, ...]] = []
+    for version in request.versions:
+        found = list(_changes(request, version))
+        rows += [(version.name, *each) for each in found[:_MOST]]
+        if len(found) > _MOST:
+            rows.append((version.name, f"and {len(found) - _MOST} more", "", ""))
+    if rows:
+        yield table("What differs", ["version", "<field", "this one", "there"], rows)
+    else:
+        yield Paragraph("Machine and objective are the same in all of them.")
+
+
+def _changes(request: ReportRequest, version: Version) -> Iterator[tuple[str, str, str]]:
+    for name in ("machine", "objective"):
+        other = getattr(version, name)
+        if other is not None:
+            yield from _apart((name,), getattr(request, name).model_dump(mode="json"), other.model_dump(mode="json"))
+
+
+def _apart(path: tuple[str | int, ...], one: Any, other: Any) -> Iterator[tuple[str, str, str]]:
+    """Fields that differ: pointer, value here, value there."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping):
+        for key in dict.fromkeys([*one, *other]):
+            yield from _apart((*path, key), one.get(key, _MISSING), other.get(key, _MISSING))
+    elif isinstance(one, list) and isinstance(other, list) and len(one) == len(other):
+        for index, pair in enumerate(zip(one, other, strict=True)):
+            yield from _apart((*path, index), *pair)
+    elif one != other:
+        yield pointer(path), _short(one), _short(other)
+
+
+def _short(value: Any) -> str:
+    """A value in words."""
+    if value is None or value is _MISSING:
+        return "none"
+    if isinstance(value, list):
+        return f"{len(value)} of them"
+    if isinstance(value, Mapping):
+        return "given"
+    return digits(value) if isinstance(value, float) else str(value)
