@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
@@ -132,7 +132,7 @@ class Pool:
             with fail_after(self.timeout_s):
                 async with self._turns.turn(owner, task.computation.long):
                     computing = True
-                    return await self._computed(task)
+                    return await self._computed(replace(task, behind=self._turns.more(owner)))
         except Full:
             self.counts.refused_busy += 1
             raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size))) from None

@@ -48,6 +48,10 @@ class Turns:
         """How many wait."""
         return sum(map(len, self._waiting.values()))
 
+    def more(self, owner: str) -> bool:
+        """Whether an owner has more than one turn, or waits for one."""
+        return self._running[owner] > 1 or owner in self._waiting
+
     @asynccontextmanager
     async def turn(self, owner: str, long: bool) -> AsyncIterator[None]:
         """Wait for a turn, and have it.

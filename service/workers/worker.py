@@ -12,8 +12,10 @@ import sys
 import time
 import traceback
 from collections.abc import Iterator, Mapping
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from tempfile import TemporaryFile
 from typing import BinaryIO
@@ -26,8 +28,8 @@ from service.guard.sizes import SizeLimits
 from service.validation import InvalidRequest, UnreadableBody, check, read_json
 from service.workers.messages import say
 
-#: below the event loop, above the workers of sweeps
-_NICENESS = 5
+#: below the event loop, above the workers of sweeps; and so much more for a client of whom more is computed or waits
+_NICENESS, _BEHIND = 2, 3
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
 #: faults of the request; anything else is a fault of the service
@@ -47,6 +49,7 @@ class Task:
     """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.
 
     workbook : whether the body is one; else it is JSON.
+    behind : whether it is computed behind what others have asked for.
     """
 
     computation: Computation
@@ -55,6 +58,7 @@ class Task:
     limits: SizeLimits
     coding: Coding | None = None
     workbook: bool = False
+    behind: bool = False
 
 
 @dataclass(frozen=True)
@@ -137,11 +141,13 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     preload = sys.modules.get("service.workers.preload")
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
-        with connection.makefile("rb") as asked:
+        # a thread is as nice as it says and starts with its first task; a process that was nice once may not go back
+        with connection.makefile("rb") as asked, ThreadPoolExecutor(1, initializer=partial(os.nice, _BEHIND)) as behind:
             while True:
                 task: Task = pickle.load(asked)
-                _send(connection, perform(task), folder)
-                del task
+                outcome = behind.submit(perform, task).result() if task.behind else perform(task)
+                _send(connection, outcome, folder)
+                del task, outcome
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
 

@@ -23,6 +23,13 @@ def quick(_: OptimizeRequest) -> Problem:
     return _DONE
 
 
+def niceness(_: OptimizeRequest) -> Problem:
+    """How nice the thread that computes it is, and the process that it belongs to."""
+    own, process = (os.getpriority(os.PRIO_PROCESS, each) for each in (0, os.getpid()))
+    time.sleep(0.2)
+    return Problem(**{**_DONE.model_dump(), "title": f"{own} {process}"})
+
+
 def slow(_: OptimizeRequest) -> Problem:
     time.sleep(1)
     return _DONE

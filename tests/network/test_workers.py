@@ -1,5 +1,6 @@
 """The pool of workers: what becomes of tasks that are slow, hungry, faulty, deadly, or nobody's any more."""
 
+import json
 import os
 import signal
 import time
@@ -50,6 +51,24 @@ def test_it_answers(pool: Pool) -> None:
     assert b'"title":"t"' in found.content
     assert found.certified is None
     assert found.resident > 10_000_000
+
+
+def test_who_asks_for_more_is_computed_behind_the_others(pool: Pool) -> None:
+    def said(*found: object) -> list[list[int]]:
+        return [
+            [int(each) for each in json.loads(one.content)["title"].split()] for one in found if isinstance(one, Answer)
+        ]
+
+    here = os.getpriority(os.PRIO_PROCESS, 0)
+    first, behind = (min(19, here + nicer) for nicer in (2, 5))
+    assert said(*run(pool, task(tasks.niceness))) == [[first, first]]
+    many = said(*run(pool, *[task(tasks.niceness)] * 4))
+    assert len(many) == 4
+    # at least the first two, which begin together; the last may be alone when it begins
+    assert [own for own, _ in many[:2]] == [behind] * 2
+    assert {process for _, process in many} == {first}
+    # and whoever is alone again is not behind anybody
+    assert said(*run(pool, task(tasks.niceness))) == [[first, first]]
 
 
 def test_a_task_that_takes_too_long_is_ended_with_its_worker(pool: Pool) -> None:
