@@ -8,16 +8,20 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test quick chromium freecad lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared quick chromium freecad lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
 run: $(kernels)
 	$(bin)/counterweight serve
 
-# on two cores; the tests of a file stay together, with the server that they share
-test: lint chromium freecad $(kernels)
+# on two cores; the tests of a file stay together, with the server that they share. What is downloaded comes while the
+# code is checked and compiled
+test: .venv/development
+	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
 	$(bin)/pytest --numprocesses 2 --dist loadfile -m "not nightly"
+
+prepared: lint freecad $(kernels)
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)
@@ -39,8 +43,8 @@ $(kernels): $(wildcard optimizer/program/kernel/*.py) .venv/runtime
 chromium: .venv/development
 	$(bin)/python -m tests.browser.chromium
 
-# as the tests of the workbench need FreeCAD: some minutes of installing, once
-freecad: .venv/development
+# as the tests of the workbench need FreeCAD: some minutes of installing, once; packages are installed by one at a time
+freecad: chromium
 	$(bin)/python -m tests.freecad.freecad
 
 lint: .venv/development
