@@ -15,7 +15,7 @@ DATA = 2.0**-48  # of itself: what every datum in a figure may be off by, becaus
 
 # ---- numbers
 
-BITS = 800
+BITS = 1120
 
 
 class Number:

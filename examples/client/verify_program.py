@@ -24,6 +24,7 @@ from verify_numbers import (
 )
 
 NOTHING = 1e-230  # in the unit of a figure: what doubles do not tell from 0
+NO_SPAN = 1e-250  # m: a machine that is no longer has no length, and 1 m counts as its span
 
 # ---- the machine
 
@@ -90,7 +91,7 @@ class Machine:
         self.plane = plane.number() if plane else self.asked_plane
         ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
         span = real(max(ends)) - real(min(ends))
-        self.span = span if span.low > real(NOTHING).high else ONE
+        self.span = span if span.low > real(NO_SPAN).high else ONE
         self.groups = _groups(place)
         #: what is there already: the program chooses beside it, within what it leaves of the budget
         there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]

@@ -14,7 +14,7 @@ from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
 from service.verification import checker
 from tests.verification.anything import JSON, judged, paths, replaced
-from tests.verification.checking import broken, verdict
+from tests.verification.checking import broken, optimized, verdict
 from tests.verification.kinds import SINGLE
 from tests.verification.tampering import beyond_limits, tampered
 
@@ -66,6 +66,21 @@ def test_a_hair_of_mass_is_told_to_what_counts() -> None:
     assert certificate["mass_yardstick_kg"] == pytest.approx(1e-4, rel=1e-12)
     certificate["mass_yardstick_kg"] *= 1 + 1e-6
     assert any(one.startswith("yardstick") for one in broken(body, answer))
+
+
+@pytest.mark.parametrize(("span", "mass"), [(1e-249, 0.5), (1e-235, 0.5), (1e-251, 1.0)])
+def test_a_span_is_told_from_none_as_the_service_tells_it(span: float, mass: float) -> None:
+    """Analytic: one web, so far from the throw that force and moment over the span fall and rise alike."""
+    machine = {
+        "kind": "reciprocating",
+        "speed_rpm": 9.549296585513721,
+        "throws": [{"position_m": 0, "crank_radius_m": 1, "crank_angle_deg": 0, "rotating_mass_kg": 1, "rows": []}],
+        "webs": [{"name": "a", "position_m": span, "counterweight_radius_m": 1, "max_mass_kg": 1}],
+    }
+    body = {"machine": machine, "objective": {"combine": "max"}}
+    answer = optimized(body)
+    # the moment of u at the span, weighed by 1/span, is u; the force is 1 - u
+    assert answer.total_mass_kg == pytest.approx(mass, rel=1e-5)
 
 
 def test_what_missing_limits_imply_need_not_be_believed() -> None:
