@@ -43,6 +43,9 @@ class RelativeLeaks(Model):
     )
 
 
+StageNumber = Annotated[int, Strict(), Field(ge=1, le=MAX_STAGES)]
+
+
 class CompressionStage(Ruled):
     """One stage: its cylinders, which are all alike, and what is known of its losses."""
 
@@ -195,6 +198,13 @@ class RatingRequest(Ruled):
     discharge_temperature_limit_K: Kelvin = Field(
         433.15, description="discharge temperature above which the answer warns", examples=[433.15]
     )
+    tandems: tuple[tuple[StageNumber, ...], ...] = Field(
+        (),
+        max_length=MAX_STAGES,
+        description="numbers of stages, from 1, whose pistons share a rod, in tandem or as steps of one piston: their "
+        "gas forces add. The crank side of a step has the smaller step for its piston rod",
+        examples=[[[1, 2]]],
+    )
     rated_rod_load_N: Annotated[float | None, Field(gt=0, le=1e15), Unit("N")] = Field(
         None, description="gas force that the frame is built for; above it the answer warns", examples=[120000.0]
     )
@@ -243,6 +253,7 @@ class RatingRequest(Ruled):
             unsaid = stage.piston_rod_diameter_m is None and not self.piston_rods
             path = ("stages", index, "piston_rod_diameter_m")
             yield Rule(unsaid, path, "give it, or piston_rods to choose from")
+        yield from self._tandem_rules()
         falls = self.discharge_pressure_Pa <= self.suction_pressure_Pa
         yield Rule(falls, ("discharge_pressure_Pa",), "must be above the suction pressure")
         if self.interstage_pressures_Pa is not None and not falls:
@@ -258,6 +269,18 @@ class RatingRequest(Ruled):
             outside = self.relative_humidity > 0 and not COLDEST_STEAM_K <= temperature <= HOTTEST_STEAM_K
             message = f"must be from {COLDEST_STEAM_K} to {HOTTEST_STEAM_K} K where the gas is humid"
             yield Rule(outside, ("stages", index, "suction_temperature_K"), message)
+
+    def _tandem_rules(self) -> Iterator[Rule]:
+        seen: set[int] = set()
+        for index, tandem in enumerate(self.tandems):
+            yield Rule(len(tandem) < 2, ("tandems", index), "takes at least two stages")
+            for place, number in enumerate(tandem):
+                path = ("tandems", index, place)
+                yield Rule(number > len(self.stages), path, "there is no stage of this number")
+                yield Rule(number in seen, path, "this stage is on a rod already")
+                seen.add(number)
+            counts = {self.stages[number - 1].cylinders for number in tandem if number <= len(self.stages)}
+            yield Rule(len(counts) > 1, ("tandems", index), "stages that share rods have as many cylinders each")
 
     def _interstage_rules(self, between: tuple[float, ...]) -> Iterator[Rule]:
         if len(between) != len(self.stages) - 1:

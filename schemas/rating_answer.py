@@ -153,6 +153,15 @@ class ChoiceStep(Model):
     motor_power_W: Watts = Field(description="motor needed, with its margin", examples=[1394074.0])
 
 
+class TandemLoads(Model):
+    """Gas forces in a rod that several pistons share, with the built sizes; positive in rod tension."""
+
+    stages: tuple[int, ...] = Field(description="numbers of the stages, from 1", examples=[[1, 2]])
+    outer_N: Newtons = Field(description="at the outer dead centre", examples=[-181000.0])
+    inner_N: Newtons = Field(description="at the inner dead centre", examples=[152000.0])
+    largest_N: Newtons = Field(description="the larger of the two in size", examples=[181000.0])
+
+
 class Choice(Model):
     """What was chosen from the tables of the request."""
 
@@ -197,6 +206,9 @@ class RatingAnswer(Answer):
     )
     capacity_share: float = Field(description="that over the asked capacity", examples=[0.974])
     stages: tuple[StageRating, ...] = Field(description="the stages in the order of the request", examples=[[]])
+    tandem_loads: tuple[TandemLoads, ...] = Field(
+        (), description="gas forces of stages that share rods, one for each of `tandems`", examples=[[]]
+    )
     largest_rod_load_N: Newtons = Field(
         description="largest gas force in a piston rod at a dead centre, with the built sizes", examples=[239937.4]
     )

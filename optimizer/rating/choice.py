@@ -8,6 +8,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import NamedTuple
 
 from optimizer.errors import refuse
+from optimizer.rating.loads import rod_loads
 from schemas.base import FieldProblem
 from schemas.rating import RatingRequest
 from schemas.rating_answer import Choice, ChoiceStep, RatingAnswer
@@ -44,7 +45,7 @@ def chosen(request: RatingRequest, rated: Rated) -> RatingAnswer:
         motor = motors[state.motor] if motors else None
         speed = request.speed_rpm if motor is None or motor.speed_rpm is None else motor.speed_rpm
         answer = rated(request.model_copy(update={"speed_rpm": speed}), diameters)
-        loads = [stage.actual_loads.largest_N for stage in answer.stages]
+        loads = rod_loads([stage.actual_loads for stage in answer.stages], answer.tandem_loads)
         steps.append(
             ChoiceStep(
                 speed_rpm=speed,

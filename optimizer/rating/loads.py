@@ -1,7 +1,9 @@
 """Gas forces in the piston rod at the dead centres."""
 
+from collections.abc import Sequence
+
 from optimizer.rating.sizes import Acting
-from schemas.rating_answer import CylinderSize, DeadCentre, GasLoads
+from schemas.rating_answer import CylinderSize, DeadCentre, GasLoads, TandemLoads
 
 
 def gas_loads(p1: float, p2: float, ambient: float, acting: Acting, size: CylinderSize) -> GasLoads:
@@ -18,6 +20,25 @@ def gas_loads(p1: float, p2: float, ambient: float, acting: Acting, size: Cylind
     outer = _dead_centre(p2 if head_works else ambient, p1 if crank_works else ambient, size)
     inner = _dead_centre(p1 if head_works else ambient, p2 if crank_works else ambient, size)
     return GasLoads(outer=outer, inner=inner, largest_N=max(abs(outer.gas_force_N), abs(inner.gas_force_N)))
+
+
+def tandem_loads(stages: Sequence[int], loads: Sequence[GasLoads]) -> TandemLoads:
+    """Gas forces [N] of pistons on one rod: their sums at each dead centre.
+
+    Parameters
+    ----------
+    stages : numbers from 1 of those on the rod.
+    loads : of every stage.
+    """
+    outer = sum(loads[number - 1].outer.gas_force_N for number in stages)
+    inner = sum(loads[number - 1].inner.gas_force_N for number in stages)
+    return TandemLoads(stages=tuple(stages), outer_N=outer, inner_N=inner, largest_N=max(abs(outer), abs(inner)))
+
+
+def rod_loads(loads: Sequence[GasLoads], tandems: Sequence[TandemLoads]) -> list[float]:
+    """Largest gas force [N] in the rod of every stage, which may carry others too."""
+    shared = {number: tandem.largest_N for tandem in tandems for number in tandem.stages}
+    return [shared.get(number, one.largest_N) for number, one in enumerate(loads, 1)]
 
 
 def _dead_centre(head: float, crank: float, size: CylinderSize) -> DeadCentre:

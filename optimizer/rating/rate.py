@@ -13,7 +13,7 @@ from optimizer.rating.curves import (
 )
 from optimizer.rating.customary import machine_warnings, stage_warnings
 from optimizer.rating.design import StageDesign, design, suction_per_capacity
-from optimizer.rating.loads import gas_loads
+from optimizer.rating.loads import gas_loads, rod_loads, tandem_loads
 from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
 from optimizer.rating.ratios import discharge_temperature
 from schemas.cylinder import Cylinder
@@ -45,7 +45,9 @@ def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
         built[0].size.swept_volume_m3, request.speed_rpm, built[0].coefficients.delivery
     ) / suction_per_capacity(request)
     share = capacity / request.capacity_m3_per_min
-    loads = [stage.actual_loads.largest_N for stage in stages]
+    gas = [stage.actual_loads for stage in stages]
+    tandems = tuple(tandem_loads(numbers, gas) for numbers in request.tandems)
+    loads = rod_loads(gas, tandems)
     indicated = sum(stage.indicated_power_W for stage in stages)
     shaft = shaft_power(indicated, request.mechanical_efficiency)
     motor = motor_power(shaft, request.motor_margin, request.drive_efficiency)
@@ -55,6 +57,7 @@ def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
         capacity_m3_per_min=capacity,
         capacity_share=share,
         stages=stages,
+        tandem_loads=tandems,
         largest_rod_load_N=max(loads),
         indicated_power_W=indicated,
         shaft_power_W=shaft,

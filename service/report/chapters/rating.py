@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterator, Sequence
 
 from schemas.rating import RatingRequest
-from schemas.rating_answer import Choice, RatingAnswer, StageRating
-from service.report.blocks import Chapter, Paragraph, facts, table
+from schemas.rating_answer import Choice, RatingAnswer, StageRating, TandemLoads
+from service.report.blocks import Chapter, Paragraph, Table, facts, table
 
 _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
     ("cylinders", "", lambda one: one.cylinders),
@@ -41,6 +41,17 @@ _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (
 )
 
 
+def _tandems(names: Sequence[str], found: Sequence[TandemLoads]) -> Iterator[Table]:
+    """Rods that several pistons share."""
+    if found:
+        rows = [
+            (" and ".join(names[number - 1] for number in one.stages), one.outer_N, one.inner_N, one.largest_N)
+            for one in found
+        ]
+        heads = ["stages", "#outer dead centre, N", "#inner dead centre, N", "#largest, N"]
+        yield table("Gas loads of rods that several pistons share", heads, rows)
+
+
 def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
     """Stages, totals and warnings."""
     names = [one.name or str(place) for place, one in enumerate(answer.stages, 1)]
@@ -59,7 +70,7 @@ def rated(_: RatingRequest, answer: RatingAnswer) -> Iterator[Chapter]:
             ("motor power, W", answer.motor_power_W),
         ],
     )
-    yield Chapter("Machine", (totals,))
+    yield Chapter("Machine", (totals, *_tandems(names, answer.tandem_loads)))
     if answer.choice is not None:
         yield _chosen(names, answer.choice)
     heads = ["stage", "loss at suction", "loss at discharge", "temperature coefficient"]
