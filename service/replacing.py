@@ -7,6 +7,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import BinaryIO
 
+#: what the name of a file begins with that is not whole yet
+HALF = "."
+
 
 @contextmanager
 def replaced(path: Path, mode: int = 0o666) -> Iterator[BinaryIO]:
@@ -22,7 +25,7 @@ def replaced(path: Path, mode: int = 0o666) -> Iterator[BinaryIO]:
         if the disk is full or broken; then nothing has changed, as when the block raises.
     """
     # a name that nobody else has: threads share a process id, and so do the first processes of all containers
-    temporary = path.with_name(f".{path.name[:40]}.{uuid.uuid4().hex}")
+    temporary = path.with_name(f"{HALF}{path.name[:40]}.{uuid.uuid4().hex}")
     try:
         with open(os.open(temporary, os.O_WRONLY | os.O_CREAT | os.O_EXCL, mode), "wb") as file:
             yield file

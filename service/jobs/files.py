@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from service.jobs.job import Record
-from service.replacing import replaced, synchronise
+from service.replacing import HALF, replaced, synchronise
 
 _FLAG = "stop"
 _MARK = ".database"
@@ -162,11 +162,11 @@ class JobFiles:
         """Remove those of some names that are no file of the job; how many that were."""
         kept = list(records)
         known = {_FLAG, *(self.piece(job, record).name for record in kept)}
-        # a reader may be about to tell the database their digests
+        # a reader may be writing them once more, or about to tell the database their digests
         older = {_rows(record) for record in kept if record.digest is None}
         gone = 0
         for name in set(found) - known:
-            if _rows_of(name) in older:
+            if _rows_of(name.removeprefix(HALF)) in older:
                 continue
             with suppress(OSError):
                 (self.folder(job) / name).unlink()

@@ -133,8 +133,17 @@ def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypa
         assert not parts.files.absent(DONE, parts.store.pieces(DONE))
         adopt(*about)
 
+    rename = Path.replace
+
+    def renamed(half: Path, whole: Path) -> Path:
+        # the moment between the file that is being written and its name
+        if half.parent == parts.files.folder(DONE):
+            house.tidy()
+        return rename(half, whole)
+
     before = jobs.rows(done, schema)
     monkeypatch.setattr(parts.leases, "adopt", late)
+    monkeypatch.setattr(Path, "replace", renamed)
     first = pa.Table.from_batches(jobs.rows(done, schema).batches)
     # who has asked before the names were given still reads
     assert pa.Table.from_batches(before.batches).equals(first)

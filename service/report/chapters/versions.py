@@ -10,7 +10,7 @@ from schemas.answers import OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.counterweights import Counterweight
 from schemas.first_order import FirstOrder
-from schemas.report import ReportRequest, Version
+from schemas.report import DesignVersion, ReportRequest
 from schemas.requests import AnalyzeRequest
 from service.report.blocks import Block, Chapter, Paragraph, Table, digits, table
 from service.report.chapters.balance import shown
@@ -112,7 +112,7 @@ def _differences(request: ReportRequest) -> Iterator[Block]:
         yield Paragraph("Machine and objective are the same in all of them.")
 
 
-def _changes(request: ReportRequest, version: Version) -> Iterator[tuple[str, str, str]]:
+def _changes(request: ReportRequest, version: DesignVersion) -> Iterator[tuple[str, str, str]]:
     for name in ("machine", "objective"):
         other = getattr(version, name)
         if other is not None:
