@@ -31,7 +31,7 @@ class DocumentHead(Model):
     notes: Notes | None = Field(None, description="notes, as paragraphs", examples=["For approval."])
 
 
-class Version(Model):
+class DesignVersion(Model):
     """Another version of the design, to be compared with the one of the report; what it does not give is that one's."""
 
     name: Name = Field(description="name of the version", examples=["as built"])
@@ -51,7 +51,7 @@ class ReportRequest(OptimizeRequest):
     document: DocumentHead = Field(
         DocumentHead(), description="what its head says", examples=[{"number": "K-1047", "revision": "B"}]
     )
-    versions: tuple[Version, ...] = Field(
+    versions: tuple[DesignVersion, ...] = Field(
         (),
         max_length=MAX_VERSIONS,
         description="other versions of the design, compared with this one",
@@ -76,7 +76,7 @@ class ReportRequest(OptimizeRequest):
                 given = getattr(version, str(path[0]), None) is not None
                 yield Rule(broken, (*place, *(path if given else ())), message)
 
-    def asked_of(self, version: Version) -> OptimizeRequest:
+    def asked_of(self, version: DesignVersion) -> OptimizeRequest:
         """What is asked of a version for which counterweights are to be found."""
         own = {name: getattr(self, name) for name in OptimizeRequest.model_fields}
         changed = {name: getattr(version, name) for name in ("machine", "objective")}

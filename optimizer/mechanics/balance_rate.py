@@ -7,7 +7,7 @@ customary crank, 0 a bare one.
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import SMALLEST, Complex, Real
 
 #: distances that differ by less than this share of the extent are equal
 _TIE = 1e-9
@@ -44,7 +44,7 @@ def balance_rates(rotating: Complex, shares: Real, unbalance: Complex) -> Comple
     unbalance : (..., webs) of the counterweights, kg m.
     """
     opposed = -np.add.reduce(shares * unbalance[..., None, :], axis=-1)
-    there = rotating != 0.0
+    there = np.abs(rotating) > SMALLEST
     return np.where(there, opposed / np.where(there, rotating, 1.0), np.nan)
 
 

@@ -8,7 +8,7 @@ import pytest
 
 from optimizer.arrays import Real, mapped
 from optimizer.certified import Certified, certified
-from optimizer.figures.limits import Priced, priced
+from optimizer.figures.limits import Priced, of_limits
 from optimizer.limits import WEB_LIMITS, MassLimit, limits
 from optimizer.mechanics.layout import stacked
 from optimizer.outputs import prepare
@@ -48,7 +48,7 @@ def _solved(request: OptimizeRequest) -> tuple[Certified, list[str], dict[str, P
     best = certified(request, scene.responses, np.array([scene.omega_squared]), Solver())
     touched = [name for name, limit in WEB_LIMITS.items() if limit.touched(machine, best.mass_kg, best.angle_deg)[0, 0]]
     prices = mapped(shadow_prices(best.program, best.unbalance, best.found.multipliers), lambda array: array[0])
-    each = priced(machine, request.objective, prices, scene.omega_squared)
+    each = of_limits(machine, prices)
     return best, touched, {one.limit: one._replace(price=one.price * scene.omega_squared) for one in each}
 
 
