@@ -41,3 +41,10 @@ def test_the_customary_crank_has_a_rate_of_one_and_the_sideways_part_is_across()
     assert across.imag == pytest.approx([1.0, 1.0])
     assert np.isnan(balance_rates(np.zeros(1, complex), np.ones((1, 1)), np.ones(1, complex))[0])
     assert customary(rotating, np.zeros((2, 0))).shape == (0,)
+
+
+def test_next_to_nothing_has_no_rate() -> None:
+    """Analytic: there is nothing to balance; a quotient would not be finite."""
+    rates = balance_rates(np.array([0.0, 2.8e-314, 1e-200]), np.ones((3, 1)) / 3.0, np.array([-3e-200 + 0j]))
+    assert np.isnan(rates[:2]).all()
+    assert rates[2] == pytest.approx(1.0)
