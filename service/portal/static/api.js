@@ -25,7 +25,8 @@ async function problem(response) {
 }
 
 /**
- * The response, once the service lets us in and is ready. `waiting` hears why it takes longer.
+ * The response, once the service lets us in and is ready. `waiting` hears why it takes longer; a body that is a file
+ * is sent as it is.
  * @param {string} method
  * @param {string} path
  * @param {{ body?: unknown, headers?: HeadersInit, signal?: AbortSignal, waiting?: (why: string) => void }} [more]
@@ -34,11 +35,12 @@ export async function ask(method, path, { body, headers, signal, waiting } = {})
   const started = performance.now();
   for (;;) {
     const sent = new Headers(headers);
-    if (body !== undefined) sent.set("Content-Type", "application/json");
+    const file = body instanceof Blob;
+    if (body !== undefined) sent.set("Content-Type", file ? body.type : "application/json");
     if (key()) sent.set("Authorization", `Bearer ${key()}`);
     let response;
     try {
-      response = await fetch(address(path), { method, headers: sent, body: body === undefined ? null : JSON.stringify(body), signal });
+      response = await fetch(address(path), { method, headers: sent, body: file ? body : body === undefined ? null : JSON.stringify(body), signal });
     } catch (error) {
       if (error.name === "AbortError") throw error;
       throw new Problem(0, { title: "No answer", detail: "The service does not answer." });

@@ -17,7 +17,7 @@ export const fileName = (name, ending) => `${String(name ?? "").replace(/[^\p{L}
 export const saveJson = (content, name) => save(new Blob([`${JSON.stringify(content, null, 2)}\n`], { type: "application/json" }), name);
 
 // the name that the service gives a file
-function named(answer) {
+export function named(answer) {
   const said = answer.headers.get("content-disposition") ?? "";
   const coded = /filename\*=UTF-8''([^;]+)/.exec(said);
   return coded ? decodeURIComponent(coded[1]) : /filename="([^"]*)"/.exec(said)?.[1];

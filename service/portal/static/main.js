@@ -26,6 +26,7 @@ import { forget, keepSession, last, ofTab, session } from "./session.js";
 import { starter } from "./starter.js";
 import { readLink, writeLink } from "./state.js";
 import { theme } from "./theme.js";
+import { workbooks } from "./workbook.js";
 
 const MODEL = "OptimizeRequest";
 const FIRST = "2d12";
@@ -288,6 +289,7 @@ function listen() {
     if (file) readJson(byId("json").value = await file.text());
     event.target.value = "";
   });
+  workbooks(() => state.example);
   byId("new").addEventListener("click", () => starter((request) => take(request, null, {}, { ask: request.machine.throws.length > 0 })));
   byId("undo").addEventListener("click", undo);
   byId("redo").addEventListener("click", redo);

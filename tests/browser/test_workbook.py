@@ -1,0 +1,55 @@
+"""Workbooks on the page: a template out, a workbook in, its answer out, and what is wrong with one by its cell."""
+
+from pathlib import Path
+
+import openpyxl
+from playwright.sync_api import expect
+
+from tests.browser.portal import Portal, ask
+
+
+def _template(portal: Portal, target: Path) -> Path:
+    portal.page.locator("#paste > summary").click()
+    with portal.page.expect_download() as found:
+        portal.page.click("#template")
+    assert found.value.suggested_filename == "machine.xlsx"
+    found.value.save_as(target)
+    return target
+
+
+def test_a_workbook_is_optimised_and_comes_back_with_its_answer(portal: Portal, tmp_path: Path) -> None:
+    portal.open("2d12")
+    file = _template(portal, tmp_path / "machine.xlsx")
+    with portal.page.expect_download() as found:
+        portal.page.set_input_files("#workbook", file)
+    found.value.save_as(tmp_path / "answer.xlsx")
+    book = openpyxl.load_workbook(tmp_path / "answer.xlsx")
+    heads, *rows = book["counterweights"].iter_rows(values_only=True)
+    masses = [dict(zip(heads, row, strict=True)) for row in rows]
+    (column,) = [str(head) for head in heads if str(head).startswith("mass_kg")]
+    example = ask(portal.url, "/v1/examples/2d12")
+    # independent: the same machine as JSON
+    expected = [one["mass_kg"] for one in ask(portal.url, "/v1/optimize", example)["counterweights"]]
+    assert [round(float(str(row[column])), 6) for row in masses] == [round(mass, 6) for mass in expected]
+
+
+def test_what_is_wrong_is_named_by_its_cell(portal: Portal, tmp_path: Path) -> None:
+    portal.refusals = {422}
+    portal.open("2d12")
+    file = _template(portal, tmp_path / "machine.xlsx")
+    book = openpyxl.load_workbook(file)
+    sheet = book["webs"]
+    (column,) = [cell.column_letter for cell in sheet[1] if str(cell.value).startswith("max_mass_kg")]
+    sheet[f"{column}3"] = "heavy"
+    book.save(file)
+    portal.page.set_input_files("#workbook", file)
+    expect(portal.page.locator("#json-error")).to_contain_text(f"webs!{column}3")
+
+
+def test_what_is_no_workbook_is_said(portal: Portal, tmp_path: Path) -> None:
+    portal.refusals = {400, 422}
+    portal.open("2d12")
+    portal.page.locator("#paste > summary").click()
+    (tmp_path / "machine.xlsx").write_bytes(b"no workbook")
+    portal.page.set_input_files("#workbook", tmp_path / "machine.xlsx")
+    expect(portal.page.locator("#json-error")).not_to_be_empty()
