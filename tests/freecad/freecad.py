@@ -14,7 +14,7 @@ MISSING = (
 )
 _NAMES = ("freecadcmd", "FreeCADCmd")
 #: all packages together, downloading and unpacking
-_INSTALL_WITHIN_S = 360.0
+_INSTALL_WITHIN_S = 300.0
 #: from the environment of whoever runs the tests
 _FOREIGN = ("PYTHONPATH", "PYTHONHOME", "VIRTUAL_ENV", "COUNTERWEIGHT_KEY")
 
