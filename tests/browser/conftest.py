@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, expect, sync_playwright
 
 from tests.browser import chromium
 from tests.browser.portal import Look, Portal
@@ -15,6 +15,11 @@ def url(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Address of a service."""
     with serving(tmp_path_factory.mktemp("service"), sweep_workers="1") as address:
         yield address
+
+
+#: what is waited for, on a machine that is busy; what comes sooner is not waited for [ms]
+PATIENCE_MS = 20_000
+expect.set_options(timeout=PATIENCE_MS)
 
 
 # for this folder only: an event loop of playwright would keep the tests of others from running theirs
@@ -36,7 +41,7 @@ def browser() -> Iterator[Browser]:
 def context(browser: Browser) -> Iterator[BrowserContext]:
     """One for all: what was loaded once is kept, as for a reader who comes back."""
     context = browser.new_context()
-    context.set_default_timeout(20_000)
+    context.set_default_timeout(PATIENCE_MS)
     yield context
     context.close()
 
