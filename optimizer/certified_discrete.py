@@ -7,15 +7,9 @@ from optimizer.certified import Certified, certified
 from optimizer.discrete.search import search
 from optimizer.program.reference.solver import Solver
 from optimizer.response import Response
-from optimizer.searched import searched
+from optimizer.searched import continuous, searched
 from optimizer.stock import stock
-from schemas.requests import Accuracy, OptimizeRequest
-
-
-def continuous(request: OptimizeRequest) -> OptimizeRequest:
-    """The request without its catalogue: any mass at any angle within the limits of the webs."""
-    goal = request.objective.model_copy(update={"least_mass": False})
-    return request.model_copy(update={"objective": goal, "accuracy": Accuracy()})
+from schemas.requests import OptimizeRequest
 
 
 def certified_discrete(

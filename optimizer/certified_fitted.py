@@ -6,14 +6,13 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.certified import Certified, certified
-from optimizer.certified_discrete import continuous
 from optimizer.figures.counterweights import masses_and_angles
 from optimizer.formulate import formulate
 from optimizer.mechanics.layout import stacked
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.response import Response
-from optimizer.searched import searched
+from optimizer.searched import continuous, searched
 from optimizer.semicontinuous.search import search
 from schemas.requests import Accuracy, OptimizeRequest
 

@@ -9,7 +9,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
-from optimizer.certified_discrete import certified_discrete, continuous
+from optimizer.certified_discrete import certified_discrete
 from optimizer.certified_fitted import certified_fitted
 from optimizer.certified_groups import certified_groups
 from optimizer.certified_robust import certified_robust, nothing_off
@@ -36,6 +36,7 @@ from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.required import missing
 from optimizer.scene import Prepared
+from optimizer.searched import continuous
 from optimizer.shapes import envelopes
 from optimizer.turn_residual import with_turn
 from schemas.answers import Certificate, OptimizeAnswer, Timing

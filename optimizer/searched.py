@@ -10,6 +10,7 @@ from optimizer.certified import Certified
 from optimizer.discrete.search import EXHAUSTED
 from optimizer.figures.counterweights import unbalance
 from optimizer.program.verdict import claim, verdict
+from schemas.requests import Accuracy, OptimizeRequest
 
 _ALL = (
     "Every set of counterweights that can be chosen was compared: none within the limits has a smaller objective, and"
@@ -54,6 +55,12 @@ class Found(Protocol):
     def ended(self) -> str | None:
         """ "time" or "size" where that ended it before the asked gap."""
         ...
+
+
+def continuous(request: OptimizeRequest) -> OptimizeRequest:
+    """The request without its catalogue: any mass at any angle within the limits of the webs."""
+    goal = request.objective.model_copy(update={"least_mass": False})
+    return request.model_copy(update={"objective": goal, "accuracy": Accuracy()})
 
 
 def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_gap: float) -> Certified:

@@ -12,11 +12,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.certified import certified
-from optimizer.certified_discrete import continuous
 from optimizer.matching.match import match
 from optimizer.optimize import optimize
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
+from optimizer.searched import continuous
 from optimizer.stock import stock
 from optimizer.sweep.whole import sweep_table
 from schemas.match import MatchRequest

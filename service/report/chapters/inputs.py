@@ -2,19 +2,17 @@
 
 from collections.abc import Iterator, Sequence
 
-from optimizer.formulate import given_ceilings, span, weights
+from optimizer.formulate import span
 from schemas.catalogue import Catalogue
-from schemas.cylinder import Cylinder
 from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
-from schemas.objective import Priority
 from schemas.over_turn import ForceTable, TorqueTable
 from schemas.requests import OptimizeRequest
 from schemas.throws import Row, Throw, row_cylinders
 from schemas.webs import Web
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
+from service.report.chapters.cylinders import cylinders
+from service.report.chapters.objective import objective
 from service.report.chapters.worst_case import asked
-
-_ACTING = {"double": "both sides", "head": "head side", "crank": "crank side"}
 
 
 def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
@@ -33,7 +31,7 @@ def inputs(request: OptimizeRequest, reference_plane_m: float) -> Chapter:
         _webs(machine),
         *_groups(machine),
         *_balance_shafts(machine),
-        _objective(request),
+        objective(request),
         *asked(request),
     ]
     return Chapter("Inputs", tuple(blocks))
@@ -127,13 +125,13 @@ def _reciprocating(machine: ReciprocatingMachine) -> Iterator[Block]:
     if machine.shaft_parts:
         turning = [(part.name, part.position_m, part.mass_kg) for part in machine.shaft_parts]
         yield table("Balanced parts of the shaft", ["part", "#plane z, m", "#mass, kg"], turning)
-    cylinders = [
+    given = [
         (name if at == ("cylinder",) else f"{name}, {getattr(one, 'name', None) or f'cylinder {int(at[-1]) + 1}'}", one)
         for _, name, _, row in rows
         for at, one in row_cylinders(row)
     ]
-    if cylinders:
-        yield from _cylinders(cylinders)
+    if given:
+        yield from cylinders(given)
     yield from _drive(machine)
 
 
@@ -142,65 +140,6 @@ def _rod(row: Row) -> tuple[Cell | float | None, float | None, float | None]:
     if rod is None:
         return None, None, None
     return "infinite" if rod.length_m is None else rod.length_m, rod.mass_kg, rod.share
-
-
-def _cylinders(cylinders: list[tuple[str, Cylinder]]) -> Iterator[Block]:
-    yield table(
-        "Cylinders",
-        [
-            "row", "acting", "#bore, m", "#piston rod, m", "#head area, m2", "#crank area, m2",
-            "#ambient pressure, Pa",
-        ],
-        [
-            (
-                name, _ACTING[one.acting], one.bore_m, one.piston_rod_diameter_m, one.head_area_m2, one.crank_area_m2,
-                one.ambient_pressure_Pa,
-            )
-            for name, one in cylinders
-        ],
-    )  # fmt: skip
-    states = [
-        (name, side, state)
-        for name, one in cylinders
-        for side, state in (("both", one), ("head", one.head), ("crank", one.crank))
-        if state is not None
-    ]
-    gas = [
-        (
-            name, side, state.suction_pressure_Pa, state.discharge_pressure_Pa, state.relative_clearance,
-            state.expansion_exponent, state.compression_exponent,
-        )
-        for name, side, state in states
-    ]  # fmt: skip
-    # what is indicated needs none of it
-    given = [row for row in gas if any(value is not None for value in row[2:])]
-    if given:
-        heads = [
-            "row", "side", "#suction, Pa", "#discharge, Pa", "#relative clearance", "#expansion exponent",
-            "#compression exponent",
-        ]  # fmt: skip
-        yield table("Gas", heads, given)
-    yield from _pressures(cylinders)
-
-
-def _pressures(cylinders: list[tuple[str, Cylinder]]) -> Iterator[Block]:
-    """Indicated pressures: how many entries, over how many turns, from where to where."""
-    rows = [
-        (
-            name, side, given.cycle_turns, "the first" if given.dead_centre_deg is None else given.dead_centre_deg,
-            len(trace.angle_deg), min(trace.pressure_Pa), max(trace.pressure_Pa),
-        )
-        for name, one in cylinders
-        if (given := one.pressure) is not None
-        for side, trace in (("head", given.head), ("crank", given.crank))
-        if trace is not None
-    ]  # fmt: skip
-    if rows:
-        heads = [
-            "row", "side", "#turns in a cycle", "#from the dead centre at, deg", "#entries", "#lowest, Pa",
-            "#highest, Pa",
-        ]  # fmt: skip
-        yield table("Indicated pressures, linear between their entries", heads, rows)
 
 
 def _drive(machine: ReciprocatingMachine) -> Iterator[Block]:
@@ -322,52 +261,3 @@ def _place(web: Web) -> tuple[Cell | float, Cell | float]:
         return web.radius_m or 0.0, "no limit" if web.max_mass_kg is None else web.max_mass_kg
     cut = f"{plate.shape}, radii {digits(plate.inner_radius_m)} to {digits(plate.outer_radius_m)} m"
     return cut, f"{digits(plate.thickness_m)} m thick, half angle to {digits(plate.max_half_angle_deg)}°"
-
-
-#: fields of the objective that look at the whole turn, in words
-_OVER_THE_TURN = {
-    "bearing_weight": "weight of the largest bearing load, 1/N or 1/Pa",
-    "bearing_measure": "measure of the bearing loads",
-    "bearing_ceiling_N": "ceiling of the bearing loads, N",
-    "specific_load_ceiling_Pa": "ceiling of the specific bearing loads, Pa",
-    "bending_weight": "weight of the largest bending moment, 1/(N m)",
-    "bending_ceiling_Nm": "ceiling of the bending moments, N m",
-    "roll_weight": "weight of the roll moment, 1/(N m)",
-    "orders": "orders of force and moment",
-    "priorities": "goals in their order",
-}
-
-
-def _told(value: float | str | tuple[Priority, ...]) -> float | str:
-    return ", ".join(each.goal for each in value) if isinstance(value, tuple) else value
-
-
-def _objective(request: OptimizeRequest) -> Table:
-    goal, wanted = request.objective, weights(request.machine, request.objective)
-    combined = {
-        "sum": "smallest weighted sum of peak force and peak moment",
-        "max": "smallest larger one of weighted peak force and weighted peak moment",
-    }
-    return facts(
-        "Objective",
-        [
-            ("aim", combined[goal.combine]),
-            ("weight of the peak force, 1/N", float(wanted["force"])),
-            ("weight of the peak moment, 1/(N m)", float(wanted["moment"])),
-            ("weight of components along x", goal.direction_weights.x),
-            ("weight of components along y", goal.direction_weights.y),
-            ("ceiling of the peak force, N", "none" if goal.force_ceiling_N is None else goal.force_ceiling_N),
-            ("ceiling of the peak moment, N m", "none" if goal.moment_ceiling_Nm is None else goal.moment_ceiling_Nm),
-            *(
-                (f"ceiling of the {each.name.replace(':', ' along ')}, {each.unit}", allowed)
-                for each, allowed in given_ceilings(goal)
-                if each.axis is not None
-            ),
-            *(
-                (_OVER_THE_TURN[name], _told(getattr(goal, name)))
-                for name in (*goal.over_the_turn, *(("bearing_measure",) if goal.bearing_weight else ()))
-            ),
-            ("among all optima", "the lightest" if goal.least_mass else "any"),
-            ("relative gap asked for", request.accuracy.relative_gap),
-        ],
-    )

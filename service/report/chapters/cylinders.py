@@ -1,0 +1,69 @@
+"""The cylinders that were asked for: sizes, gas, indicated pressures."""
+
+from collections.abc import Iterator
+
+from schemas.cylinder import Cylinder
+from service.report.blocks import Block, table
+
+_ACTING = {"double": "both sides", "head": "head side", "crank": "crank side"}
+
+
+def cylinders(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+    """Tables of cylinders by the names that they are told by."""
+    yield table(
+        "Cylinders",
+        [
+            "row", "acting", "#bore, m", "#piston rod, m", "#head area, m2", "#crank area, m2",
+            "#ambient pressure, Pa",
+        ],
+        [
+            (
+                name, _ACTING[one.acting], one.bore_m, one.piston_rod_diameter_m, one.head_area_m2, one.crank_area_m2,
+                one.ambient_pressure_Pa,
+            )
+            for name, one in given
+        ],
+    )  # fmt: skip
+    states = [
+        (name, side, state)
+        for name, one in given
+        for side, state in (("both", one), ("head", one.head), ("crank", one.crank))
+        if state is not None
+    ]
+    gas = [
+        (
+            name, side, state.suction_pressure_Pa, state.discharge_pressure_Pa, state.relative_clearance,
+            state.expansion_exponent, state.compression_exponent,
+        )
+        for name, side, state in states
+    ]  # fmt: skip
+    # what is indicated needs none of it
+    known = [row for row in gas if any(value is not None for value in row[2:])]
+    if known:
+        heads = [
+            "row", "side", "#suction, Pa", "#discharge, Pa", "#relative clearance", "#expansion exponent",
+            "#compression exponent",
+        ]  # fmt: skip
+        yield table("Gas", heads, known)
+    yield from _pressures(given)
+
+
+def _pressures(given: list[tuple[str, Cylinder]]) -> Iterator[Block]:
+    """Indicated pressures: how many entries, over how many turns, from where to where."""
+    rows = [
+        (
+            name, side, indicated.cycle_turns,
+            "the first" if indicated.dead_centre_deg is None else indicated.dead_centre_deg,
+            len(trace.angle_deg), min(trace.pressure_Pa), max(trace.pressure_Pa),
+        )
+        for name, one in given
+        if (indicated := one.pressure) is not None
+        for side, trace in (("head", indicated.head), ("crank", indicated.crank))
+        if trace is not None
+    ]  # fmt: skip
+    if rows:
+        heads = [
+            "row", "side", "#turns in a cycle", "#from the dead centre at, deg", "#entries", "#lowest, Pa",
+            "#highest, Pa",
+        ]  # fmt: skip
+        yield table("Indicated pressures, linear between their entries", heads, rows)
