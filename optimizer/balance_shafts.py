@@ -16,7 +16,8 @@ from optimizer.fixed import beside
 from optimizer.formulate import with_weights_of
 from optimizer.mechanics.layout import stacked
 from schemas.counterweights import Counterweight, FittedShaft
-from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import BalanceShaft, ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.webs import Web
 

@@ -15,7 +15,7 @@ from optimizer.program.cuts import Unkept, over_turn
 from optimizer.robust import Machine, Measure, Robust
 from optimizer.scene import Prepared
 from schemas.answers import Certificate
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.robust import PriceOfRobustness, WorstCase
 

@@ -19,8 +19,9 @@ from optimizer.program.statement import Statement, combined, statement, weighted
 from optimizer.remembered import remembered
 from optimizer.response import Response
 from schemas.limits import CeilingField, MachineLimit
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
 from schemas.objective import Objective
+from schemas.reciprocating import ReciprocatingMachine
 
 
 @remembered

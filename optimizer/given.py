@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 from schemas.webs import Web
 

@@ -28,8 +28,8 @@ from optimizer.response import Response
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.base import FieldProblem
 from schemas.limits import CeilingField, MachineLimit
-from schemas.machine import ReciprocatingMachine
 from schemas.objective import Objective
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Fidelity, OptimizeRequest
 
 

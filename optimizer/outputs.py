@@ -22,7 +22,8 @@ from optimizer.figures.roll import ROLL
 from optimizer.figures.stages import STAGES
 from optimizer.scene import Prepared, simulated, turns_over
 from schemas.base import FieldProblem
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Scene
 from schemas.rules import Path, Rule
 

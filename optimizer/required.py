@@ -6,7 +6,7 @@ from optimizer.effects.registry import problems_of
 from optimizer.goals import missing_sizes
 from optimizer.outputs import OUTPUTS
 from schemas.base import FieldProblem
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 
 #: effects that force and moment of all orders need

@@ -17,8 +17,10 @@ from optimizer.mechanics.cylinders import cycle_turns
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.response import Response
-from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Scene
+from schemas.scroll_machine import ScrollMachine
 
 
 @dataclass(frozen=True)

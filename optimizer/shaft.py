@@ -4,7 +4,7 @@ from optimizer.arrays import Real
 from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans_influence
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shaft_curves import Influence
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 
 #: loads of the bearings, by the model of the shaft
 INFLUENCES: dict[str, Influence] = {

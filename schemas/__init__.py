@@ -9,14 +9,15 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from schemas.accuracy import AccuracyAnswer, AccuracyRequest
     from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-    from schemas.machine import ReciprocatingMachine, ScrollMachine
     from schemas.match import MatchRequest
     from schemas.match_answer import MatchAnswer
     from schemas.pareto import ParetoAnswer, ParetoRequest
     from schemas.rating import RatingRequest
     from schemas.rating_answer import RatingAnswer
+    from schemas.reciprocating import ReciprocatingMachine
     from schemas.requests import AnalyzeRequest, OptimizeRequest
     from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
+    from schemas.scroll_machine import ScrollMachine
     from schemas.sweep import SweepRequest
     from schemas.verify import VerifyAnswer, VerifyRequest
 

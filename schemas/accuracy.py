@@ -7,8 +7,8 @@ from pydantic import Field
 
 from schemas.base import Answer, Model
 from schemas.catalogue import no_catalogue
-from schemas.machine import no_balance_shafts
 from schemas.quantities import Count, Milliseconds
+from schemas.reciprocating import no_balance_shafts
 from schemas.requests import OptimizeRequest
 from schemas.rules import Rule
 

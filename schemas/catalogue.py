@@ -10,7 +10,7 @@ from schemas.rules import Path, Rule, Ruled
 from schemas.units import Unit, positive
 
 if TYPE_CHECKING:
-    from schemas.machine import Rotor
+    from schemas.rotor import Rotor
     from schemas.webs import Web
 
 MAX_MASSES, MAX_HOLES = 1_000, 720

@@ -5,8 +5,8 @@ from collections.abc import Iterator
 from pydantic import Field
 
 from schemas.fitted import GivenCounterweight, fitted_rules
-from schemas.machine import MAX_WEBS
 from schemas.requests import OptimizeRequest
+from schemas.rotor import MAX_WEBS
 from schemas.rules import Rule
 
 

@@ -8,9 +8,10 @@ from pydantic import ConfigDict, Field, Strict
 from schemas.base import Model
 from schemas.catalogue import no_catalogue
 from schemas.fitted import FittedCounterweight, fitted_rules
-from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS, ReciprocatingMachine, no_balance_shafts
 from schemas.objective import Objective
 from schemas.quantities import Count, Flag, Mass, Name
+from schemas.reciprocating import MAX_ROWS_TOGETHER, ReciprocatingMachine, no_balance_shafts
+from schemas.rotor import MAX_WEBS
 from schemas.rules import Path, Rule, Ruled
 
 MAX_CLASSES = 8

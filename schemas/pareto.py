@@ -12,9 +12,9 @@ from schemas.counterweights import Counterweight
 from schemas.first_order import FirstOrder, Floor
 from schemas.infeasibility import Infeasibility
 from schemas.limits import MachineLimit
-from schemas.machine import no_balance_shafts
 from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
+from schemas.reciprocating import no_balance_shafts
 from schemas.requests import OptimizeRequest
 from schemas.rules import Rule, first_of
 from schemas.trade import MAX_TRADED_POINTS, TradedFront, TradedNames

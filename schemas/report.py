@@ -7,10 +7,11 @@ from pydantic import Field, StringConstraints
 
 from schemas.base import Model
 from schemas.fitted import GivenCounterweight, fitted_rules
-from schemas.machine import MAX_WEBS, Machine
+from schemas.machine import Machine
 from schemas.objective import Objective
 from schemas.quantities import Name
 from schemas.requests import OptimizeRequest
+from schemas.rotor import MAX_WEBS
 from schemas.rules import Rule
 
 MAX_VERSIONS = 4

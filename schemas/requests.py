@@ -9,9 +9,11 @@ from schemas.angles import Angles
 from schemas.base import Model
 from schemas.catalogue import DISCRETE_GAP
 from schemas.fitted import GivenCounterweight, fitted_rules
-from schemas.machine import MAX_WEBS, Machine, no_balance_shafts
+from schemas.machine import Machine
 from schemas.objective import Objective
 from schemas.outputs import OutputNames
+from schemas.reciprocating import no_balance_shafts
+from schemas.rotor import MAX_WEBS
 from schemas.rules import Rule, Ruled
 from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
 

@@ -7,7 +7,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AliasChoices, BeforeValidator, Field, StringConstraints
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
-from schemas.machine import MAX_ROWS_TOGETHER, MAX_WEBS
+from schemas.reciprocating import MAX_ROWS_TOGETHER
+from schemas.rotor import MAX_WEBS
 from schemas.sweep import MAX_DESIGNS
 from schemas.throws import MAX_THROWS
 

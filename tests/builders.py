@@ -12,8 +12,8 @@ from optimizer.figures.stages import stages
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from schemas.machine import ReciprocatingMachine
 from schemas.outputs import Stage
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import ConnectingRod, Row, Throw
 from schemas.webs import Web
 

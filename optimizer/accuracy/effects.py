@@ -25,7 +25,8 @@ from optimizer.mechanics.rod import rod_forces
 from optimizer.mechanics.turn import fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import break_angles
 from schemas.accuracy import EffectRow
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Fidelity
 
 STEPS_DEG = (30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1)

@@ -24,7 +24,7 @@ from optimizer.program.solution import Solution
 from optimizer.program.statement import CEILING_TOLERANCE, Statement
 from optimizer.scene import Prepared
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference, Status
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 
 _LOG = logging.getLogger(__name__)
 #: gap asked of the reference

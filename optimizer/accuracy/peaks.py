@@ -22,7 +22,8 @@ from optimizer.mechanics.shaft_curves import bending_influence, planes, shaft_cu
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.accuracy import PeakRow
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Fidelity
 
 TOLERANCES = (1e-3, 1e-6, 1e-9)

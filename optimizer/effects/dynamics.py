@@ -31,7 +31,8 @@ from optimizer.mechanics.row_series import row_data
 from optimizer.mechanics.turn import fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from schemas.base import FieldProblem
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.rules import Rule
 
 _WIDEST_PANEL = np.deg2rad(10.0)

@@ -7,10 +7,11 @@ from optimizer.errors import MissingInput
 from optimizer.pins.answer import pin_loads
 from schemas.angles import Angles
 from schemas.base import FieldProblem
-from schemas.machine import CrankPins, Machine, ScrollMachine
+from schemas.machine import Machine
 from schemas.over_turn import LARGEST_PIN_RADIUS_M, LEAST_PIN_RADIUS_M
 from schemas.rules import Rule
 from schemas.scroll import MAX_LOADS, PinLoadsAnswer, PinLoadsRequest
+from schemas.scroll_machine import CrankPins, ScrollMachine
 
 
 def _question(machine: ScrollMachine, guide: CrankPins, angles: Angles) -> PinLoadsRequest:

@@ -12,8 +12,9 @@ from optimizer.mechanics.layout import stacked
 from optimizer.remembered import remembered
 from optimizer.scene import Prepared
 from schemas.answers import BalanceRate
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
 from schemas.outputs import labels
+from schemas.reciprocating import ReciprocatingMachine
 
 
 class Cranks(NamedTuple):

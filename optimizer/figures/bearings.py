@@ -24,8 +24,8 @@ from optimizer.scene import Prepared
 from optimizer.shaft import bearing_places
 from schemas.drive import Bearing
 from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
-from schemas.machine import ReciprocatingMachine
 from schemas.outputs import labels
+from schemas.reciprocating import ReciprocatingMachine
 
 
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:

@@ -19,7 +19,7 @@ from schemas.caution import Caution, CautionCode
 from schemas.dynamics import MainBearings
 from schemas.first_order import Residual
 from schemas.loads import Loads
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.robust import Sensitivity
 from schemas.sweep import pointer

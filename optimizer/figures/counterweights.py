@@ -15,7 +15,8 @@ from optimizer.program.limits import Limits
 from optimizer.shapes import envelopes
 from schemas.counterweights import Counterweight, Shape
 from schemas.fitted import FittedCounterweight, GivenCounterweight
-from schemas.machine import BalanceShaft, Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import BalanceShaft, ReciprocatingMachine
 from schemas.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn

@@ -27,7 +27,7 @@ from schemas.dynamics import (
     RowTorque,
     Torque,
 )
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import row_cylinders
 
 Case = Literal["running", "no_load", "sudden_stop"]

@@ -18,8 +18,8 @@ from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
 from optimizer.scene import Prepared
 from optimizer.shaft import INFLUENCES, bearing_places
 from schemas.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
-from schemas.machine import ReciprocatingMachine
 from schemas.outputs import labels
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import row_cylinders
 
 

@@ -12,7 +12,7 @@ from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
 from optimizer.pieces import Bracket, Index
 from optimizer.scene import Prepared
 from optimizer.shaft import INFLUENCES, bearing_places
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 
 #: of a bracket, relative to the peak; and of a floor
 TOLERANCE, FLOOR_TOLERANCE = 1e-9, 1e-7

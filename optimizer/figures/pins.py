@@ -10,9 +10,9 @@ from optimizer.figures.output import Columns, Output
 from optimizer.mechanics.layout import stacked
 from optimizer.pins.loads import LoadShapes, PeriodicTable, gas_torques, peaks
 from optimizer.scene import Prepared
-from schemas.machine import CrankPins, ScrollMachine
 from schemas.over_turn import ForceTable, TorqueTable
 from schemas.scroll import PinLoads
+from schemas.scroll_machine import CrankPins, ScrollMachine
 
 
 def _figure(scene: Prepared, _fitted: Complex | None) -> PinLoads:

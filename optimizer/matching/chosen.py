@@ -16,8 +16,8 @@ from optimizer.program.certificate import Multipliers, normalised, objective_low
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from schemas.machine import ReciprocatingMachine
 from schemas.match import MatchRequest
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import Row
 
 #: asked of every program, in units of its objective without counterweights

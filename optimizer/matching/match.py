@@ -24,9 +24,9 @@ from optimizer.program.verdict import Claim, verdict
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.first_order import FirstOrder, Residual
 from schemas.fitted import GivenCounterweight
-from schemas.machine import ReciprocatingMachine
 from schemas.match import MatchRequest
 from schemas.match_answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Accuracy, AnalyzeRequest, OptimizeRequest
 
 #: rounds of a search with counterweights, and programs in one of them

@@ -14,7 +14,7 @@ from optimizer.mechanics.layout import Layout, stacked
 from schemas.base import FieldProblem
 from schemas.cylinder import Cylinder
 from schemas.indicated import DEAD_CENTRE_DEG, TURN_DEG, IndicatedPressure, PressureTrace
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.rules import Path, Rule
 from schemas.throws import row_cylinders
 

@@ -12,7 +12,9 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import direction
-from schemas.machine import ReciprocatingMachine, Rotor, ScrollMachine
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.rotor import Rotor
+from schemas.scroll_machine import ScrollMachine
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from optimizer.effects.registry import effects_of
 from optimizer.mechanics.cylinders import cycle_turns, entry_count
 from optimizer.outputs import OUTPUTS, needs_samples
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
 

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from math import factorial, prod
 from typing import Any, NamedTuple
 
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import Row, Throw, row_cylinders
 
 #: angles and planes so near are one

@@ -8,10 +8,10 @@ from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
 from schemas.base import FieldProblem, Model
 from schemas.catalogue import no_catalogue
-from schemas.machine import ReciprocatingMachine, no_balance_shafts
 from schemas.objective import OVER_THE_TURN, of_the_shaft
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Angle, Count, Flag
+from schemas.reciprocating import ReciprocatingMachine, no_balance_shafts
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, Ruled
 from schemas.sweep.axes import MAX_DESIGNS, Axis

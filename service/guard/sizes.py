@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from schemas.angles import Angles
 from schemas.base import FieldProblem, Model
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.report import ReportRequest
 from schemas.requests import Scene
 from schemas.rules import Path

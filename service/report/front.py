@@ -6,7 +6,9 @@ from itertools import groupby
 from typing import NamedTuple, TypeVar
 
 from schemas.counterweights import Counterweight
-from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.scroll_machine import ScrollMachine
 from schemas.webs import Web
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
 from service.report.blocks import digits

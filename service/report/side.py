@@ -5,7 +5,8 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 from schemas.counterweights import Counterweight
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
 from service.report.blocks import digits
 

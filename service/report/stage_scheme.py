@@ -7,8 +7,9 @@ it, what counterweights can do, and what is left. Stage VII shows the counterwei
 import math
 from collections.abc import Sequence
 
-from schemas.machine import Machine, ReciprocatingMachine
+from schemas.machine import Machine
 from schemas.outputs import Stage
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.stages import Acting, StageIron
 from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point
 from service.report.blocks import digits

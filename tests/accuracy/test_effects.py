@@ -18,7 +18,7 @@ from optimizer.accuracy.effects import (
 from optimizer.analyze import analyze
 from optimizer.mechanics.layout import layout
 from schemas.accuracy import EffectRow
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, Fidelity
 from tests.accuracy.problems import body
 from tests.analyze.engines import engine

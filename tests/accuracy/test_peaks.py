@@ -7,7 +7,7 @@ from optimizer.accuracy.peaks import PLACES, STEPS_DEG, TOLERANCES, peaks_ladder
 from optimizer.analyze import analyze
 from optimizer.mechanics.layout import layout
 from schemas.accuracy import PeakRow
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 from tests.accuracy.problems import body
 from tests.analyze.engines import FOUR, engine

@@ -9,7 +9,7 @@ from optimizer.mechanics.cylinders import chambers
 from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.layout import Layout, layout
 from schemas.answers import AnalyzeAnswer
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 
 #: between the axes of the rows on one throw, degrees

@@ -12,8 +12,8 @@ from optimizer.effects.registry import EFFECTS, closure, inputs_of, simulate
 from optimizer.mechanics.layout import layout
 from optimizer.outputs import OUTPUTS
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.machine import ReciprocatingMachine
 from schemas.outputs import OutputName
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, Fidelity
 from tests.effects.machines import EVERY, complete
 

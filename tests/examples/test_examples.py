@@ -13,7 +13,7 @@ from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.optimize import optimize
 from optimizer.sweep.whole import sweep_table
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
 

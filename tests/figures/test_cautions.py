@@ -9,7 +9,7 @@ from optimizer import pieces
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from tests.analyze.driven import random_driven
 from tests.builders import RADIUS, inline, machine, row, throw, web

@@ -14,7 +14,8 @@ from pydantic import ValidationError
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.limits import limits
 from schemas.counterweights import Counterweight
-from schemas.machine import ReciprocatingMachine, ScrollMachine
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.scroll_machine import ScrollMachine
 from tests.hard.cases.case import machine, throw, web
 
 #: degrees: rounding of an angle up to 360 degrees

@@ -12,8 +12,8 @@ from optimizer.arrays import Complex
 from optimizer.mechanics.inertia import counterweights, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
-from schemas.machine import ReciprocatingMachine
 from schemas.outputs import Stage
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import Throw
 from tests.builders import OMEGA, RADIUS, all_stages, inline, machine, machines, opposed, row, throw, web
 

@@ -13,7 +13,7 @@ import numpy as np
 from optimizer.effects.registry import run
 from optimizer.mechanics.gas import switching_angles
 from optimizer.mechanics.layout import layout
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Fidelity
 from tests.hard_effects.case import ALGEBRAIC, Case, Finding, error
 from tests.hard_effects.exact import Number, Row, State, mp

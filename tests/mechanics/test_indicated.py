@@ -12,7 +12,7 @@ from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import layout, spread
 from optimizer.mechanics.row_series import RowSeries, row_data
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.engines import FOUR, RADIUS, UNEVEN, cylinder, engine, trace
 
 TURN = 2.0 * np.pi

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from optimizer.arrays import Complex
 from optimizer.mechanics.inertia import counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import layout
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import Row, Throw
 from tests.builders import ANGLES, POSITIONS, force_scale, machines, moment_scale
 

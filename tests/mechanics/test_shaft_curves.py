@@ -17,7 +17,7 @@ from optimizer.mechanics.rod import shaft_loads
 from optimizer.mechanics.row_series import row_data
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
 from optimizer.mechanics.whole_turn import break_angles, whole_turn
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import arrays, random_driven
 
 MODELS = (simple_spans_influence, continuous_beam_influence)

@@ -10,7 +10,7 @@ from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.outputs import OUTPUTS
 from schemas.answers import AnalyzeAnswer
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 
 SECOND = {

@@ -12,7 +12,7 @@ from optimizer.arrays import Complex
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.response import Phasors
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from tests.builders import force_scale, moment_scale, random_machine
 
 POINTS = 512

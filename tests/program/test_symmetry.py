@@ -13,8 +13,8 @@ from optimizer.mechanics.layout import layout
 from optimizer.optimize import optimize
 from optimizer.program.statement import Statement
 from optimizer.program.symmetry import symmetric
-from schemas.machine import ReciprocatingMachine
 from schemas.objective import Objective
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.webs import Sector, Web
 from tests.builders import machine, throw, web

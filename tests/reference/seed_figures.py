@@ -10,7 +10,7 @@ import pytest
 
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import Layout, Reciprocating, Rotating, Webs, layout
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import ConnectingRod, Row, Throw
 
 _FILE = json.loads((Path(__file__).parent / "seed_checks.json").read_text())

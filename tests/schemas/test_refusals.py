@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from schemas.machine import ScrollMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.scroll_machine import ScrollMachine
 
 BODY: dict[str, Any] = {
     "machine": {

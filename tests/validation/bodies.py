@@ -8,7 +8,7 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.arrays import Complex
-from schemas.machine import ReciprocatingMachine
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 from service.documents.examples import load
 from tests.validation.comparison import Comparison

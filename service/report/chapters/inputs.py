@@ -4,9 +4,11 @@ from collections.abc import Iterator, Sequence
 
 from optimizer.formulate import span
 from schemas.catalogue import Catalogue
-from schemas.machine import Machine, ReciprocatingMachine, ScrollMachine
+from schemas.machine import Machine
 from schemas.over_turn import ForceTable, TorqueTable
+from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
+from schemas.scroll_machine import ScrollMachine
 from schemas.throws import Row, Throw, row_cylinders
 from schemas.webs import Web
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
