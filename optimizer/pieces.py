@@ -13,14 +13,14 @@ Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospectiv
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import cache, cached_property
-from math import comb
+from functools import cached_property
 from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real, Reals
+from optimizer.polynomials import bernstein, shifts, squared
 
 Index = NDArray[np.intp]
 #: real for scalars, complex across the shaft
@@ -35,9 +35,9 @@ _MOST_CUTS = 40
 #: and so it is where so many parts may hold peaks: what is so steep is not worth more time
 _MOST_PARTS = 50_000
 #: no bracket is narrower than this share of what is added up in it
-_ROUNDING = 32 * np.finfo(float).eps
+ROUNDING = 32 * np.finfo(float).eps
 #: rad, by which an angle may be rounded within two turns
-_ANGLE_ROUNDING = 64 * np.finfo(float).eps
+ANGLE_ROUNDING = 64 * np.finfo(float).eps
 
 
 class Bracket(NamedTuple):
@@ -143,7 +143,7 @@ class _Parts:
 
     def cut(self, count: int) -> "_Parts":
         """Each in so many parts, by the same polynomial."""
-        places, shift = _shifts(count)
+        places, shift = shifts(count)
         again = _Parts(**{name: np.repeat(value, count, axis=0) for name, value in vars(self).items()})
         return replace(
             again,
@@ -198,7 +198,7 @@ def _bracketed(
     best = _Best.of(count)
 
     def allowed() -> Real:
-        return np.maximum(share * np.abs(best.lower), _ROUNDING * scale)
+        return np.maximum(share * np.abs(best.lower), ROUNDING * scale)
 
     def first_open() -> _Parts:
         """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
@@ -224,16 +224,16 @@ def _bracketed(
         told in the bracket."""
         if not parts.member.size:
             return parts
-        bernstein = _bernstein(measure.polynomial(parts.cubic))
-        most = measure.size(np.max(bernstein, axis=-1)) + parts.rest
-        first, final = (measure.size(bernstein[:, end]) - parts.rest for end in (0, -1))
+        coefficients = bernstein(measure.polynomial(parts.cubic))
+        most = measure.size(np.max(coefficients, axis=-1)) + parts.rest
+        first, final = (measure.size(coefficients[:, end]) - parts.rest for end in (0, -1))
         at_first, peak = first >= final, group[parts.member]
         angle = parts.centre + np.where(at_first, -parts.half, parts.half)
         best.keep(peak, np.where(at_first, first, final), angle, parts.piece, parts.member)
         open_ = most > (best.lower + allowed())[peak]
         if np.count_nonzero(open_) > most_parts:
             open_[:] = False
-        rounding = _ANGLE_ROUNDING * np.abs(parts.cubic[:, 1]) / parts.half
+        rounding = ANGLE_ROUNDING * np.abs(parts.cubic[:, 1]) / parts.half
         np.maximum.at(best.upper, peak[~open_], (most + rounding)[~open_])
         return parts.chosen(open_)
 
@@ -251,7 +251,7 @@ def _bracketed(
         return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     value = pieces.source.values(of_member[best.member], best.piece, best.angle)
     lower = measure.size(measure.polynomial((value + offset[best.member])[:, None])[:, 0])
-    return Bracket(best.angle, value, lower, best.upper + _ROUNDING * scale).where(np.isin(np.arange(count), group))
+    return Bracket(best.angle, value, lower, best.upper + ROUNDING * scale).where(np.isin(np.arange(count), group))
 
 
 def _expanded(pieces: Pieces, of_member: Index, offset: Vector, parts: _Parts, allowed: Real) -> _Parts:
@@ -278,37 +278,4 @@ def _moved(cubic: Vector, offset: Vector) -> Vector:
     return np.concatenate([cubic[..., :1] + offset[..., None], cubic[..., 1:]], axis=-1)
 
 
-def _squared(polynomial: Complex) -> Real:
-    """|p|^2 of polynomials (..., k) of a real variable: (..., 2 k - 1)."""
-    count = polynomial.shape[-1]
-    found = np.zeros((*polynomial.shape[:-1], 2 * count - 1))
-    for i in range(count):
-        found[..., i : i + count] += (polynomial[..., i : i + 1] * np.conj(polynomial)).real
-    return found
-
-
-_SQUARE = _Measure(_squared, lambda value: np.sqrt(np.maximum(value, 0.0)))
-
-
-def _bernstein(polynomial: Real) -> Real:
-    """Bernstein coefficients on [-1, 1] of polynomials (n, k); the first and last are the values at the ends."""
-    return polynomial @ _to_bernstein(polynomial.shape[-1] - 1)
-
-
-@cache
-def _to_bernstein(degree: int) -> Real:
-    """(degree + 1, degree + 1): x^k = (2 t - 1)^k, and t^i = sum_j C(j, i) / C(degree, i) B_j(t)."""
-    in_t = [[comb(k, i) * 2.0**i * (-1.0) ** (k - i) for i in range(degree + 1)] for k in range(degree + 1)]
-    raised = [[comb(j, i) / comb(degree, i) for j in range(degree + 1)] for i in range(degree + 1)]
-    return np.array(in_t) @ np.array(raised)
-
-
-@cache
-def _shifts(parts: int) -> tuple[Real, NDArray[np.float64]]:
-    """Centres (parts,) of equal parts of [-1, 1], and what takes a cubic to each of them (parts, 4, 4)."""
-    places = (2.0 * np.arange(parts) + 1.0) / parts - 1.0
-    matrix = [
-        [[comb(k, i) * place ** (k - i) * parts**-i if i <= k else 0.0 for i in range(4)] for k in range(4)]
-        for place in places.tolist()
-    ]
-    return places, np.array(matrix)
+_SQUARE = _Measure(squared, lambda value: np.sqrt(np.maximum(value, 0.0)))
