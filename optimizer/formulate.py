@@ -15,7 +15,8 @@ from optimizer.limits import limits
 from optimizer.mechanics.balance_shafts import first_order_responses
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout, stacked
-from optimizer.program.statement import Statement, combined, statement, weighted_peak
+from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.remembered import remembered
 from optimizer.response import Response
 from schemas.limits import CeilingField, MachineLimit

@@ -22,7 +22,7 @@ from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, sha
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.cut import EXACT, Quantity, Scatter
 from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
-from optimizer.program.statement import Row, combined, weighted_peak
+from optimizer.program.rows import Row, combined, weighted_peak
 from optimizer.projected import component
 from optimizer.response import Response
 from optimizer.shaft import INFLUENCES, bearing_places

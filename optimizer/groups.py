@@ -16,7 +16,8 @@ from optimizer.errors import refuse
 from optimizer.figures.balance_rate import crank_angles
 from optimizer.mechanics.angles import direction
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Norms, Statement
+from optimizer.program.norms import Norms
+from optimizer.program.statement import Statement
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 

@@ -14,7 +14,7 @@ from typing import TypeVar
 import numpy as np
 
 from optimizer.accuracy.methods import Found, Method, Run, Task
-from optimizer.program.statement import CEILING_TOLERANCE
+from optimizer.program.ceilings import CEILING_TOLERANCE
 
 Answer = TypeVar("Answer")
 

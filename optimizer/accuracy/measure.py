@@ -15,13 +15,14 @@ from optimizer.accuracy.peaks import peaks_ladder
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.formulate import formulate, limited, weights
 from optimizer.outputs import prepare
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.edge import Unreachable
 from optimizer.program.optima import optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 from optimizer.scene import Prepared
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference, Status
 from schemas.reciprocating import ReciprocatingMachine

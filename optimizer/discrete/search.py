@@ -11,7 +11,8 @@ from optimizer.discrete.branch import branch
 from optimizer.discrete.exchange import neighbourhoods, start
 from optimizer.discrete.halves import exhaust
 from optimizer.discrete.options import EQUAL, Incumbent, Options
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.statement import Statement
 
 EXHAUSTED = "exhaustion in halves"
 TREE = "branch and bound"

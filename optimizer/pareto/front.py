@@ -12,13 +12,14 @@ import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.pareto.trade import Trade
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
 from optimizer.program.edge import Unreachable
 from optimizer.program.optima import optima
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 
 #: a smallest peak by itself is sought to this share of its size

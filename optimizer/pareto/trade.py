@@ -9,8 +9,10 @@ from optimizer.arrays import Complex, Real
 from optimizer.formulate import limited
 from optimizer.limits import limits
 from optimizer.program.certificate import Multipliers
+from optimizer.program.norms import Norms
 from optimizer.program.reach import bounded, far_limits
-from optimizer.program.statement import Norms, Statement, combined, statement, weighted_peak
+from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.response import Response
 from schemas.machine import Machine
 from schemas.objective import Objective

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped, plain
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
 from optimizer.program.multipliers import resting_multipliers
@@ -14,7 +15,7 @@ from optimizer.program.points import Points, excess_at, points_at
 from optimizer.program.scaling import natural_reach
 from optimizer.program.settled import settled
 from optimizer.program.solution import CEILING_ROUNDING, Solutions
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
     from optimizer.program.kernel.interior_point import Programs

@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cut import Pool
 from optimizer.program.cut_attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cut_proof import Proof, proofs, resting_proof, times, units
@@ -22,7 +23,7 @@ from optimizer.program.reference.assembled import NoPoint, Target, solved
 from optimizer.program.reference.modelling import Stage as CostStage
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 
 #: rounds of a stage before it ends with what is proven
 _MOST_ROUNDS = 60

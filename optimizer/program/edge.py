@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import (
     Multipliers,
     ceiling_allowance,
@@ -16,7 +17,7 @@ from optimizer.program.kernel.finer_numbers import EXTENDED
 from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, interior_point
 from optimizer.program.solution import CEILING_ROUNDING, Solution
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 
 #: room below the ceilings, as a share of their size, from which on they are kept as they are
 AMPLE = 1e-8

@@ -9,7 +9,8 @@ one angle is left to search, and between finitely many of its values the project
 import numpy as np
 
 from optimizer.arrays import Complex, Real, plain
-from optimizer.program.statement import Norms, Statement
+from optimizer.program.norms import Norms
+from optimizer.program.statement import Statement
 
 
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:

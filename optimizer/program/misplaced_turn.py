@@ -12,8 +12,8 @@ from optimizer.arrays import Complex, Real
 from optimizer.curve import peaks_about
 from optimizer.program.cut import EXACT, Quantity, Reached
 from optimizer.program.misplaced import angle_corners, mass_corners, worst_by_angle, worst_by_mass
+from optimizer.program.norms import Norms
 from optimizer.program.over_turn import OverTurn
-from optimizer.program.statement import Norms
 
 #: relative width of the brackets
 _WIDTH = 1e-7

@@ -11,7 +11,8 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, spread
-from optimizer.program.statement import Statement, scalars
+from optimizer.program.norms import scalars
+from optimizer.program.statement import Statement
 
 #: a limit is touched when it is nearer than this share of itself
 TOUCHED = 1e-6

@@ -16,10 +16,13 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Samples, Scatter, reached
 from optimizer.program.limits import Limits
+from optimizer.program.norms import Norms
+from optimizer.program.rows import Row, WeightedPeak
 from optimizer.program.scaling import natural_reach
-from optimizer.program.statement import PARTS, Ceilings, Names, Norms, Row, Statement, Term, WeightedPeak, limited
+from optimizer.program.statement import PARTS, Names, Statement, Term
 from optimizer.response import Response
 
 #: relative width of the brackets by which quantities are known without counterweights

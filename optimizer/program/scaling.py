@@ -13,8 +13,9 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real, plain
 from optimizer.program.certificate import Multipliers
+from optimizer.program.norms import Norms
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution, Shape, Stage
-from optimizer.program.statement import Norms, Statement
+from optimizer.program.statement import Statement
 
 
 @dataclass(frozen=True)

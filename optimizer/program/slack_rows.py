@@ -12,7 +12,8 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.compiled import BothStages, both_stages
-from optimizer.program.statement import Names, Norms, Statement
+from optimizer.program.norms import Norms
+from optimizer.program.statement import Names, Statement
 
 #: a row that is below the largest by this share of it is far below it
 _FAR = 0.5

@@ -6,8 +6,9 @@ from typing import TypeVar
 import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 
 #: an excess that rounding alone may make, as a share of the size: solvers keep the ceilings they are given up to here
 CEILING_ROUNDING = 1e-13

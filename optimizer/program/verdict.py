@@ -10,9 +10,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
 from optimizer.program.scaling import natural_reach
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 
 _LOG = logging.getLogger(__name__)
 #: an answer whose total mass is not certified this closely, in units of its yardstick, is called inaccurate

@@ -8,7 +8,8 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.discrete.search import TREE
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.statement import Statement
 from optimizer.semicontinuous.inside import Incumbent, lightened, sharing
 from optimizer.semicontinuous.places import Places, root
 from optimizer.semicontinuous.tree import Tree, branch

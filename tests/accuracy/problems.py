@@ -9,7 +9,7 @@ import numpy as np
 from optimizer.accuracy.methods import Task
 from optimizer.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
 from optimizer.program.limits import Limits
-from optimizer.program.statement import combined, statement, weighted_peak
+from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from schemas.accuracy import AccuracyRequest
 from service.documents.examples import load

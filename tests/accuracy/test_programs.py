@@ -27,8 +27,8 @@ from optimizer.program.edge import Unreachable
 from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.reference.assembled import NoPoint
 from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import Solution
-from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.accuracy.problems import free_limits, random_task, single
 from tests.program.cases import COMBINATIONS, optimum

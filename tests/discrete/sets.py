@@ -7,7 +7,8 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.discrete.options import Options
 from optimizer.mechanics.angles import direction
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.statement import Statement
 
 
 def options_of(

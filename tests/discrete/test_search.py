@@ -10,7 +10,8 @@ from optimizer.discrete.options import EQUAL, Options
 from optimizer.discrete.search import EXHAUSTED, TREE, Found
 from optimizer.program.limits import Limits
 from optimizer.program.optima import optima
-from optimizer.program.statement import Statement, combined, statement, weighted_peak
+from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 from optimizer.response import Phasors, Response
 from tests.discrete.sets import every_set, options_of

@@ -22,8 +22,8 @@ from optimizer.limits import limits
 from optimizer.optimize import optimize
 from optimizer.outputs import prepare
 from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import CEILING_TOLERANCE, Solution
-from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.program.verdict import yardstick
 from optimizer.response import Response
 from schemas.requests import OptimizeRequest

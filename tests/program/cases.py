@@ -13,8 +13,9 @@ from optimizer.program.edge import Unreachable
 from optimizer.program.limits import Limits
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import Solution
-from optimizer.program.statement import Statement, combined, statement, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.response import Phasors, Response
 
 SOLVER = Solver()

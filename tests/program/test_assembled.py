@@ -6,9 +6,10 @@ import pytest
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.limits import Limits
 from optimizer.program.reference.assembled import Assembled, NoPoint, Target, solved
+from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import Solution
-from optimizer.program.statement import Row, Statement, statement, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_limits, random_point, random_statement
 

@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from optimizer.formulate import formulate
 from optimizer.outputs import prepare
+from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.compiled import BothStages, both_stages
 from optimizer.program.edge import Unreachable
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
@@ -16,7 +17,7 @@ from optimizer.program.kernel.interior_point import solve
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
-from optimizer.program.statement import CEILING_TOLERANCE, Statement
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 from schemas.requests import OptimizeRequest
 from tests.hard import stored

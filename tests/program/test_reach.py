@@ -8,8 +8,8 @@ from optimizer.mechanics.angles import direction
 from optimizer.program.limits import Limits
 from optimizer.program.reach import _told, within_reach
 from optimizer.program.reference.solver import _blended
+from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
-from optimizer.program.statement import combined, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.program.cases import SOLVER
 

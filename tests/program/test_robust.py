@@ -15,7 +15,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.misplaced import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
 from optimizer.program.misplaced_turn import largest_last_goals
 from optimizer.program.over_turn import Goal, Group, OverTurn
-from optimizer.program.statement import Row, weighted_peak
+from optimizer.program.rows import Row, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.program.cases import random_limits, random_point
 from tests.program.turning import bearings, wide

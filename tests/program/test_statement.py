@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from optimizer.program.statement import combined, statement, weighted_peak
+from optimizer.program.rows import combined, statement, weighted_peak
 from tests.program.cases import COMBINATIONS, random_limits, random_point, random_responses, random_statement
 
 

@@ -8,7 +8,8 @@ import pytest
 
 from optimizer.arrays import Real
 from optimizer.program.limits import Limits
-from optimizer.program.statement import Statement, combined, statement, weighted_peak
+from optimizer.program.rows import combined, statement, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.program.verdict import CONTRADICTED, NOT_LIGHT, OPTIMAL_LIGHTEST, Claim, mass_resolution, verdict
 from optimizer.response import Phasors, Response
 

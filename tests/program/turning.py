@@ -8,7 +8,7 @@ from optimizer.curve import TurnResponse
 from optimizer.program.cut import Quantity
 from optimizer.program.limits import Limits
 from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
-from optimizer.program.statement import Row, weighted_peak
+from optimizer.program.rows import Row, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.curves.fourier import FourierCurves
 from tests.program.cases import random_limits

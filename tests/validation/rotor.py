@@ -14,8 +14,8 @@ from optimizer.mechanics.angles import direction
 from optimizer.program.limits import Limits
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.solution import Solution
-from optimizer.program.statement import Row, statement, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.validation.comparison import Comparison, Misprint
 

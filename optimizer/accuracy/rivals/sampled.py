@@ -40,7 +40,7 @@ class WeightedResponse:
 
 @dataclass(frozen=True)
 class OverTheTurn:
-    """What :func:`optimizer.program.statement.statement` was made of; the statement keeps no phases."""
+    """What :func:`optimizer.program.rows.statement` was made of; the statement keeps no phases."""
 
     peaks: tuple[WeightedResponse, ...]
     combine: str

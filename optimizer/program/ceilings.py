@@ -1,0 +1,57 @@
+"""Hard limits on peaks."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.arrays import SMALLEST, Complex, Real, Reals
+from optimizer.program.norms import Norms, join
+from optimizer.response import Response
+
+#: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
+CEILING_TOLERANCE = 1e-9
+
+
+@dataclass(frozen=True)
+class Ceilings:
+    """Hard limits |c_i + H_i u| <= cap_i; a cap below 0 cannot be met."""
+
+    names: tuple[str, ...]
+    norms: Norms
+    cap: Real  # (..., I)
+    size: Real  # (..., I) > 0, what an excess is measured by
+    tolerance: float = CEILING_TOLERANCE  # up to which they count as kept, as a share of the size
+    angles_deg: tuple[float | None, ...] | None = None  # (I,) at which a response is limited; None is over the turn
+    scenarios: tuple[str | None, ...] | None = None  # (I,) whose response is limited; None is the machine as given
+
+    def excess(self, u: Complex) -> Real:
+        """How far each response is above its ceiling, relative to its size; <= 0 if met."""
+        if not self.names:
+            return self.cap + np.zeros((*u.shape[:-1], 1))
+        return (self.norms.sizes(u) - self.cap) / self.size
+
+    def raised(self, share: float) -> "Ceilings":
+        """Every ceiling higher by a share of its size, which is taken from the tolerance."""
+        return replace(self, cap=self.cap + share * self.size, tolerance=self.tolerance - share)
+
+    def only(self, webs: np.ndarray) -> "Ceilings":
+        return replace(self, norms=self.norms.only(webs))
+
+
+def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: int) -> Ceilings:
+    """Ceilings on responses beside an objective."""
+    leading = objective.constant.shape[:-1]
+    none = Norms(np.zeros((*leading, 0), complex), np.zeros((*leading, 0, webs)))
+    terms = [Norms(response.baseline.co[..., None], response.influence[..., None, :]) for response, _ in ceilings]
+    norms = join([none, *terms])
+    # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|
+    cap = np.zeros((*leading, len(ceilings)))
+    for index, (response, ceiling) in enumerate(ceilings):
+        cap[..., index] = ceiling - np.abs(response.baseline.counter)
+    size = np.maximum(np.abs(norms.constant), np.abs(cap))
+    # where both vanish: what the unbalance that the objective calls for does to the response
+    called_for = np.maximum.reduce(np.abs(objective.constant) / objective.largest_influence, axis=-1, initial=0.0)
+    size = np.where(size > SMALLEST, size, norms.largest_influence * called_for[..., None])
+    size, scenarios = np.where(size > SMALLEST, size, 1.0), tuple(response.scenario for response, _ in ceilings)
+    return Ceilings(tuple(response.name for response, _ in ceilings), norms, cap, size, scenarios=scenarios)

@@ -1,0 +1,99 @@
+"""Weighted peaks, the rows that they add up to, and the program that makes these small."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Real, Reals, total
+from optimizer.program.ceilings import limited
+from optimizer.program.limits import Limits
+from optimizer.program.norms import Norms, join
+from optimizer.program.statement import PARTS, Names, Statement, Term
+from optimizer.response import Response
+
+
+@dataclass(frozen=True)
+class WeightedPeak:
+    """One weighted peak over a turn, as a floor and norm terms.
+
+    A single term is the co-rotating vector; of two the second is the counter-rotating one.
+    """
+
+    name: str  # of the response
+    floor: Real  # (...)
+    norms: Norms
+    scenario: str | None = None  # whose response it is
+
+
+def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weight_y: Reals = 1.0) -> WeightedPeak:
+    """Weighted peak of a response over a turn, exactly (docs/mathematics.md section 3).
+
+    With p = (w_x + w_y)/2 and q = (w_x - w_y)/2 the weighted vector is the pair of phasors
+    p f + q conj(b) and p b + q conj(f), so its peak is |p f + q conj b| + |q f + p conj b|; both are
+    affine in u with real factors. With equal weights the second is the constant p |b|, if no shaft turns backwards.
+
+    Parameters
+    ----------
+    weight, weight_x, weight_y : (...) one for each program.
+    """
+    p = np.asarray(0.5 * weight * (weight_x + weight_y))
+    q = np.asarray(0.5 * weight * (weight_x - weight_y))
+    f, b = response.baseline.co, np.conj(response.baseline.counter)
+    against = response.counter_influence
+    if not q.any() and against is None:
+        alone = total((p * f)[..., None, None])
+        norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
+        return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
+    terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)
+    constant = total(np.stack(terms, axis=-1).reshape(*terms[0].shape, 2, 2))
+    influence = np.stack([p, q], axis=-1)[..., None] * response.influence[..., None, :]
+    if against is not None:
+        influence = influence + np.stack([q, p], axis=-1)[..., None] * against[..., None, :]
+    return WeightedPeak(response.name, np.zeros_like(p), Norms(constant, influence), response.scenario)
+
+
+class Row(NamedTuple):
+    """A sum of weighted peaks."""
+
+    name: str
+    peaks: tuple[WeightedPeak, ...]
+
+
+def combined(peaks: Sequence[WeightedPeak], combine: str) -> tuple[tuple[Row, ...], ...]:
+    """The "sum" or the "max" of weighted peaks, at least one, as the only group of an objective."""
+    if combine == "max":
+        return (tuple(Row(peak.name, (peak,)) for peak in peaks),)
+    return ((Row(combine, tuple(peaks)),),)
+
+
+def statement(groups: Sequence[Sequence[Row]], ceilings: Sequence[tuple[Response, Reals]], limits: Limits) -> Statement:
+    """Put a program together, or many of one shape.
+
+    Parameters
+    ----------
+    groups : what is to be small, at least one: their sum, each the largest of its rows.
+    ceilings : responses with the largest peak allowed (...), in the units of the response.
+    """
+    rows = [row for group in groups for row in group]
+    peaks = [peak for row in rows for peak in row.peaks]
+    terms = [peak.norms.constant.shape[-1] for peak in peaks]
+    owner = [number for number, row in enumerate(rows) for _ in row.peaks]
+    norms = join([peak.norms for peak in peaks])
+    leading = norms.constant.shape[:-1]
+    floor = np.empty((*leading, len(rows)))
+    for number, row in enumerate(rows):
+        floor[..., number] = sum(peak.floor for peak in row.peaks)
+    return Statement(
+        norms=norms,
+        row=np.array([number for number, count in zip(owner, terms, strict=True) for _ in range(count)], dtype=int),
+        group=np.array([number for number, group in enumerate(groups) for _ in group], dtype=int),
+        floor=floor,
+        ceilings=limited(ceilings, norms, limits.radius.shape[-1]),
+        limits=limits,
+        names=Names(
+            tuple(Term(peak.name, part) for peak, count in zip(peaks, terms, strict=True) for part in PARTS[:count]),
+            tuple(row.name for row in rows),
+        ),
+    )
