@@ -93,6 +93,15 @@ def test_importing_loads_nothing_that_takes_long() -> None:
     assert ran.stdout.strip() == "[]"
 
 
+def test_the_first_function_loads_neither_compiler_nor_sparse_matrices() -> None:
+    code = (
+        "import sys; from optimizer import optimize; "
+        "print(sorted({'numba', 'scipy', 'pyarrow', 'cvxpy', 'clarabel'} & set(sys.modules)))"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=True)
+    assert ran.stdout.strip() == "[]"
+
+
 def test_an_answer_shows_itself_in_a_notebook() -> None:
     answer = optimize(OptimizeRequest.model_validate(bodies("")["2d12"]))
     shown = answer._repr_html_()

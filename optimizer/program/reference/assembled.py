@@ -10,14 +10,17 @@ follows belongs to the program at hand.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from scipy import sparse
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.reference.boost import boosted
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution
+
+# loaded with the first program: it takes as long as all else that is imported for an answer
+if TYPE_CHECKING:
+    from scipy import sparse
 
 #: of the solver, if nothing else is asked
 REGULARIZATION = 1e-8
@@ -102,8 +105,10 @@ class Assembly:
             self._cones.append((cones, constant.size))
         return slice(start, self._rows)
 
-    def matrix(self) -> sparse.csc_matrix:
+    def matrix(self) -> "sparse.csc_matrix":
         """(rows, columns)."""
+        from scipy import sparse
+
         row, column, value = (
             np.concatenate([getattr(part, name) for part in self._parts]) for name in ("row", "column", "value")
         )
@@ -131,6 +136,7 @@ class Assembly:
         regularization : that the solver adds to what it factors; with less it sees more digits, or none.
         """
         import clarabel
+        from scipy import sparse
 
         settings = clarabel.DefaultSettings()
         settings.verbose = False

@@ -6,10 +6,14 @@ unit vector e the cone is p q >= y^2 for p = t + e.a, q = t - e.a and y across; 
 Source: Nesterov and Todd, Self-scaled barriers and interior-point methods for convex programming (1997), section 3.
 """
 
+from typing import TYPE_CHECKING
+
 import numpy as np
-from scipy import sparse
 
 from optimizer.arrays import Real
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 #: q is taken to be no smaller than this share of p: a boost beyond 100 costs more digits than it shows
 _NEAREST = 1e-4
@@ -37,7 +41,7 @@ def boosts(size: Real, vector: Real) -> Real:
     return found
 
 
-def boosted(rows: Real, cones: np.ndarray) -> sparse.csr_matrix:
+def boosted(rows: Real, cones: np.ndarray) -> "sparse.csr_matrix":
     """What boosts all cones of some rows (m,) and leaves the others; symmetric.
 
     Parameters
@@ -45,6 +49,8 @@ def boosted(rows: Real, cones: np.ndarray) -> sparse.csr_matrix:
     rows : (m,) of a point near an optimum.
     cones : (n,) first row of each cone in the plane.
     """
+    from scipy import sparse
+
     place = cones[:, None] + np.arange(3)
     each = boosts(rows[cones], rows[place[:, 1:]])
     plain = np.setdiff1d(np.arange(rows.size), place)
