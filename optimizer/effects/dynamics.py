@@ -27,7 +27,7 @@ from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
-from optimizer.mechanics.row_series import row_data
+from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.turn import fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from schemas.base import FieldProblem

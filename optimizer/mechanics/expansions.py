@@ -7,7 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Real
-from optimizer.mechanics.row_series import RowData, RowSeries
+from optimizer.mechanics.row_data import RowData
+from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.taylor import Taylor
 from optimizer.pieces import Index
 

@@ -18,7 +18,8 @@ from optimizer.mechanics.expansions import Expansions
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_series import RowData, RowSeries, shared
+from optimizer.mechanics.row_data import RowData, shared
+from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.taylor import Taylor
 from optimizer.mechanics.turn import panels
 from optimizer.pieces import Index, Pieces

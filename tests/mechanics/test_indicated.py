@@ -10,7 +10,8 @@ from optimizer.mechanics.cylinders import chambers, cycle_turns, traces
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import layout, spread
-from optimizer.mechanics.row_series import RowSeries, row_data
+from optimizer.mechanics.row_data import row_data
+from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.engines import FOUR, RADIUS, UNEVEN, cylinder, engine, trace

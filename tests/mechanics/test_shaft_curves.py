@@ -14,7 +14,7 @@ from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.rod import shaft_loads
-from optimizer.mechanics.row_series import row_data
+from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
 from optimizer.mechanics.whole_turn import break_angles, whole_turn
 from schemas.reciprocating import ReciprocatingMachine

@@ -7,7 +7,8 @@ from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.rod import rod_forces, shaft_loads
-from optimizer.mechanics.row_series import RowSeries, row_data
+from optimizer.mechanics.row_data import row_data
+from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
 from tests.analyze.driven import STYLES, arrays, random_driven
 

@@ -1,0 +1,90 @@
+"""What the forces of the rows depend on, of one design or many."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.mechanics.gas import Chambers
+from optimizer.mechanics.indicated import Trace
+from optimizer.mechanics.kinematics import own_angle
+from optimizer.mechanics.layout import Layout
+
+
+@dataclass(frozen=True)
+class RowData:
+    """What the forces of the rows depend on; what is the same in all N designs stands there once, (1, R)."""
+
+    designs: int  # N
+    ahead: Real  # (N, R) rad, own crank angle at shaft angle 0
+    crank_radius: Real  # (N, R) m
+    rod_ratio: Real  # (N, R)
+    rod_margin: Real  # (N, R) 1 - rod ratio
+    inertia: Real  # (N, R) m r omega^2, N
+    sense: Real  # (N, 1)
+    friction: Real  # (N, R) N
+    exact: bool  # or cut off after the second order
+    area: Real | None  # (N, R, C) m^2, chambers as in :class:`Chambers`; None without gas
+    suction: Real | None = None
+    discharge: Real | None = None
+    clearance: Real | None = None
+    expansion_exponent: Real | None = None
+    compression_exponent: Real | None = None
+    closed: Real | None = None
+    traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
+
+    def chosen(self, design: np.ndarray) -> "RowData":
+        """Those of some designs, as often as named."""
+
+        def each(value: Any) -> Any:
+            varies = isinstance(value, np.ndarray) and len(value) > 1
+            return value[design] if varies else value
+
+        chosen = {field.name: each(getattr(self, field.name)) for field in fields(self)}
+        traces = tuple(replace(one, table=each(one.table), lead=each(one.lead)) for one in self.traces)
+        return RowData(**chosen | {"designs": len(design), "traces": traces})
+
+
+def row_data(
+    layout: Layout, exact: bool, friction: Real | None, chambers: Chambers | None, traces: Sequence[Trace] = ()
+) -> RowData:
+    """Data of designs whose leading axes become one, N.
+
+    Parameters
+    ----------
+    friction : (..., R) N, of the rows; None where there is none.
+    chambers : of the rows; None where there is no gas.
+    traces : of chambers whose pressure is given.
+    """
+    rows = layout.reciprocating
+    leading = layout.omega.shape
+    designs, count = int(np.prod(leading)), rows.mass.shape[-1]
+
+    def flat(value: Any, *own: int) -> Any:
+        return shared(np.broadcast_to(value, (*leading, *own)).reshape(designs, *own))
+
+    gas: dict[str, Any] = {"area": None}
+    if chambers is not None:
+        gas = {name: flat(value, count, value.shape[-1]) for name, value in vars(chambers).items()}
+    return RowData(
+        designs=designs,
+        ahead=flat(own_angle(layout, np.zeros(1))[..., 0], count),
+        crank_radius=flat(rows.crank_radius, count),
+        rod_ratio=flat(rows.rod_ratio, count),
+        rod_margin=flat(rows.rod_margin, count),
+        inertia=flat(rows.mass * rows.crank_radius * layout.omega[..., None] ** 2, count),
+        sense=flat(layout.sense[..., None], 1),
+        friction=flat(np.zeros(()) if friction is None else friction, count),
+        exact=exact,
+        traces=tuple(replace(trace, table=flat(trace.table), lead=flat(trace.lead)) for trace in traces),
+        **gas,
+    )
+
+
+def shared(values: Real) -> Real:
+    """Values (N, ...) once, (1, ...), where they are the same in all designs: what is made of them is made once too."""
+    return (
+        values[:1] if len(values) > 1 and np.array_equal(values, np.broadcast_to(values[:1], values.shape)) else values
+    )
