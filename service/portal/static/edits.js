@@ -1,26 +1,23 @@
-// Everything that was done to the request, to be undone and done again.
+// Everything that was done to the request, to be undone and done again. States share what did not change.
 
 // of what was done longest ago the page forgets the rest
-const LARGEST = 20_000_000;
+const MOST = 1_000;
 
 export class Edits {
   #past = [];
   #future = [];
-  /** @type {{ text: string, example: string | null } | null} */
+  /** @type {{ request: any, example: string | null } | null} */
   #now = null;
   #pointer = null;
 
   // typing on in one field is one edit
   record(request, example, pointer = null) {
-    const text = JSON.stringify(request);
-    if (this.#now?.text === text) return;
+    if (this.#now?.request === request) return;
     if (this.#now && (pointer === null || pointer !== this.#pointer)) this.#past.push(this.#now);
-    this.#now = { text, example };
+    this.#now = { request, example };
     this.#pointer = pointer;
     this.#future = [];
-    let size = 0;
-    const kept = this.#past.findLastIndex((one) => (size += one.text.length) > LARGEST);
-    this.#past.splice(0, kept + 1);
+    if (this.#past.length > MOST) this.#past.shift();
   }
 
   get undoable() {
@@ -45,6 +42,6 @@ export class Edits {
     to.push(this.#now);
     this.#now = found;
     this.#pointer = null;
-    return { request: JSON.parse(found.text), example: found.example };
+    return found;
   }
 }

@@ -12,18 +12,19 @@ export function get(root, pointer) {
     ? node[part] : undefined), root);
 }
 
-// undefined removes; what is missing on the way is made
-export function set(root, pointer, value) {
-  const parts = split(pointer);
-  const last = parts.pop();
-  let node = root;
-  for (const part of parts) {
-    if (!Object.hasOwn(node, part) || node[part] === null || typeof node[part] !== "object") {
-      Object.defineProperty(node, part, { value: {}, writable: true, enumerable: true, configurable: true });
-    }
-    node = node[part];
-  }
-  if (value === undefined && Array.isArray(node)) node.splice(Number(last), 1);
-  else if (value === undefined) delete node[last];
-  else Object.defineProperty(node, last, { value, writable: true, enumerable: true, configurable: true });
+// The same with another value there; undefined removes, and what is missing on the way is made. What was given stays
+// as it is: all that stands beside the way is shared.
+export const put = (root, pointer, value) => changed(root, split(pointer), value);
+
+/** @returns {any} */
+function changed(node, [part, ...rest], value) {
+  const known = node !== null && typeof node === "object";
+  const before = known && Object.hasOwn(node, part) ? node[part] : undefined;
+  const now = rest.length ? changed(before, /** @type {[any, ...any[]]} */ (rest), value) : value;
+  if (Object.is(now, before)) return node;
+  const made = Array.isArray(node) ? [...node] : known ? { ...node } : {};
+  if (now !== undefined) Object.defineProperty(made, part, { value: now, writable: true, enumerable: true, configurable: true });
+  else if (Array.isArray(made)) made.splice(Number(part), 1);
+  else delete made[part];
+  return made;
 }

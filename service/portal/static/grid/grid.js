@@ -2,7 +2,7 @@
 
 import { h } from "../dom.js";
 import { label, nameOf } from "../format.js";
-import { get, join, set } from "../pointer.js";
+import { get, join } from "../pointer.js";
 import { meant, quantity, read } from "../quantity.js";
 import { columnsOf } from "./columns.js";
 import { copied } from "./copied.js";
@@ -26,7 +26,11 @@ export class Grid {
       this.body.childElementCount ? null : h("p", { class: "about" }, `No ${table.item} yet: add one, or paste a table from a spreadsheet.`),
       this.said, this.tools());
     this.mark(0);
-    this.doubts();
+    for (const column of this.columns) {
+      column.doubts = new Map();
+      for (const { pointer } of source.entries()) this.doubt(below(pointer, column.path), column);
+    }
+    this.ask();
   }
 
   line(entry, row) {
@@ -59,38 +63,39 @@ export class Grid {
 
   typed(at, column, text) {
     const whole = this.put(at, column, text);
-    this.doubts();
+    this.doubt(at, column);
+    this.ask();
     if (whole) this.form.refresh();
     else this.form.told(at);
   }
 
   // whether more than this cell has changed
   put(at, column, text) {
-    const { request } = this.form;
     const empty = column.mandatory && column.nullable && !column.optional ? null : undefined;
     const value = text.trim() ? (column.kind === "number" ? read(text, column.unit) : text.trim()) : empty;
     const [around, item] = column.optional ? [at.slice(0, at.lastIndexOf("/")), at.slice(0, -column.path.length - 1)] : [null, null];
     if (around === null) {
-      set(request, at, value);
+      this.form.put(at, value);
       return false;
     }
-    const before = get(request, around);
+    const before = get(this.form.request, around);
     if (value === undefined && (before === null || before === undefined)) return false;
-    set(request, at, value);
+    this.form.put(at, value);
     const part = column.path.split("/")[0];
-    if (this.columns.every(({ path, kind }) => !path.startsWith(`${part}/`) || kind === "choice" || get(request, below(item, path)) === undefined)) set(request, around, undefined);
+    if (this.columns.every(({ path, kind }) => !path.startsWith(`${part}/`) || kind === "choice" || get(this.form.request, below(item, path)) === undefined)) this.form.put(around, undefined);
     else if ((before === null || before === undefined) && part === "envelope") {
       // radius and mass follow from what is cut
-      if (column.kind !== "choice") set(request, join(around, "shape"), "segment");
-      for (const name of ["counterweight_radius_m", "max_mass_kg"]) set(request, join(item, name), undefined);
+      if (column.kind !== "choice") this.form.put(join(around, "shape"), "segment");
+      for (const name of ["counterweight_radius_m", "max_mass_kg"]) this.form.put(join(item, name), undefined);
       return true;
     }
     return false;
   }
 
   mark(row) {
+    this.body.children[this.current]?.classList.remove("current");
     this.current = Math.min(row, Math.max(0, this.body.childElementCount - 1));
-    [...this.body.children].forEach((line, index) => line.classList.toggle("current", index === this.current));
+    this.body.children[this.current]?.classList.add("current");
     for (const button of this.element.querySelectorAll("[data-of]")) {
       button.setAttribute("aria-label", `${button.textContent} ${this.table.item} ${this.name(this.current)}`);
     }
@@ -168,7 +173,7 @@ export class Grid {
       const crank = quantity((machine.throws[item?.throw] ?? near)?.crank_angle_deg, "deg");
       if (!Number.isFinite(crank) || item?.fixed) continue;
       const centre = Number(((((crank + 180) % 360) + 360) % 360).toPrecision(12));
-      set(this.form.request, join(pointer, "sector"), { half_angle_deg: 30, ...item.sector, centre_deg: centre });
+      this.form.put(join(pointer, "sector"), { half_angle_deg: 30, ...item.sector, centre_deg: centre });
     }
     this.again(this.current);
   }
@@ -197,14 +202,14 @@ export class Grid {
     const { rows, places, unknown } = placed(text, columns, start + (this.source.owners ? 1 : 0), accepted);
     rows.forEach((cells, index) => {
       while (this.source.entries().length <= row + index) this.source.add();
+      const before = this.source.entries()[row + index];
+      const to = places.findIndex((place) => columns[place?.index] === owner);
+      if (to >= 0) this.give(before, cells[to]);
       // a row that goes to another throw keeps what it is, not its number
-      const { item } = this.source.entries()[row + index];
-      const entry = () => this.source.entries().find((one) => one.item === item) ?? this.source.entries()[row + index];
+      const { pointer } = this.source.entries().find((one) => one.item === before.item) ?? before;
       cells.forEach((cell, at) => {
         const column = columns[places[at]?.index];
-        if (!column) return;
-        if (column === owner) this.give(entry(), cell);
-        else this.put(below(entry().pointer, column.path), column, withUnit(cell, places[at].unit, column.unit));
+        if (column && column !== owner) this.put(below(pointer, column.path), column, withUnit(cell, places[at].unit, column.unit));
       });
     });
     const fresh = this.form.refresh().get(this.source.pointer + this.table.item);
@@ -223,19 +228,23 @@ export class Grid {
       near ? h("button", { type: "button", class: "small", click: () => again({ [head]: near }) }, `Yes, ${near}`) : null)));
   }
 
+  doubt(at, column) {
+    const value = get(this.form.request, at);
+    const other = meant(value, column.unit, column.name);
+    if (other) column.doubts.set(at, { value, other });
+    else column.doubts.delete(at);
+  }
+
   // one question a column, answered for all of it
-  doubts() {
-    const asked = this.columns.flatMap((column) => {
-      const found = this.source.entries().map(({ pointer }) => below(pointer, column.path))
-        .map((at) => ({ at, value: get(this.form.request, at), other: meant(get(this.form.request, at), column.unit, column.name) })).filter(({ other }) => other);
-      if (!found.length) return [];
+  ask() {
+    this.said.replaceChildren(...this.columns.filter(({ doubts }) => doubts.size).map(({ head, doubts }) => {
+      const [first] = doubts.values();
       const yes = () => {
-        for (const { at, other } of found) set(this.form.request, at, other);
+        for (const [at, { other }] of doubts) this.form.put(at, other);
         this.form.refresh();
       };
-      return [h("p", { class: "question" }, `${column.head}: ${found[0].value} m? `, h("button", { type: "button", class: "small", click: yes }, `${found[0].other} meant`))];
-    });
-    this.said.replaceChildren(...asked);
+      return h("p", { class: "question" }, `${head}: ${first.value} m? `, h("button", { type: "button", class: "small", click: yes }, `${first.other} meant`));
+    }));
   }
 }
 

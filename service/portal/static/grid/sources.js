@@ -1,7 +1,7 @@
 // Where the rows of a table are kept in the request: a list, or the rows of all throws together.
 
 import { nameOf } from "../format.js";
-import { get, join, set } from "../pointer.js";
+import { get, join } from "../pointer.js";
 import { another } from "../schema.js";
 
 // a machine that was pasted may hold anything
@@ -30,7 +30,7 @@ export class ListSource {
     const list = listed(this.form.request, this.pointer);
     const fresh = list.length ? this.next(list, from) : this.blank();
     list.splice(after === null ? list.length : after + 1, 0, fresh);
-    set(this.form.request, this.pointer, list);
+    this.form.put(this.pointer, list);
   }
 
   next(list, from) {
@@ -42,14 +42,15 @@ export class ListSource {
   }
 
   remove({ list, index }) {
-    set(this.form.request, join(list, index), undefined);
+    this.form.put(join(list, index), undefined);
   }
 
   move({ list, index }, by) {
-    const items = get(this.form.request, list);
+    const items = listed(this.form.request, list);
     const to = index + by;
     if (to < 0 || to >= items.length) return null;
     [items[index], items[to]] = [items[to], items[index]];
+    this.form.put(list, items);
     return to;
   }
 
@@ -62,7 +63,7 @@ export class ListSource {
       made.position_m = Number((2 * about - place(item)).toPrecision(12));
       list.push(made);
     }
-    set(this.form.request, this.pointer, list);
+    this.form.put(this.pointer, list);
   }
 }
 
@@ -89,7 +90,7 @@ export class RowsSource extends ListSource {
     if (owner < 0) return;
     const list = this.lists()[owner];
     const items = listed(this.form.request, list);
-    set(this.form.request, list, [...items, like ? another([...items, like.item]) : this.blank()]);
+    this.form.put(list, [...items, like ? another([...items, like.item]) : this.blank()]);
   }
 
   /** @override */
@@ -99,9 +100,10 @@ export class RowsSource extends ListSource {
   }
 
   // to another throw
-  give({ list, index, item }, owner) {
-    set(this.form.request, join(list, index), undefined);
+  give({ list, index }, owner) {
+    const item = get(this.form.request, join(list, index));
+    this.form.put(join(list, index), undefined);
     const to = this.lists()[owner];
-    set(this.form.request, to, [...listed(this.form.request, to), item]);
+    this.form.put(to, [...listed(this.form.request, to), item]);
   }
 }

@@ -1,8 +1,8 @@
 // Inputs for single values: numbers with their unit, choices, texts, lists of numbers.
 
-import { h } from "./dom.js";
-import { label } from "./format.js";
-import { meant, read } from "./quantity.js";
+import { h } from "../dom.js";
+import { label } from "../format.js";
+import { meant, read } from "../quantity.js";
 
 let last = 0;
 const freshId = () => `field-${(last += 1)}`;
