@@ -1,5 +1,6 @@
 """The application."""
 
+import gc
 from collections.abc import AsyncIterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager
@@ -120,6 +121,10 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
             document = beside.submit(app.document, chosen.root_path)
             pool.open()
             document.result()
+        # what is loaded by now stays; each full collection of garbage, of which there are some a second where many ask,
+        # would stop everything for a tenth of a second to look through all of it again
+        gc.collect()
+        gc.freeze()
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:

@@ -82,6 +82,8 @@ class Pool:
 
     def __post_init__(self) -> None:
         self._turns = Turns(self.size, self.waiting, self.each)
+        # who has no turn while all have one is not to wait for a start
+        self._kept = self.size + 1
         self._threads = CapacityLimiter(2 * (self.size + 1))
         self._idle: list[Worker] = []
         self._busy: set[Worker] = set()
@@ -109,7 +111,7 @@ class Pool:
         ------
         WorkersFailed
         """
-        while len(self._idle) < self.size and not self._closed:
+        while len(self._idle) < self._kept and not self._closed:
             self._idle.append(self._start())
 
     def close(self) -> None:
@@ -217,14 +219,14 @@ class Pool:
         raise WorkersFailed("The service ends.")
 
     def _spare(self, worker: Worker) -> None:
-        if len(self._idle) < self.size and not self._closed:
+        if len(self._idle) < self._kept and not self._closed:
             self._idle.append(worker)
         else:
             worker.end()
 
     async def _keep(self, worker: Worker, outcome: Outcome) -> None:
         resident = getattr(outcome, "resident", 0)
-        if isinstance(outcome, Crashed) or resident > self.memory_mb * _MB / 2 or len(self._idle) >= self.size:
+        if isinstance(outcome, Crashed) or resident > self.memory_mb * _MB / 2 or len(self._idle) >= self._kept:
             # fresh ones hold no more than they need, and there are no more of them than needed
             await self._in_thread(worker.end)
         else:

@@ -109,6 +109,22 @@ def test_long_tasks_leave_a_worker_to_the_others(pool: Pool) -> None:
     anyio.run(three_at_once)
 
 
+def test_who_has_no_turn_finds_a_worker_that_has_been_started(pool: Pool) -> None:
+    pool.open()
+    begun = pool.counts.started
+
+    async def another_beside_all() -> None:
+        async with anyio.create_task_group() as group:
+            for _ in range(2):
+                group.start_soon(pool.run, task(tasks.endless), "one")
+            await anyio.wait_all_tasks_blocked()
+            assert isinstance(await pool.run(task(tasks.quick), "another"), Answer)
+            assert (pool.running, pool.counts.started) == (2, begun)
+            group.cancel_scope.cancel()
+
+    anyio.run(another_beside_all)
+
+
 def test_a_task_that_takes_too_much_memory_is_refused_alone(pool: Pool) -> None:
     hungry, other = run(pool, task(tasks.hungry), task(tasks.slow))
     assert isinstance(hungry, Refused)

@@ -1,5 +1,6 @@
 """The state machine of the warm-up: warming, then ready or failed."""
 
+import gc
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -38,6 +39,21 @@ def test_warming_then_ready(monkeypatch: pytest.MonkeyPatch) -> None:
         wait_until(lambda: client.get("/readyz").status_code == 200)
         assert client.get("/readyz").json() == {"status": "ready"}
         assert client.post("/v1/optimize", json={}).status_code == 422
+
+
+def test_what_is_loaded_is_no_garbage_to_look_through(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(Pool, "open", lambda _: None)
+    # what another test may have had taken out
+    gc.unfreeze()
+    gc.collect()
+    before = len(gc.get_objects())
+    try:
+        with TestClient(create_app(Settings())) as client:
+            wait_until(lambda: client.get("/readyz").status_code == 200)
+            assert gc.get_freeze_count() > before
+            assert len(gc.get_objects()) < before / 10
+    finally:
+        gc.unfreeze()
 
 
 def test_a_warm_up_that_fails_is_reported_and_logged(
