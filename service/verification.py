@@ -30,7 +30,7 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 def checker() -> ModuleType:
     """The file for answers of every kind; none of them belongs to a package or imports anything of this one."""
     # each imports those before it by their names
-    parts = ("_numbers", "_program", "_curves", "", "_turn", "_many")
+    parts = ("_numbers", "_machine", "_program", "_claims", "_weights", "_curves", "", "_turn", "_many")
     return [_loaded(f"verify{part}") for part in parts][-1]
 
 

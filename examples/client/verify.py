@@ -3,19 +3,20 @@
     python verify.py request.json answer.json
 
 The standard library, Python 3.8 or newer; nothing of the service is imported. Beside this file have to lie
-verify_numbers.py, which reads the files into numbers that enclose every quotient, square root, sine and cosine, and
-verify_program.py, which evaluates machine, limits, values and bounds anew. verify_many.py does the same for fronts and
-sweeps. What is claimed, by which formulas and to which tolerance is in docs/verify.md. Exit code 0: nothing is broken,
-1: something is, 2: the files cannot be read.
+verify_numbers.py, which reads the files into numbers that enclose every quotient, square root, sine and cosine,
+verify_machine.py and verify_program.py, which evaluate machine, limits, values and bounds anew, verify_claims.py and
+verify_weights.py. verify_many.py does the same for fronts and sweeps. What is claimed, by which formulas and to which
+tolerance is in docs/verify.md. Exit code 0: nothing is broken, 1: something is, 2: the files cannot be read.
 """
 
 from __future__ import annotations
 
 import sys
-from fractions import Fraction
 from functools import partial
-from typing import Any, Callable, Generator, Iterable, Iterator, Optional, Sequence, Tuple
+from typing import Any, Callable, Iterator, Sequence
 
+from verify_claims import Claim, Claims, covered, judged, main, near
+from verify_machine import NAMES, Machine, Mass, Responses
 from verify_numbers import (
     ABOUT_ONE,
     BLUR,
@@ -28,45 +29,15 @@ from verify_numbers import (
     Place,
     direction,
     largest,
-    pointer,
-    read,
     real,
     total,
 )
-from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Responses, Statement, phasors
+from verify_program import CEILINGS, Statement, phasors
+from verify_weights import catalogue, counterweights, heavy_enough, stocked
 
-MASS = 1e-12  # of a limit: by which rounded masses may exceed it
-ANGLE = 1e-12  # degrees likewise
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
-SAME = 1e-9  # of a mass, relative, and of an angle in degrees: by which they are those of a catalogue
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
 MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
-#: an answer is held if these claims are, as far as they are made
-CENTRAL = {
-    "counterweights",
-    "max_mass",
-    "sector",
-    "max_total_mass",
-    "ceilings",
-    "objective",
-    "lower_bound",
-    "fixed",
-    "web_groups",
-}
-CENTRAL |= {"fixed", "web_groups", "status", "corner", "conflict", "reach", "request"}
-VERDICTS = ("held", "not covered", "broken")
-
-#: kind of claim, where it stands, the room that is left (None: not covered), and what it is a share of
-Claim = Tuple[str, Place, Optional[Number], Number]
-Claims = Generator[Claim, None, Any]
-
-
-def near(claim: str, place: Place, figure: Number) -> Claim:
-    """A figure lies where it has to."""
-    if not place:
-        return claim, place, None, ONE
-    off = min(place.number() - figure, figure - place.number(), key=lambda one: one.high)
-    return claim, place, off + real(NOTHING), abs(figure)
 
 
 def proven(
@@ -117,46 +88,6 @@ def first_order(claim: str, place: Place, responses: Responses) -> Claims:
             # along e^{ja} both phasors point the same way: their product is along e^{2ja}
             way = direction(axis.double()) + BLUR
             yield claim, axis, -abs(product - way * way * abs(product)), abs(product)
-
-
-def counterweights(machine: Machine, place: Place) -> Claims:
-    """Their consistency and the limits of the webs; returns them as masses, and their total mass."""
-    names = [(one / "web").text() for one in place]
-    yield "counterweights", place, ONE if names == [web.name for web in machine.webs] else -ONE, ONE
-    by_name, turning, total_mass = dict(zip(names, place)), [], ZERO
-    for web in machine.webs:
-        one = by_name.get(web.name, Place({"mass_kg": 0, "angle_deg": 0}, *place.path))
-        said, mass, angle = one / "mass_kg", (one / "mass_kg").number(), (one / "angle_deg").double()
-        u = (direction(angle) + machine.blur) * mass * web.radius * machine.wide
-        exactly = mass * web.radius * machine.wide, *u.parts(), web.position, web.radius
-        figures = zip(("mass_radius_kg_m", "x_kg_m", "y_kg_m", "position_m", "radius_m"), exactly)
-        yield from (near("counterweights", one / field, exact) for field, exact in figures if one / field)
-        yield "max_mass", said, mass, abs(mass)
-        if web.fixed is not None:
-            yield near("fixed", said, web.fixed[0])
-            off = (Fraction(angle) - Fraction(web.fixed[1]) + 180) % 360 - 180
-            yield "fixed", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if mass.high > 0 else ONE, ONE
-        elif web.limit is not None:
-            yield "max_mass", said, web.limit * real(1 + MASS) - mass, web.limit
-        if web.sector is not None and mass.high > 0:
-            turn, (centre, half) = Fraction(360), web.sector
-            off = abs((Fraction(angle) - Fraction(centre) + turn / 2) % turn - turn / 2)
-            yield "sector", one / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
-        total_mass = total_mass + mass
-        turning.append(Mass(mass * web.radius, direction(angle), ZERO, web.position))
-    for group in machine.groups:
-        (first, crank), *others = group
-        same = by_name[machine.webs[first].name]
-        for k, angle in others:
-            one = by_name[machine.webs[k].name]
-            yield near("web_groups", one / "mass_kg", (same / "mass_kg").number())
-            ahead = Fraction((one / "angle_deg").double()) - Fraction((same / "angle_deg").double())
-            off = (ahead - Fraction(angle) + Fraction(crank) + 180) % 360 - 180
-            fitted = (one / "mass_kg").number().high > 0
-            yield "web_groups", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
-    if machine.budget is not None:
-        yield "max_total_mass", place, machine.budget * real(1 + MASS) - total_mass, machine.budget
-    return turning, total_mass * machine.wide
 
 
 def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: bool) -> Claims:
@@ -233,42 +164,6 @@ def searched(asked: Place, place: Place, proof: Place) -> Claims:
     if chosen:
         yield "lower_bound", proof / "lower_bound", None, ONE
     return chosen
-
-
-def heavy_enough(asked: Place, place: Place) -> Claims:
-    """Masses that are fitted are no smaller than the least that is."""
-    for web, one in zip(asked / "webs", place):
-        least, mass = web / "min_fitted_mass_kg", (one / "mass_kg").number(least=0)
-        if least and mass.high > 0:
-            yield "min_fitted_mass", one / "mass_kg", mass - least.number() * real(1 - MASS), mass
-
-
-def stocked(web: Place) -> bool:
-    """Whether a web has masses or holes of its own."""
-    return bool(web / "catalogue_masses_kg") or bool(web / "hole_angles_deg")
-
-
-def catalogue(asked: Place, place: Place) -> Claims:
-    """Masses, holes and counts that there are; steps are not covered."""
-    general = asked / "catalogue"
-    used: list[Number] = []
-    for web, one in zip(asked / "webs", place):
-        mass, angle = (one / "mass_kg").number(), (one / "angle_deg").double()
-        if mass.high <= 0:
-            continue
-        masses = (web / "catalogue_masses_kg") or (general / "masses_kg")
-        off = min((abs(each.number() - mass) for each in masses), key=lambda each: each.high, default=None)
-        yield "catalogue", one / "mass_kg", None if off is None else mass * real(SAME) - off, mass
-        turn = Fraction(360)
-        away = [abs((Fraction(each.double()) - Fraction(angle) + turn / 2) % turn - turn / 2)
-                for each in web / "hole_angles_deg"]  # fmt: skip
-        yield "catalogue", one / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
-        if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
-            used.append(mass)
-    fitted = sum((one / "mass_kg").double() > 0 for one in place)
-    for most, count in ((asked / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
-        if most:
-            yield "catalogue", most, most.number() - real(count), ONE
 
 
 def lightest(
@@ -365,30 +260,6 @@ def smallest(machine: Machine, goal: Place, said: Place, proofs: Place, implied:
         yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", implied, {}, priced)
 
 
-def judged(claims: Iterable[Claim]) -> dict[str, Any]:
-    """What becomes of every kind of claim, of several of one kind the worst, and the verdict on the whole."""
-    found: dict[str, tuple[int, float, dict[str, Any]]] = {}
-    for claim, place, room, size in claims:
-        share = None if room is None else float(room / Number(size.high, size.high) if size.high > 0 else room)
-        rank = 1 if room is None else 0 if room.high >= 0 else 2
-        told = {"claim": claim, "verdict": VERDICTS[rank], "margin": share, "where": pointer(place.path)}
-        one = rank, -(share or 0.0), told
-        found[claim] = max(found.get(claim, one), one, key=lambda one: one[:2])
-    central = {rank for claim, (rank, _, _) in found.items() if claim in CENTRAL}
-    worst = max([rank for rank, _, _ in found.values()], default=1)
-    rank = worst if worst == 2 else 0 if central == {0} else 1
-    return {"claims": [told for _, _, told in found.values()], "verdict": VERDICTS[rank]}
-
-
-def covered(claims: Iterator[Claim]) -> Iterator[Claim]:
-    """The claims as far as what they stand on is known."""
-    try:
-        yield from claims
-    except NotCovered as found:
-        (place,) = found.args
-        yield "request", place, None, ONE
-
-
 def verify(request: Any, answer: Any) -> dict[str, Any]:
     """Every claim of an answer, and the verdict on the whole; both are what a JSON file holds.
 
@@ -400,21 +271,5 @@ def verify(request: Any, answer: Any) -> dict[str, Any]:
     return judged(covered(optimum(Place(request, "request"), Place(answer, "answer"))))
 
 
-def main(check: Callable[[Any, Any], dict[str, Any]], arguments: Sequence[str]) -> int:
-    if len(arguments) != 2:
-        print(__doc__, file=sys.stderr)
-        return 2
-    try:
-        found = check(*map(read, arguments))
-    except (OSError, ValueError) as error:
-        print(error, file=sys.stderr)
-        return 2
-    for one in found["claims"]:
-        margin = "" if one["margin"] is None else f"{one['margin']:.1e}"
-        print(f"{one['claim']:<18} {one['verdict']:<12} {margin:>9}  {one['where']}")
-    print(found["verdict"])
-    return int(found["verdict"] == "broken")
-
-
 if __name__ == "__main__":
-    sys.exit(main(verify, sys.argv[1:]))
+    sys.exit(main(verify, __doc__, sys.argv[1:]))

@@ -5,8 +5,8 @@ from __future__ import annotations
 from math import isfinite, isqrt
 from typing import Dict, Iterator, NamedTuple, Tuple
 
+from verify_machine import NAMES, Machine, over, row_masses
 from verify_numbers import BITS, ONE, ZERO, J, NotCovered, Number, Place, direction, largest, real, total
-from verify_program import NAMES, Machine, over, row_masses
 
 
 class Row(NamedTuple):

@@ -13,28 +13,13 @@ from functools import partial
 from math import inf
 from typing import Any, Iterator, Sequence
 
-from verify import (
-    CEILING,
-    Claim,
-    Claims,
-    before,
-    ceilings,
-    counterweights,
-    covered,
-    infeasible,
-    judged,
-    light,
-    lightest,
-    main,
-    near,
-    optimum,
-    priced_at,
-    proven,
-    smallest,
-)
+from verify import CEILING, before, ceilings, infeasible, light, lightest, optimum, priced_at, proven, smallest
+from verify_claims import Claim, Claims, covered, judged, main, near
+from verify_machine import NAMES, Machine
 from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Place, Unreadable, largest, read, real
-from verify_program import CEILINGS, NAMES, Machine, Statement
+from verify_program import CEILINGS, Statement
 from verify_turn import single
+from verify_weights import counterweights
 
 __all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
 
@@ -202,4 +187,4 @@ def verify(request: Any, answer: Any, most: float = inf) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    sys.exit(main(verify, sys.argv[1:]))
+    sys.exit(main(verify, __doc__, sys.argv[1:]))

@@ -6,7 +6,7 @@ Of bearing loads, bending moments, and force and moment of all orders, the multi
 the response at one shaft angle, which is evaluated here from rods and masses. That no angle between is worse is not
 covered, nor are gas, friction, root mean squares, roll, continuous shafts, goals in their order, balance shafts,
 scenarios and tolerances.
-verify.py, verify_curves.py, verify_program.py and verify_numbers.py have to lie beside this file.
+The other verify*.py, but for verify_many.py, have to lie beside this file.
 """
 
 from __future__ import annotations
@@ -14,20 +14,10 @@ from __future__ import annotations
 import sys
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
-from verify import (
-    MASS_GAP,
-    Claims,
-    before,
-    ceilings,
-    counterweights,
-    covered,
-    first_order,
-    judged,
-    main,
-    near,
-    optimum,
-)
+from verify import MASS_GAP, before, ceilings, first_order, optimum
+from verify_claims import Claims, covered, judged, main, near
 from verify_curves import Turn
+from verify_machine import NAMES, NOTHING, Machine, Mass, over
 from verify_numbers import (
     ABOUT_ONE,
     ONE,
@@ -41,7 +31,8 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import CEILINGS, NAMES, NOTHING, Machine, Mass, Statement, over, support
+from verify_program import CEILINGS, Statement, support
+from verify_weights import counterweights
 
 #: fields of an objective that look at the whole turn and are known here
 FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
@@ -288,4 +279,4 @@ def verify(request: Any, answer: Any) -> dict[str, Any]:
 
 
 if __name__ == "__main__":
-    sys.exit(main(verify, sys.argv[1:]))
+    sys.exit(main(verify, __doc__, sys.argv[1:]))

@@ -21,7 +21,7 @@ from service.verification import checker
 
 CLIENT = Path(__file__).parents[2] / "examples" / "client"
 #: what has to lie beside one another for one answer
-FILES = [CLIENT / name for name in ("verify.py", "verify_program.py", "verify_numbers.py")]
+FILES = [CLIENT / f"verify{part}.py" for part in ("", "_claims", "_machine", "_numbers", "_program", "_weights")]
 BODY = bodies("")["2d12"]
 
 

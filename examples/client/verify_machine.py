@@ -1,0 +1,203 @@
+"""The machine of a request: what turns with its shaft and against it, and where counterweights may sit."""
+
+from __future__ import annotations
+
+from typing import Dict, NamedTuple, Optional, Sequence, Tuple
+
+from verify_numbers import (
+    ABOUT_ONE,
+    BLUR,
+    HALF,
+    ONE,
+    PI,
+    ZERO,
+    NotCovered,
+    Number,
+    Place,
+    Unreadable,
+    direction,
+    largest,
+    real,
+    total,
+)
+
+NOTHING = 1e-230  # in the unit of a figure: what doubles do not tell from 0
+NO_SPAN = 1e-250  # m: a machine that is no longer has no length, and 1 m counts as its span
+
+
+class Mass(NamedTuple):
+    """A mass on a crank: kg m, its directions with and against the shaft, and where along the shaft [m]."""
+
+    product: Number
+    co: Number
+    counter: Number
+    position: Number
+
+
+class Web(NamedTuple):
+    """A place for a counterweight."""
+
+    name: str
+    position: Number
+    radius: Number
+    limit: Optional[Number]
+    sector: Optional[Tuple[float, float]]  # centre and half-angle, degrees
+    fixed: Optional[Tuple[Number, float]] = None  # mass and angle of a weight that is there already
+
+
+NAMES = {"force": "N", "moment": "Nm"}
+#: phasors that turn with and against the shaft, of force [N] and moment [N m]
+Responses = Dict[str, Tuple[Number, Number]]
+
+
+class Machine:
+    """A machine in the units of the answer; its masses are exact, or known to their rounding."""
+
+    def __init__(self, place: Place, plane: Place, budget: Place, exact: bool = False) -> None:
+        (place / "rotation").text("ccw", "cw", default="ccw")
+        kind = (place / "kind").text("reciprocating", "scroll")
+        masses, planes, ends = (_throws if kind == "reciprocating" else _scroll)(place)
+        masses += [each for own in place / "unbalances" for each in _unbalance(own)]
+        self.wide, self.blur = (ONE, ZERO) if exact else (ABOUT_ONE, BLUR)
+        omega = (place / "speed_rpm").number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
+        self.square, self.masses = omega * omega, masses
+        fastest = (place / "overspeed_rpm") or (place / "speed_rpm")
+        turning = fastest.number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
+        self.webs = [_web(web, turning * turning) for web in place / "webs"]
+        if len({web.name for web in self.webs}) < len(self.webs):
+            raise Unreadable((*place.path, "webs"), "names must be unique")
+        self.budget = budget.number(least=0) if budget else None
+        # where the machine says that moments are, or midway; where the answer says so is what counts from here
+        self.asked_plane = (place / "reference_plane_m").number(0.5 * (min(planes) + max(planes)))
+        self.plane = plane.number() if plane else self.asked_plane
+        ends = [*ends, *((web / "position_m").double() for web in place / "webs")]
+        span = real(max(ends)) - real(min(ends))
+        self.span = span if span.low > real(NO_SPAN).high else ONE
+        self.groups = _groups(place)
+        #: what is there already: the program chooses beside it, within what it leaves of the budget
+        there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]
+        fixed = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
+        self.fixed = total(mass for _, mass, _ in there)
+        self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
+        self.before, self.laden = self.responses([]), self.responses(fixed)
+
+    def responses(self, weights: Sequence[Mass]) -> Responses:
+        """With counterweights."""
+        found = {}
+        for name in NAMES:
+            co = counter = ZERO
+            for mass in (*self.masses, *weights):
+                arm = ONE if name == "force" else mass.position * self.wide - self.plane * self.wide
+                size = mass.product * self.wide * self.square * arm
+                co = co + (mass.co + self.blur) * size
+                counter = counter + (mass.counter + self.blur) * size if mass.counter is not ZERO else counter
+            found[name] = co, counter
+        return found
+
+
+def _groups(place: Place) -> list[list[tuple[int, float]]]:
+    """Webs that get the same casting, by number, with the angles of their own cranks, degrees."""
+    names = [(web / "name").text() for web in place / "webs"]
+    throws = [((one / "position_m").double(), (one / "crank_angle_deg").double()) for one in place / "throws"]
+    found = []
+    for group in place / "web_groups":
+        found.append([(names.index(name), 0.0) for name in map(Place.text, group / "webs") if name in names])
+        if len(found[-1]) < len(list(group / "webs")):
+            raise NotCovered(group / "webs")
+        for n, (k, _) in enumerate(found[-1] if throws else ()):
+            web = list(place / "webs")[k]
+            at = (web / "position_m").double()
+            near = min(range(len(throws)), key=lambda t: abs(throws[t][0] - at))
+            named = int((web / "throw").double(float(near))) if web / "throw" else near
+            if named >= len(throws):
+                raise NotCovered(web / "throw")
+            found[-1][n] = k, throws[named][1]
+    return found
+
+
+def _web(place: Place, fastest: Number) -> Web:
+    """``fastest``: square of the highest speed."""
+    most, sector = place / "max_mass_kg", place / "sector"
+    edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
+    there = place / "fixed"
+    radius, limit = (there / "radius_m") or (place / "counterweight_radius_m"), most.number(least=0) if most else None
+    weight = ((there / "mass_kg").number(least=0), (there / "angle_deg").double()) if there else None
+    limit, bolts = ZERO if there else limit, place / "max_centrifugal_force_N"
+    if bolts:
+        of_one_kg = radius.number(least=0) * fastest
+        if of_one_kg.low <= 0:
+            raise NotCovered(bolts)
+        force = bolts.number(least=0) / of_one_kg
+        limit = force if limit is None else min(limit, force, key=lambda one: one.high)
+    name, where = (place / "name").text(), (place / "position_m").number()
+    return Web(name, where, radius.number(least=0), limit, edges, weight)
+
+
+def _unbalance(place: Place) -> list[Mass]:
+    """Of the shaft itself, by its components: counted in the responses, not in the planes."""
+    where = (place / "position_m").number()
+    return [
+        Mass((place / name).number(0.0), direction(angle), ZERO, where)
+        for name, angle in (("x_kg_m", 0.0), ("y_kg_m", 90.0))
+    ]
+
+
+def _moving(product: Number, crank: Number, degrees: float, position: Number) -> Mass:
+    """Along an axis g: half of it turns along e^{jd}, half along e^{j(2g - d)} against the shaft."""
+    return Mass(product * HALF, crank, direction(degrees) * direction(degrees) * crank.conjugate(), position)
+
+
+def _throws(place: Place) -> tuple[list[Mass], list[float], list[float]]:
+    """Masses, planes whose middle is the default reference, and planes that the span counts."""
+    masses, planes = [], []
+    for throw in place / "throws":
+        radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
+        planes.append((throw / "position_m").double())
+        masses.append(Mass((throw / "rotating_mass_kg").number(0.0) * radius, crank, ZERO, real(planes[-1])))
+        for row in throw / "rows":
+            where = real(planes[-1]) + (row / "offset_m").number(0.0)
+            moving, turning = row_masses(row)
+            masses.append(_moving(moving * radius, crank, (row / "axis_deg").double(), where))
+            masses.append(Mass(turning * radius, crank, ZERO, where))
+    if not planes:
+        raise Unreadable((*place.path, "throws"), "must hold at least one item")
+    return masses, planes, planes
+
+
+def row_masses(row: Place) -> Tuple[Number, Number]:
+    """What moves along the axis of a row, and what turns with the crank pin, kg."""
+    rod = row / "connecting_rod"
+    moving = (row / "reciprocating_mass_kg").number(0.0 if row / "parts" else None)
+    weight = (rod / "mass_kg").number(0.0)
+    if rod / "centre_of_mass_m":
+        share = over((rod / "centre_of_mass_m").number(), (rod / "length_m").number(), rod / "length_m")
+    else:
+        share = (rod / "reciprocating_share").number(1 / 3)
+    moving, turning = moving + share * weight, (ONE - share) * weight
+    for part in row / "parts":
+        mass = (part / "mass_kg").number()
+        if (part / "motion").text("reciprocating", "rotating", default="reciprocating") == "rotating":
+            turning = turning + mass
+        else:
+            moving = moving + mass
+    return moving, turning
+
+
+def over(number: Number, by: Number, place: Place) -> Number:
+    """A quotient; what cannot be told from 0 divides nothing."""
+    if by.low <= 0:
+        raise NotCovered(place)
+    return number / by
+
+
+def _scroll(place: Place) -> tuple[list[Mass], list[float], list[float]]:
+    orbit, crank, guide = (place / "orbit_radius_m").number(), direction(0.0), place / "anti_rotation"
+    own, other = (place / "orbiting_position_m").double(), (guide / "position_m").double()
+    masses = [Mass((place / "orbiting_mass_kg").number() * orbit, crank, ZERO, real(own))]
+    if (guide / "type").text("oldham", "crank_pins") == "oldham":
+        # it slides with the projection of the orbit: a crank with an infinite rod
+        masses.append(_moving((guide / "mass_kg").number() * orbit, crank, (guide / "axis_deg").double(), real(other)))
+    else:
+        pins = (guide / "count").number() * (guide / "eccentric_mass_kg").number(0.0)
+        masses.append(Mass(pins * orbit, crank, ZERO, real(other)))
+    return masses, [own], [own, other]
