@@ -5,25 +5,26 @@ _GAP = 1e-6
 
 
 def warm_up() -> None:
-    """Solve a small machine by the compiled method, both stages, and by the reference solver.
+    """Solve a small machine by the compiled method, both stages, and by the reference solver; follow it over the turn.
 
     Raises
     ------
     RuntimeError
         if either leaves it open: who cannot solve this solves nothing.
     """
+    from optimizer.analyze import analyze
     from optimizer.formulate import formulate
     from optimizer.optimize import optimize
     from optimizer.outputs import prepare
     from optimizer.program.reference.solver import Solver
     from optimizer.program.solution import CONE_PROGRAM
-    from schemas.requests import OptimizeRequest
+    from schemas.requests import AnalyzeRequest, OptimizeRequest
 
     throw = {
         "position_m": 0.0,
         "crank_radius_m": 0.1,
         "crank_angle_deg": 0.0,
-        "rows": [{"axis_deg": 0.0, "reciprocating_mass_kg": 10.0}],
+        "rows": [{"axis_deg": 0.0, "reciprocating_mass_kg": 10.0, "connecting_rod": {"length_m": 0.5}}],
     }
     webs = [
         {"name": name, "position_m": position, "counterweight_radius_m": 0.1, "max_mass_kg": 10.0}
@@ -34,6 +35,7 @@ def warm_up() -> None:
     answer = optimize(request)
     if answer.status != "optimal":
         raise RuntimeError(f"the warm-up was answered {answer.status}")
+    analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["rod_loads"]}))
     # seldom asked: what the compiled method leaves open
     scene = prepare(request, ("residual",))
     statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)

@@ -8,7 +8,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
 from optimizer.figures.peaks import Extremes, bracket, largest_of_rows, of_rows, of_torque
-from optimizer.mechanics.whole_turn import Reading
+from optimizer.mechanics.row_series import Reading
 from optimizer.scene import Prepared
 from schemas.dynamics import (
     Chamber,

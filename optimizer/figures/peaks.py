@@ -7,8 +7,9 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.indicated import TURN
+from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, planes, shaft_curves
-from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
+from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.pieces import Bracket, Index
 from optimizer.scene import Prepared
 from optimizer.shaft import INFLUENCES, bearing_places

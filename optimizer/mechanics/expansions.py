@@ -8,12 +8,9 @@ from numpy.typing import NDArray
 
 from optimizer.arrays import Real
 from optimizer.mechanics.row_data import RowData
-from optimizer.mechanics.row_series import RowSeries
-from optimizer.mechanics.taylor import Taylor
+from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.pieces import Index
 
-#: which force of the rows
-Read = Callable[[RowSeries], Taylor]
 #: design, piece, angle and perhaps half width of places, (m,) each
 Places = tuple[NDArray[Any], ...]
 
@@ -21,14 +18,14 @@ Places = tuple[NDArray[Any], ...]
 class Expansions:
     """One force of the rows of N designs about angles within pieces."""
 
-    def __init__(self, rows: RowData, middle: Real, read: Read) -> None:
+    def __init__(self, rows: RowData, middle: Real, reading: Reading) -> None:
         """Prepare.
 
         Parameters
         ----------
         middle : (N, P) rad, an angle within each piece, which says what process counts.
         """
-        self._rows, self._middle, self._read = rows, middle, read
+        self._rows, self._middle, self._reading = rows, middle, reading
         self._values, self._cubics, self._fourths = _Known(), _Known(), _Known()
 
     def values(self, design: Index, piece: Index, angle: Real) -> Real:
@@ -57,9 +54,9 @@ class Expansions:
         one = self._rows.designs == 1
         rows, axis = (self._rows, 0) if one else (self._rows.chosen(design), 1)
         angle, within, *half = (np.expand_dims(each, axis) for each in (angle, within, *half))
-        found = self._read(RowSeries(rows, angle, half[0] if half else None, within, order))
+        found = RowSeries(rows, angle, half[0] if half else None, within, order).of(self._reading)
 
-        def of_places(values: Real) -> Real:
+        def of_places(values: NDArray[Any]) -> NDArray[Any]:
             return np.swapaxes(values[:, 0], 1, 2) if one else values[..., 0]
 
         return Taylor(of_places(found.middle), None if found.radius is None else of_places(found.radius))

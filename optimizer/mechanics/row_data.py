@@ -2,7 +2,8 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,6 +12,9 @@ from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
+
+if TYPE_CHECKING:
+    from optimizer.mechanics.kernel.rows import Rows
 
 
 @dataclass(frozen=True)
@@ -34,6 +38,28 @@ class RowData:
     compression_exponent: Real | None = None
     closed: Real | None = None
     traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
+
+    @cached_property
+    def packed(self) -> "Rows":
+        """What is compiled takes it as."""
+        from optimizer.mechanics.kernel.rows import Rows
+
+        count = self.crank_radius.shape[-1]
+        motion = _together(
+            [self.ahead, self.rod_ratio, self.rod_margin, self.inertia, self.friction, self.sense], (count,)
+        )
+        chambers = 0 if self.area is None else self.area.shape[-1]
+        gas, given = np.zeros((len(motion), count, 0, 7)), np.full((count, chambers), -1)
+        if self.area is not None:
+            # crank sides pull, head sides push
+            tension = np.where(np.arange(chambers) % 2 == 0, -self.area, self.area)
+            names = ("suction", "discharge", "clearance", "expansion_exponent", "compression_exponent", "closed")
+            gas = _together([tension, *(getattr(self, name) for name in names)], (count, chambers))
+        for number, trace in enumerate(self.traces):
+            given[trace.row, trace.side] = number
+        designs = max(len(motion), len(gas))
+        motion, gas = (compact(np.broadcast_to(each, (designs, *each.shape[1:]))) for each in (motion, gas))
+        return Rows(motion, gas, given, self.exact)
 
     def chosen(self, design: np.ndarray) -> "RowData":
         """Those of some designs, as often as named."""
@@ -81,6 +107,17 @@ def row_data(
         traces=tuple(replace(trace, table=flat(trace.table), lead=flat(trace.lead)) for trace in traces),
         **gas,
     )
+
+
+def compact(values: Real) -> Real:
+    """Values as what is compiled takes them: of any other layout it would be compiled once more."""
+    return np.require(values, float, ("C", "W"))
+
+
+def _together(values: Sequence[Real], shape: tuple[int, ...]) -> Real:
+    """Values (D, *shape) on a last axis; D is 1 where all designs have the same."""
+    designs = max(len(each) for each in values)
+    return np.stack([np.broadcast_to(each, (designs, *shape)) for each in values], axis=-1).astype(float)
 
 
 def shared(values: Real) -> Real:

@@ -18,7 +18,8 @@ from optimizer.curve import TurnResponse
 from optimizer.mechanics.balance_shafts import beside, with_balance_shafts
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.whole_turn import Reading, TurnCurves, WholeTurn
+from optimizer.mechanics.row_series import Reading
+from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
 Influence = Callable[[Real, Real], Real]

@@ -7,8 +7,6 @@ the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from operator import attrgetter
-from typing import Literal
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
@@ -19,8 +17,7 @@ from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_data import RowData, shared
-from optimizer.mechanics.row_series import RowSeries
-from optimizer.mechanics.taylor import Taylor
+from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import panels
 from optimizer.pieces import Index, Pieces
 
@@ -32,10 +29,6 @@ _GAUSS = 8
 _LEFT_OUT, _MOST_PARTS = 1e-11, 512
 #: of a mean square, in units of the magnitudes of the terms that are added up in the curve
 _ROUNDING = 16 * np.finfo(float).eps
-
-Reading = Literal[
-    "piston", "rod", "rod_without_gas", "rod_at_rest", "side", "tangential", "radial", "on_shaft", "on_frame"
-]
 
 
 def break_angles(layout: Layout, opens: tuple[Real, ...] = (), traces: Sequence[Trace] = ()) -> Real:
@@ -91,7 +84,7 @@ class WholeTurn:
     def tangential(self, angle: Real) -> Real:
         """Tangential force of every row (N, R, n) N at shaft angles (N, n) rad, which are no breaks."""
         places = shared(angle)
-        force: Real = RowSeries(self.rows, places, None, places, 0).tangential.middle[0]
+        force: Real = RowSeries(self.rows, places, None, places, 0).of("tangential").middle[0]
         return np.broadcast_to(force, (len(angle), *force.shape[1:]))
 
     @cached_property
@@ -117,7 +110,7 @@ class WholeTurn:
     def expansions(self, reading: Reading) -> Expansions:
         """Series of a force about angles within pieces."""
         if reading not in self._expansions:
-            self._expansions[reading] = Expansions(self.rows, self.centre, attrgetter(reading))
+            self._expansions[reading] = Expansions(self.rows, self.centre, reading)
         return self._expansions[reading]
 
     @cached_property
@@ -165,7 +158,7 @@ class TurnCurves:
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""
         whole = self.whole
-        points, bounds = (getattr(series, self.reading) for series in (whole.points, whole.bounds))
+        points, bounds = (series.of(self.reading) for series in (whole.points, whole.bounds))
         half = whole.half[:, None, :]
         cubic = _sums(points, self.weights, self.constant) * half[..., None] ** np.arange(4)
         centre, width = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
@@ -201,7 +194,7 @@ class TurnCurves:
     @cached_property
     def _left_out(self) -> Real:
         """What polynomials of the quadrature's degree leave out of the pieces at most (N C, P)."""
-        bounds = getattr(self.whole.higher_bounds, self.reading)
+        bounds = self.whole.higher_bounds.of(self.reading)
         left = _largest(bounds, self.weights) * self.whole.half[:, None] ** _GAUSS
         return left.reshape(self.pieces.half.shape)
 
@@ -223,7 +216,7 @@ class TurnCurves:
         angle = (centre + wide * ((2.0 * number + 1.0) / parts[piece] - 1.0))[..., None] + half[..., None] * nodes
         shares = (half[..., None] * (weights / (TURN * whole.turns))).reshape(len(half), -1)
         within = np.repeat(centre, _GAUSS, axis=-1)
-        series = getattr(RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0), self.reading)
+        series = RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0).of(self.reading)
         return _sums(series, self.weights, self.constant)[..., 0], shares[:, None]
 
     def in_pieces(self, places: Real) -> Complex:
@@ -231,13 +224,13 @@ class TurnCurves:
         whole, count = self.whole, len(places)
         angle = whole.centre[..., None] + whole.half[..., None] * places
         within = np.repeat(whole.centre, count, axis=-1)
-        series = getattr(RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0), self.reading)
+        series = RowSeries(whole.rows, angle.reshape(within.shape), None, within, 0).of(self.reading)
         return _sums(series, self.weights, self.constant)[..., 0].reshape(-1, within.shape[-1])
 
     def at(self, angle: Real) -> Complex:
         """The curves (N C, n) at shaft angles (n,) rad; at a jump one of its limits or their middle."""
         places = np.broadcast_to(angle, (len(self.weights), len(angle)))
-        series = getattr(RowSeries(self.whole.rows, places, None, places, 0), self.reading)
+        series = RowSeries(self.whole.rows, places, None, places, 0).of(self.reading)
         return _sums(series, self.weights, self.constant)[..., 0].reshape(-1, len(angle))
 
     def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:

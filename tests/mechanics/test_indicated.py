@@ -139,8 +139,7 @@ def test_series_have_the_values_of_the_samples() -> None:
     plan = layout(made)
     turn = turn_of(body)
     angle = np.random.default_rng(3).uniform(0.0, 2.0 * TURN, 300)
-    found = RowSeries(turn.rows, angle[None], None, angle[None], 0).gas
-    assert found is not None
+    found = RowSeries(turn.rows, angle[None], None, angle[None], 0).of("gas")
     # independent: the forces of the samples
     expected = gas_forces(chambers(made), motion(plan, angle), plan, traces(made, plan)).total
     np.testing.assert_allclose(found.middle[0, 0], expected, rtol=1e-9, atol=1e-9 * np.max(np.abs(expected)))
@@ -182,7 +181,6 @@ def test_a_batch_is_the_loop() -> None:
         np.broadcast_to(angle, (3, angle.size)),
         1,
     )
-    assert series.gas is not None
     batch = work(many, (3,))
     for k, body in enumerate(parts):
         alone = machine(body)
@@ -190,5 +188,5 @@ def test_a_batch_is_the_loop() -> None:
         (single,) = traces(alone, own)
         expected = gas_forces(chambers(alone), motion(own, angle), own, (single,))
         np.testing.assert_allclose(found.pressure[k], expected.pressure, rtol=1e-11)
-        np.testing.assert_allclose(series.gas.middle[0, k], expected.total, rtol=1e-9, atol=1e-6)
+        np.testing.assert_allclose(series.of("gas").middle[0, k], expected.total, rtol=1e-9, atol=1e-6)
         assert float(batch[k]) == pytest.approx(float(work(alone)), rel=1e-9)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from optimizer.compile_kernels import last_first
+from optimizer.mechanics.kernel import rows
 from optimizer.program.kernel import symmetries
 from optimizer.warm_up import warm_up
 
@@ -28,10 +29,12 @@ def test_what_is_compiled_beside_is_what_answers_need() -> None:
     """Of other types it would be kept twice: once as it is compiled beside, once as it is called."""
     warm_up()
     last_first()
-    kept = Path(symmetries.__file__).parent / "__pycache__"
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
-    for name in ("direction", "longest_step", "second_order", "take_step", "means", "worst_turned", "least_changes"):
-        assert len(list(kept.glob(f"*.{name}-*.{version}.*.nbc"))) <= 1, name
+    names = ("direction", "longest_step", "second_order", "take_step", "means", "worst_turned", "least_changes")
+    for package, entries in ((symmetries, names), (rows, ("row_series",))):
+        kept = Path(package.__file__).parent / "__pycache__"
+        for name in entries:
+            assert len(list(kept.glob(f"*.{name}-*.{version}.*.nbc"))) <= 1, name
 
 
 def test_a_wrong_answer_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:

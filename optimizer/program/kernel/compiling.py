@@ -1,8 +1,5 @@
-"""How the kernels are compiled: once for an installation, dividing as numpy does."""
+"""How the kernels are compiled, as all inner loops are: :mod:`optimizer.compiling`."""
 
-from numba import njit
+from optimizer.compiling import inlined, kernel
 
-#: a lane that fails may divide by zero; that it failed is seen by its infinities
-kernel = njit(cache=True, error_model="numpy")
-#: for what stands in the innermost loops
-inlined = njit(cache=True, error_model="numpy", inline="always")
+__all__ = ["inlined", "kernel"]
