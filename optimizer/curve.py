@@ -18,18 +18,11 @@ import numpy as np
 from optimizer.arrays import Complex, Real, Reals
 from optimizer.circle import Circle, smallest_circle
 from optimizer.moved import Harmonics, moved
+from optimizer.outline import Outline, nearer
 from optimizer.pieces import Bracket, Index, Pieces
 
 #: points added to those of the pieces for the smallest circle around a curve, at most
 _MOST_POINTS = 50
-#: places in every piece at which its cubic is looked at for points that hold a circle
-_PLACES = np.linspace(-1.0, 1.0, 17)
-#: share of the largest distance by which others that may hold it are less
-_ALIKE = 1e-3
-#: how far the farthest places may be from these
-_BETWEEN = float(_PLACES[1] - _PLACES[0])
-#: factors of a cubic's coefficients in its value, slope and second derivative
-_DERIVATIVES = np.array([[1.0, 1.0, 1.0, 1.0], [0.0, 1.0, 2.0, 3.0], [0.0, 0.0, 2.0, 6.0]])
 #: a circle this share of the curve's distance from the origin is a point
 _ROUNDING = 256 * np.finfo(float).eps
 
@@ -202,17 +195,26 @@ def floors(
     if not number.size:
         return []
     together = np.arange(number.size) if group is None else group
-    outlines = [_Outline(pieces, one) for one in number.tolist()]
+    outlines = [Outline(pieces, one) for one in number.tolist()]
     rounding = np.array([_ROUNDING * each.size for each in outlines])
-    circles = [smallest_circle(each.values) for each in outlines]
-    angle, point = [np.zeros(0) for _ in outlines], [np.zeros(0, dtype=complex) for _ in outlines]
-    upper, open_ = np.full(number.size, np.inf), np.arange(number.size)
+    circles = [each.circle for each in outlines]
+    # the first points of a curve are those that hold its outline
+    places = [each.support for each in outlines]
+    of = np.repeat(np.arange(number.size), [where.size for where, _ in places])
+    where, at = (np.concatenate(part) for part in zip(*places, strict=True))
+    value = pieces.source.values(number[of], where, at)
+    angle, point = [at[of == k] for k in range(number.size)], [value[of == k] for k in range(number.size)]
+    upper, most = np.array([each.upper for each in outlines]), np.full(np.max(together) + 1, -np.inf)
+    np.maximum.at(most, together, [each.lower for each in outlines])
+    open_ = np.flatnonzero(upper >= most[together])
+    for k in np.flatnonzero(upper < most[together]).tolist():
+        circles[k] = smallest_circle(point[k])
     for _ in range(_MOST_POINTS):
         # all points that may hold a circle about this centre, not only the farthest
         found = [outlines[k].farthest(circles[k].centre) for k in open_.tolist()]
         of = np.repeat(open_, [where.size for where, _ in found])
         where, near = (np.concatenate(part) for part in zip(*found, strict=True))
-        near = _nearer(pieces, number[of], where, near, np.array([circles[k].centre for k in of]))
+        near = nearer(pieces, number[of], where, near, np.array([circles[k].centre for k in of]))
         value = pieces.source.values(number[of], where, near)
         for k in open_.tolist():
             angle[k], point[k] = np.append(angle[k], near[of == k]), np.append(point[k], value[of == k])
@@ -220,7 +222,7 @@ def floors(
         peak = pieces.peaks(-np.array([circles[k].centre for k in open_]), 0.5 * tolerance, number[open_])
         radius = np.array([circle.radius for circle in circles])
         upper[open_] = peak.upper
-        most = np.zeros(np.max(together) + 1)
+        most[:] = 0.0
         np.maximum.at(most, together, radius)
         beyond = peak.upper > radius[open_] * (1.0 + tolerance) + rounding[open_]
         beyond &= peak.upper > most[together[open_]]
@@ -234,47 +236,6 @@ def floors(
     return [
         Floor(circle, angle[k][circle.support], point[k][circle.support], upper[k]) for k, circle in enumerate(circles)
     ]
-
-
-class _Outline:
-    """A curve by the cubics of its pieces, without what they leave out."""
-
-    def __init__(self, pieces: Pieces, number: int) -> None:
-        self._held = np.flatnonzero(pieces.half[number] > 0.0)
-        self._centre, self._half = pieces.centre[number, self._held], pieces.half[number, self._held]
-        self._cubic = pieces.cubic[number, self._held]
-        self.values: Complex = (self._cubic @ (_PLACES[:, None] ** np.arange(4)).T).ravel()
-        self.size = float(np.max(np.abs(self.values)))
-
-    def farthest(self, centre: complex) -> tuple[Index, Real]:
-        """Pieces (m,) and angles (m,) rad in them where the outline is about as far from a centre as anywhere."""
-        distance = np.abs(self.values - centre)
-        no_less = (distance >= np.roll(distance, 1)) & (distance >= np.roll(distance, -1))
-        some = np.flatnonzero(no_less & (distance >= (1.0 - _ALIKE) * np.max(distance)))
-        piece, place = np.divmod(some, _PLACES.size)
-        at = _farthest(self._cubic[piece], centre, _PLACES[place])
-        return self._held[piece], self._centre[piece] + self._half[piece] * at
-
-
-def _nearer(pieces: Pieces, curve: Index, piece: Index, angle: Real, centre: Complex) -> Real:
-    """Angles (m,) rad within pieces, near given ones, at which curves are farthest from centres (m,)."""
-    middle, half = pieces.centre[curve, piece], pieces.half[curve, piece]
-    cubic = pieces.source.cubics(curve, piece, angle, half)
-    return np.clip(angle + half * _farthest(cubic, centre, np.zeros(angle.size)), middle - half, middle + half)
-
-
-def _farthest(cubic: Complex, centre: Complex | complex, place: Real) -> Real:
-    """Places (m,) within [-1, 1], near given ones, at which cubics (m, 4) are farthest from centres; by Newton."""
-    for _ in range(2):
-        value, slope, bend = (
-            np.sum(cubic[:, n:] * _DERIVATIVES[n][n:] * place[:, None] ** np.arange(4 - n), axis=-1) for n in range(3)
-        )
-        value = value - centre
-        first = np.real(np.conj(value) * slope)
-        second = np.abs(slope) ** 2 + np.real(np.conj(value) * bend)
-        step = np.where(second < 0.0, -first / np.where(second < 0.0, second, -1.0), 0.0)
-        place = np.clip(place + np.clip(step, -_BETWEEN, _BETWEEN), -1.0, 1.0)
-    return place
 
 
 def floor(response: TurnResponse, tolerance: float) -> Floor:

@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optimizer.arrays import Complex, Real
-from optimizer.curve import TurnResponse, floor, peaks
+from optimizer.curve import TurnResponse, floor, floors, peaks
 from optimizer.pieces import Index
 from tests.curves.fourier import FourierCurves
 
@@ -112,3 +112,21 @@ def test_the_floor_of_a_flat_curve_is_half_its_length() -> None:
     assert found.circle.radius == pytest.approx(3.0, rel=1e-9)
     off = np.abs(np.mod(np.rad2deg(found.angle) + 90.0, 180.0) - 90.0)
     assert np.all(off <= 1e-2)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_of_a_group_only_the_largest_floor_is_sought(seed: int) -> None:
+    # independent: each floor by itself; brute force holds the upper figure of those that were let go
+    rng = np.random.default_rng(seed)
+    orders = np.arange(-4.0, 5.0)
+    size = 10.0 ** rng.uniform(-1, 0, (12, 1))
+    curves = FourierCurves(orders, size * (rng.normal(size=(12, 9)) + 1j * rng.normal(size=(12, 9))))
+    group = np.array([0, 1, *[2] * 10])
+    alone, together = floors(curves, 1e-9), floors(curves, 1e-9, None, group)
+    radii = [np.array([each.circle.radius for each in found]) for found in (alone, together)]
+    assert radii[1][:2] == pytest.approx(radii[0][:2], rel=1e-9)
+    assert np.max(radii[1][2:]) == pytest.approx(np.max(radii[0][2:]), rel=1e-9)
+    assert np.all(radii[1] <= radii[0] * (1.0 + 1e-9))
+    values = curves.at(np.linspace(0.0, TURN, 2000))
+    for value, each in zip(values, together, strict=True):
+        assert np.max(np.abs(value - each.circle.centre)) <= each.upper * (1.0 + 1e-12)
