@@ -1,0 +1,77 @@
+"""Engines: workers that are handed pieces, killed, or outlive their service. Expected values are analytic."""
+
+import os
+import threading
+import time
+from contextlib import suppress
+from pathlib import Path
+
+import psutil
+import pytest
+
+from service.jobs.engines import Processes, engine
+from service.jobs.piece import Piece
+
+
+@pytest.mark.parametrize("name", ["threads", "dask", "dask:", "processes:2", ""])
+def test_engines_that_there_are_not(name: str) -> None:
+    with pytest.raises(ValueError, match="there is no engine"):
+        engine(name, 1)
+
+
+def content_of(size: int) -> Piece:
+    return Piece(b"x" * size, 0)
+
+
+def hand_back(content: bytes) -> Piece:
+    return Piece(content, len(content))
+
+
+@pytest.mark.parametrize("size", [0, 10, 10_000_000])
+def test_long_messages_to_and_from_workers(size: int) -> None:
+    running = Processes(1)
+    try:
+        assert running.submit(hand_back, b"y" * size).result(180) == Piece(b"y" * size, size)
+        assert [path.name for path in Path(running._spool._folder).iterdir()] == ["lock"]
+    finally:
+        running.end()
+    assert not Path(running._spool._folder).exists()
+
+
+def test_workers_that_are_killed_while_they_hand_over() -> None:
+    # pieces far longer than a pipe holds: most of the time goes into handing them over
+    for moment_s in (0.0, 0.01):
+        running = Processes(2)
+        futures = [running.submit(content_of, 20_000_000) for _ in range(8)]
+        futures[0].result(180)
+        time.sleep(moment_s)
+        for child in psutil.Process().children():
+            if "spawn_main" in " ".join(child.cmdline()):
+                child.kill()
+        ended = threading.Thread(target=running.end, daemon=True)
+        ended.start()
+        ended.join(180)
+        assert not ended.is_alive()
+        assert all(future.done() for future in futures)
+
+
+def test_workers_compute_with_one_thread() -> None:
+    running = Processes(1)
+    try:
+        # set before numpy loads, which reads it then and never again
+        assert running.executor.submit(os.getenv, "OPENBLAS_NUM_THREADS").result(180) == "1"
+        assert running.executor.submit(eval, "'numpy' in __import__('sys').modules").result(180) is False
+    finally:
+        running.end()
+
+
+def test_workers_end_with_a_service_that_is_killed(tmp_path: Path) -> None:
+    running = Processes(1)
+    worker = running.executor.submit(os.getpid).result(180)
+    running.end()
+    with suppress(ProcessLookupError):
+        deadline = time.monotonic() + 180
+        while True:
+            os.kill(worker, 0)
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
