@@ -6,6 +6,7 @@ from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJson
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, PydanticCustomError, core_schema
 
+from schemas.form_hints import hinted
 from schemas.notebook import shown
 from schemas.version import package_version
 
@@ -20,6 +21,12 @@ class Model(BaseModel):
         hide_input_in_errors=True,
         use_attribute_docstrings=False,
     )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        made = handler(schema)
+        hinted(cls, handler.resolve_ref_schema(made))
+        return made
 
 
 class Answer(Model):

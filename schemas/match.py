@@ -13,6 +13,7 @@ from schemas.quantities import Count, Flag, Mass, Name
 from schemas.reciprocating import MAX_ROWS_TOGETHER, ReciprocatingMachine, no_balance_shafts
 from schemas.rotor import MAX_WEBS
 from schemas.rules import Path, Rule, Ruled
+from schemas.units import Unit
 
 MAX_CLASSES = 8
 #: a larger limit of a counterweight is none, kg
@@ -62,7 +63,7 @@ class MatchAccuracy(Model):
         description="certified gap asked for, relative to the objective with the parts as they are listed",
         examples=[1e-3],
     )
-    time_limit_s: Annotated[float, Strict()] = Field(
+    time_limit_s: Annotated[float, Strict(), Unit("s")] = Field(
         5.0,
         gt=0,
         le=30,

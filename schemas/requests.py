@@ -16,6 +16,7 @@ from schemas.reciprocating import no_balance_shafts
 from schemas.rotor import MAX_WEBS
 from schemas.rules import Rule, Ruled
 from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
+from schemas.units import Unit
 
 
 class Accuracy(Model):
@@ -29,7 +30,7 @@ class Accuracy(Model):
         " counterweights are chosen from a catalogue",
         examples=[1e-6],
     )
-    time_limit_s: Annotated[float, Strict()] = Field(
+    time_limit_s: Annotated[float, Strict(), Unit("s")] = Field(
         5.0,
         gt=0,
         le=30,

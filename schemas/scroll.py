@@ -58,9 +58,8 @@ class PinLoadsRequest(Ruled):
     pin_circle_radius_m: Annotated[PinRadius | None, Unit("m")] = Field(
         None, description="radius of the circle through evenly spaced pins", examples=[0.05]
     )
-    pins: Annotated[tuple[Pin, ...], NotEmpty()] | None = Field(
+    pins: Annotated[tuple[Pin, ...], Field(max_length=MAX_PINS_GIVEN), NotEmpty()] | None = Field(
         None,
-        max_length=MAX_PINS_GIVEN,
         description="any pattern of pins, in place of evenly spaced ones",
         examples=[[{"angle_deg": angle, "radius_m": 0.05} for angle in (0, 110, 250)]],
     )

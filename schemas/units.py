@@ -106,10 +106,9 @@ class Unit:
         text = {
             "type": "string",
             "maxLength": _MAX_LENGTH,
-            "description": f"a number and one of the units {', '.join(UNITS[self.symbol])}",
             "pattern": rf"^{_SPACE}{_NUMBER}{_SPACE}({'|'.join(UNITS[self.symbol])}){_SPACE}$",
         }
-        return {"anyOf": [number, text], "x-unit": self.symbol}
+        return {"anyOf": [number, text], "x-unit": self.symbol, "x-accepted-units": list(UNITS[self.symbol])}
 
 
 def positive(largest: float) -> Any:

@@ -5,6 +5,7 @@ from typing import Literal
 from pydantic import Field
 
 from schemas.base import Answer, Model
+from schemas.quantities import Seconds
 
 JobState = Literal["queued", "running", "done", "failed", "cancelled"]
 
@@ -38,7 +39,7 @@ class SweepState(Answer):
     )
     bytes: int = Field(description="room that the sweep takes on disk now", examples=[30000000])
     seed: int = Field(description="seed of the designs", examples=[0])
-    eta_s: float | None = Field(description="estimate of the seconds left; null where unknown", examples=[42.0])
+    eta_s: Seconds | None = Field(description="estimate of the seconds left; null where unknown", examples=[42.0])
     created_at: str = Field(description="when it was accepted, ISO 8601, UTC", examples=["2026-01-31T12:00:00Z"])
     started_at: str | None = Field(description="when the first chunk began", examples=["2026-01-31T12:00:01Z"])
     finished_at: str | None = Field(description="when it ended", examples=[None])
@@ -66,5 +67,7 @@ class SweepEstimate(Answer):
     chunk_rows: int = Field(description="designs in one piece", examples=[20000])
     seed: int = Field(description="seed of the designs", examples=[0])
     bytes: int = Field(description="rough room that the sweep will take on disk", examples=[120000000])
-    cpu_s: float = Field(description="rough time of one core that it will take, all designs together", examples=[45.0])
+    cpu_s: Seconds = Field(
+        description="rough time of one core that it will take, all designs together", examples=[45.0]
+    )
     columns: tuple[SweepColumn, ...] = Field(description="columns of the result", examples=[[{"name": "index"}]])

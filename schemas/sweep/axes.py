@@ -20,9 +20,8 @@ class Axis(Ruled):
         description="JSON pointer (RFC 6901) of a numeric field of machine, objective or counterweights in the base",
         examples=["/machine/throws/0/rows/0/reciprocating_mass_kg"],
     )
-    values: Annotated[tuple[Value, ...], NotEmpty()] | None = Field(
+    values: Annotated[tuple[Value, ...], Field(max_length=MAX_DESIGNS), NotEmpty()] | None = Field(
         None,
-        max_length=MAX_DESIGNS,
         description="the values, as the field itself takes them: numbers, strings with a unit, null where it may be",
         examples=[[250.0, 277.79, "310 kg"]],
     )

@@ -29,6 +29,7 @@ SUFFIXES = {
     "_W": "W",
     "_J": "J",
     "_ms": "ms",
+    "_s": "s",
     "_K": "K",
     "_m3": "m3",
     "_m3_per_min": "m3/min",

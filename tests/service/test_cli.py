@@ -197,9 +197,9 @@ def test_examples() -> None:
 
 def test_schema() -> None:
     assert "optimize-answer" in run("schema").stdout
-    assert json.loads(run("schema", "optimize").stdout)["title"] == "OptimizeRequest"
+    assert json.loads(run("schema", "optimize").stdout)["title"] == "Optimize request"
     answer = json.loads(run("schema", "optimize-answer").stdout)
-    assert answer["title"] == "OptimizeAnswer"
+    assert answer["title"] == "Optimize answer"
     assert answer["$defs"]["Counterweight"]["properties"]["mass_kg"]["x-unit"] == "kg"
     assert "no document of this name" in refused(run("schema", "nothing"))[0]
 

@@ -74,7 +74,7 @@ def test_it_is_a_command() -> None:
     assert (shown.exit_code, "│ the sum │ 2.5 │" in shown.stdout) == (0, True)
     assert run.invoke(app, ["toy-sum", "-"], input='{"one": "x"}').exit_code == 2
     assert "Add two numbers." in run.invoke(app, ["--help"]).stdout
-    assert json.loads(run.invoke(app, ["schema", "toy-sum"]).stdout)["title"] == "ToyRequest"
+    assert json.loads(run.invoke(app, ["schema", "toy-sum"]).stdout)["title"] == "Toy request"
 
 
 @pytest.mark.parametrize("one", COMPUTATIONS.values(), ids=lambda one: one.name)

@@ -20,12 +20,9 @@ export class Schema {
     const found = this.deref(node);
     // of an object they only say which of its fields go together
     const options = found.properties ? undefined : found.anyOf ?? found.oneOf;
-    return options ? options.flatMap((option) => this.alternatives(option)) : [found];
-  }
-
-  unit(node) {
-    const found = this.deref(node);
-    return found["x-unit"] ?? (found.anyOf ?? found.oneOf ?? []).map((option) => this.unit(option)).find(Boolean);
+    if (options) return options.flatMap((option) => this.alternatives(option));
+    // plain values of several types are one schema with a list of types
+    return [found.type].flat().map((type) => ({ ...found, type }));
   }
 
   // {kind, about, unit, nullable, fallback, example, ...}: kind is one of
@@ -35,7 +32,7 @@ export class Schema {
     const all = this.alternatives(node);
     const about = {
       about: found.description ?? "",
-      unit: this.unit(node),
+      title: found.title, group: found["x-group"], unit: found["x-unit"],
       nullable: all.some((one) => one.type === "null"),
       fallback: found.default,
       example: found.examples?.[0],
@@ -50,7 +47,7 @@ export class Schema {
     if (objects.length) return { ...about, kind: "object", ...this.object(objects[0]) };
     if (list) return { ...about, ...this.list(list) };
     if (given.some((one) => "const" in one)) return { ...about, kind: "constant", value: given[0].const };
-    if (choice) return { ...about, kind: "choice", options: choice.enum };
+    if (choice) return { ...about, kind: "choice", options: choice.enum.filter((one) => one !== null) };
     if (numeric) return { ...about, kind: "number", text: given.some((one) => one.type === "string"), ...range(numeric) };
     if (given.some((one) => one.type === "boolean")) return { ...about, kind: "boolean" };
     return { ...about, kind: "text", longest: given[0]?.maxLength };

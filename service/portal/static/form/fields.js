@@ -32,7 +32,7 @@ export function field(name, pointer, description, value, required, change) {
   input.setAttribute("aria-describedby", `${id}-hint ${id}-error`);
   if (required && !description.nullable) input.setAttribute("aria-required", "true");
   return h("div", { class: `field is-${description.kind}`, dataset: { pointer } },
-    h("label", { for: id }, label(name), description.unit && h("span", { class: "unit" }, ` ${description.unit}`)),
+    h("label", { for: id }, description.title ?? label(name), description.unit && h("span", { class: "unit" }, ` ${description.unit}`)),
     input, question,
     h("p", { class: "hint", id: `${id}-hint` }, `${description.about.replace("null is", "empty is")}.${text}`),
     h("p", { class: "error", id: `${id}-error` }));

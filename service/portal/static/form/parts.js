@@ -97,7 +97,7 @@ export class Parts {
     const optional = !required && (description.nullable || description.fallback === undefined || value !== undefined);
     if ((value === undefined || value === null) && description.nullable) return this.absent(name, at, description, required);
     const shape = description.kind === "union" ? this.chosen(description, value) : description;
-    const details = this.fold({ class: "group" }, label(name), at, () => {
+    const details = this.fold({ class: "group" }, description.title, at, () => {
       const { plain, groups } = this.inside(shape, at);
       const remove = () => {
         this.form.put(at, undefined);
@@ -143,7 +143,7 @@ export class Parts {
   // one row each in a table; below it what has no column
   tabled(name, at, description, table) {
     const source = new ListSource(this.form, at, description);
-    return this.fold({ class: "group tabled" }, `${label(name)} (${source.entries().length})`, at, () => {
+    return this.fold({ class: "group tabled" }, `${description.title} (${source.entries().length})`, at, () => {
       const inner = description.items.properties.rows && this.form.schema.describe(description.items.properties.rows);
       const rows = inner && new RowsSource(this.form, at, inner);
       return [
@@ -167,7 +167,7 @@ export class Parts {
     if (table && !inTable(at)) return this.tabled(name, at, description, table);
     // a machine that was pasted may hold anything
     const items = () => [get(this.form.request, at) ?? []].flat();
-    const made = this.fold({ class: "group" }, `${label(name)} (${items().length})`, at, () => [
+    const made = this.fold({ class: "group" }, `${description.title} (${items().length})`, at, () => [
       ...items().map((_, index) => this.item(name, at, index, description, () => made)),
       h("button", { type: "button", class: "add", click: () => {
         const list = items();
@@ -205,7 +205,7 @@ export class Parts {
       this.form.put(at, table ? this.form.schema.filled(description.object) : undefined);
       this.redraw(made, this.variants(name, at, description));
     };
-    const made = this.fold({ class: "group" }, label(name), at, () => {
+    const made = this.fold({ class: "group" }, description.title, at, () => {
       const change = (given) => this.form.edit(at, given);
       const number = { ...description, kind: "number", text: true };
       const inside = tabled ? this.inside(description.object, at).plain : [field(name, at, number, value, false, change)];
