@@ -26,8 +26,11 @@ class SweepState(Answer):
     total: int = Field(description="number of designs", examples=[1000000])
     done: int = Field(description="designs that have their row, whatever it says", examples=[250000])
     failed: int = Field(
-        description="designs among them without a certified answer: invalid, infeasible, inaccurate or failed",
+        description="designs among them without a certified answer: infeasible, inaccurate or failed",
         examples=[12],
+    )
+    invalid: int = Field(
+        0, description="designs among them that break a rule, counted apart; their rows say which", examples=[3]
     )
     rows: int = Field(description="rows that the results hold now; fewer than done with top or pareto", examples=[20])
     selected: int | None = Field(

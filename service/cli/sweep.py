@@ -148,10 +148,10 @@ def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
         BarColumn(),
         MofNCompleteColumn(),
         TimeRemainingColumn(),
-        TextColumn("{task.fields[failed]} not certified"),
+        TextColumn("{task.fields[invalid]} invalid, {task.fields[failed]} not certified"),
     )
     with Progress(*columns, console=Console(stderr=True), disable=quiet) as progress:
-        bar = progress.add_task("designs", total=job.total, completed=job.done, failed=job.failed)
+        bar = progress.add_task("designs", total=job.total, completed=job.done, failed=job.failed, invalid=job.invalid)
         heard = time.monotonic()
         while job.active:
             time.sleep(_POLL_S)
@@ -162,7 +162,7 @@ def _watch(desk: "OwnerJobs", job: "Job", quiet: bool) -> "Job":
                     fail(f"{error}; the same command goes on from there")
                 continue
             heard = time.monotonic()
-            progress.update(bar, completed=job.done, failed=job.failed)
+            progress.update(bar, completed=job.done, failed=job.failed, invalid=job.invalid)
     return job
 
 

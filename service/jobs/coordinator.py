@@ -233,7 +233,7 @@ class Coordinator:
             return
         if chunk.rows:
             # another service may have been first, with a file of another content
-            counts = self._leases.finish(chunk, piece.failed, str(record.digest), record.bytes)
+            counts = self._leases.finish(chunk, piece.failed, str(record.digest), record.bytes, piece.invalid)
             needless = None if counts else record
         else:
             needless = self._leases.finish_selection(chunk, covers, piece.kept, record)

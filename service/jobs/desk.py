@@ -88,8 +88,8 @@ class Desk:
         self._parts.coordinator.stop()
         self._database.close()
 
-    def counts(self) -> Mapping[str, tuple[int, int, int]] | None:
-        """By state: number of jobs, their finished rows, and those of them that failed; None if nobody can say."""
+    def counts(self) -> Mapping[str, tuple[int, int, int, int]] | None:
+        """By state: number of jobs, their finished, failed and invalid rows; None if nobody can say."""
         if not self._begun():
             return {}
         with suppress(DatabaseUnavailable, WrongSchema):

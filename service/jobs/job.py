@@ -43,7 +43,9 @@ class Job:
     state: State
     total: int
     done: int
+    #: rows without a certified answer, and rows of designs that break a rule; no row is both
     failed: int
+    invalid: int
     version: int
     created: float
     started: float | None

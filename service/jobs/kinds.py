@@ -12,8 +12,9 @@ if TYPE_CHECKING:
 
 Proceed = Callable[[], None]
 
-#: rows with these statuses do not count as failed
+#: rows with these statuses do not count as failed, nor do those of invalid designs
 _ANSWERED = ("optimal", "analyzed")
+_INVALID = ("invalid",)
 _GROUP_CELLS = 250_000
 
 
@@ -85,8 +86,11 @@ def _piece(table: "pa.Table") -> Piece:
     import pyarrow as pa
     import pyarrow.compute as pc
 
-    answered = pc.is_in(table["status"], value_set=pa.array(_ANSWERED))
-    return Piece(table_bytes(table), table.num_rows - int(pc.sum(answered).as_py() or 0))
+    def count(statuses: tuple[str, ...]) -> int:
+        return int(pc.sum(pc.is_in(table["status"], value_set=pa.array(statuses))).as_py() or 0)
+
+    invalid = count(_INVALID)
+    return Piece(table_bytes(table), table.num_rows - count(_ANSWERED) - invalid, invalid=invalid)
 
 
 def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Piece]:

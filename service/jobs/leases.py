@@ -86,11 +86,12 @@ class Leases:
 
     # ---- outcomes
 
-    def finish(self, chunk: Chunk, failed: int, digest: str, size: int) -> bool:
+    def finish(self, chunk: Chunk, failed: int, digest: str, size: int, invalid: int = 0) -> bool:
         """The file of a chunk is on disk. Said twice it counts once; said of an ended job it does not count.
 
         Parameters
         ----------
+        failed, invalid : rows of it without a certified answer, and rows of designs that break a rule.
         digest, size : of the file.
 
         Returns
@@ -102,11 +103,15 @@ class Leases:
             if found is None or not found.active:
                 return False
             this = and_(_this(chunk), chunks.c.stop == chunk.stop, chunks.c.state != "done")
-            about = {"failed": failed, "digest": digest, "bytes": on_disk(size)}
+            about = {"failed": failed, "invalid": invalid, "digest": digest, "bytes": on_disk(size)}
             done = update(chunks).where(this).values(state="done", finished=self._clock(), lease_owner=None, **about)
             if connection.execute(done).rowcount == 0:
                 return False
-            counts = {"done": jobs.c.done + chunk.rows, "failed": jobs.c.failed + failed}
+            counts = {
+                "done": jobs.c.done + chunk.rows,
+                "failed": jobs.c.failed + failed,
+                "invalid": jobs.c.invalid + invalid,
+            }
             rows.change(connection, chunk.job, bytes=jobs.c.bytes + on_disk(size), **counts)
             self._settle(connection, found)
             return True
@@ -202,13 +207,18 @@ class Leases:
             selection = record.rows == 0
             this = and_(chunks.c.job == job, chunks.c.start == record.start, chunks.c.stop == record.stop)
             known = and_(this, chunks.c.digest == record.digest, chunks.c.state.in_(["done", "waiting"]))
-            row = connection.execute(select(chunks.c.failed, chunks.c.bytes).where(known)).first()
+            row = connection.execute(select(chunks.c.failed, chunks.c.invalid, chunks.c.bytes).where(known)).first()
             if found is None or row is None:
                 return False
-            blank = {"digest": None, "bytes": 0, "failed": 0, "attempts": 0, "finished": None, "lease_owner": None}
+            sizes = {"bytes": 0, "failed": 0, "invalid": 0}
+            blank = {**sizes, "digest": None, "attempts": 0, "finished": None, "lease_owner": None}
             state = "waiting" if selection else "pending"
             connection.execute(update(chunks).where(this).values(state=state, **blank))
-            counts = {"done": found.done - record.rows, "failed": found.failed - row.failed}
+            counts = {
+                "done": found.done - record.rows,
+                "failed": found.failed - row.failed,
+                "invalid": found.invalid - row.invalid,
+            }
             if selection:
                 counts |= {"selected": 0, "kept": 0}
             if found.state == "done":

@@ -207,6 +207,7 @@ class OwnerJobs:
             total=job.total,
             done=job.done,
             failed=job.failed,
+            invalid=job.invalid,
             rows=job.kept if job.selects else job.done,
             selected=job.selected if job.selects else None,
             repaired=job.repaired,

@@ -16,12 +16,14 @@ class Unanswerable(Exception):
 class Piece:
     """What a chunk comes to: the content of its file, and how many of its rows failed; of a selection, its rows.
 
+    invalid : rows of designs that break a rule; they did not fail.
     faults : what the service found wrong with its own answers, and says in them.
     """
 
     content: bytes
     failed: int
     kept: int = 0
+    invalid: int = 0
     faults: tuple[str, ...] = ()
 
 

@@ -3,6 +3,7 @@
 1: jobs and chunks, without a number.
 2: this table; digests, sizes and failures of chunks; what a job selects, has repaired and takes on disk; chunks made
    when they are given out; expiry in seconds lived.
+3: rows of invalid designs counted apart; those of older chunks stay among the failed.
 """
 
 import json
@@ -13,7 +14,7 @@ from sqlalchemy.schema import CreateColumn
 
 from service.jobs.tables import chunks, jobs, metadata, schema
 
-NUMBER = 2
+NUMBER = 3
 
 _OLD_JOBS = {
     *("id", "kind", "request", "digest", "idempotency_key", "owner", "columns", "state", "total", "done", "failed"),
@@ -40,7 +41,10 @@ def prepare(connection: Connection) -> None:
     if "schema" in known:
         _require_columns(connection, "schema")
         number = connection.scalar(select(schema.c.number))
-        if number != NUMBER:
+        if number == 2:
+            _add_columns(connection)
+            connection.execute(update(schema).values(number=NUMBER))
+        elif number != NUMBER:
             raise WrongSchema(f"the job database has schema {number}; this service knows {NUMBER}")
     elif "jobs" in known:
         found = _columns(connection, "jobs")
@@ -71,7 +75,7 @@ def _require_columns(connection: Connection, table: str) -> None:
         raise WrongSchema(f"the table {table} of the job database lacks {', '.join(sorted(missing))}")
 
 
-def _from_1(connection: Connection) -> None:
+def _add_columns(connection: Connection) -> None:
     for table in (jobs, chunks):
         there = _columns(connection, table.name)
         for column in table.columns:
@@ -80,6 +84,11 @@ def _from_1(connection: Connection) -> None:
                 # rows that are there need a value
                 default = "" if column.nullable else f" DEFAULT {'false' if column.name == 'selects' else 0}"
                 connection.execute(text(f"ALTER TABLE {table.name} ADD COLUMN {made}{default}"))
+
+
+def _from_1(connection: Connection) -> None:
+    _add_columns(connection)
+    for table in (jobs, chunks):
         for index in table.indexes:
             if index.name in _NEW_INDEXES:
                 index.create(connection)

@@ -179,15 +179,16 @@ class Store:
             wanted = wanted.order_by(jobs.c.created.desc(), jobs.c.id.desc()).limit(limit)
             return [job_from(row) for row in connection.execute(wanted).mappings()]
 
-    def counts(self) -> dict[str, tuple[int, int, int]]:
-        """By state: number of jobs, their finished rows, and those of them that failed."""
+    def counts(self) -> dict[str, tuple[int, int, int, int]]:
+        """By state: number of jobs, their finished rows, and those of them that failed or are invalid."""
         wanted = (
-            select(jobs.c.state, func.count(), func.sum(jobs.c.done), func.sum(jobs.c.failed))
+            select(jobs.c.state, func.count(), func.sum(jobs.c.done), func.sum(jobs.c.failed), func.sum(jobs.c.invalid))
             .where(jobs.c.state != REMOVED)
             .group_by(jobs.c.state)
         )
         with self._database.read() as connection:
-            return {state: (count, int(done), int(failed)) for state, count, done, failed in connection.execute(wanted)}
+            found = connection.execute(wanted)
+            return {state: (count, int(done), int(failed), int(wrong)) for state, count, done, failed, wrong in found}
 
     def pieces(self, job: str) -> list[Record]:
         """The files of the rows that are there, in order."""

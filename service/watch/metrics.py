@@ -15,8 +15,8 @@ _GAPS = (1e-14, 1e-12, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 1)
 #: other methods are counted together: a client may send any word
 _METHODS = frozenset({"GET", "HEAD", "POST", "PUT", "PATCH", "DELETE", "OPTIONS"})
 
-#: counts of jobs by state, of finished and of failed rows; None if the database is away
-SweepCounts = Callable[[], Mapping[str, tuple[int, int, int]] | None]
+#: counts of jobs by state, of finished, failed and invalid rows; None if the database is away
+SweepCounts = Callable[[], Mapping[str, tuple[int, int, int, int]] | None]
 
 
 class Metrics:
@@ -122,12 +122,13 @@ class _Sweeps(Collector):
         rows = GaugeMetricFamily(
             "counterweight_sweep_rows", "rows of the jobs that are kept, by what they came to", labels=["outcome"]
         )
-        for state, (count, _, _) in (found or {}).items():
+        for state, (count, *_) in (found or {}).items():
             jobs.add_metric([state], count)
         if found is not None:
-            done, failed = (sum(counts[i] for counts in found.values()) for i in (1, 2))
-            rows.add_metric(["answered"], done - failed)
+            done, failed, invalid = (sum(counts[i] for counts in found.values()) for i in (1, 2, 3))
+            rows.add_metric(["answered"], done - failed - invalid)
             rows.add_metric(["failed"], failed)
+            rows.add_metric(["invalid"], invalid)
         yield jobs
         yield rows
 

@@ -75,8 +75,8 @@ class Telling(Leases):
         super().__init__(house.database, clock=clock)
         self._told = told
 
-    def finish(self, chunk: Chunk, failed: int, digest: str, size: int) -> bool:
-        counts = super().finish(chunk, failed, digest, size)
+    def finish(self, chunk: Chunk, failed: int, digest: str, size: int, invalid: int = 0) -> bool:
+        counts = super().finish(chunk, failed, digest, size, invalid)
         if counts:
             self._told.say("finished", chunk.job, chunk.rows)
         return counts

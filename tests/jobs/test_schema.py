@@ -117,6 +117,27 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
     again.close()
 
 
+def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -> None:
+    write_1(settings)
+    old = Desk(settings)
+    old.of().get(DONE)
+    old.close()
+    engine = engine_of(settings)
+    with engine.begin() as connection:
+        for table in ("jobs", "chunks"):
+            connection.execute(text(f"ALTER TABLE {table} DROP COLUMN invalid"))
+        connection.execute(text("UPDATE schema SET number = 2"))
+        connection.execute(text("UPDATE jobs SET failed = 7"))
+    desk = Desk(settings)
+    found = desk.of().get(DONE)
+    desk.close()
+    # what was counted together stays so
+    assert (found.done, found.failed, found.invalid) == (400, 7, 0)
+    with engine.connect() as connection:
+        assert connection.scalar(text("SELECT number FROM schema")) == NUMBER
+    engine.dispose()
+
+
 def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
     write_1(settings)
     # not opened, so that only what is called here runs
