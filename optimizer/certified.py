@@ -33,7 +33,6 @@ class Certified:
     certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null
     status: np.ndarray  # (N,)
     reason: np.ndarray  # (N,) a sentence
-    proven: Statement  # (N,) the program that the proofs speak of: in other unknowns where webs are grouped
     searched: bool = False  # whether a search chose them, so that of the mass nothing is proven
 
 
@@ -97,4 +96,4 @@ def judged(
     }
     status = np.where(found.unreachable, "infeasible", judged.status)
     reason = np.where(found.unreachable, INFEASIBLE, judged.reason)
-    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason, program)
+    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)

@@ -145,7 +145,9 @@ def _cut(
 ) -> tuple[OptimizeRequest, Certified]:
     """The request with the radii of what is cut, and what may be claimed of it."""
     opened, same = _opened(plates, proven.unbalance[0]), np.arange(len(request.machine.webs))
-    kinds = _kinds(request)
+    alike, kinds = whole.limits.alike, _kinds(request)
+    if alike is not None:
+        opened = {k: opened[alike.leader[k]] for k in plates}
     for k, angle in opened.items():
         # to the last digit
         same[k] = next(j for j in plates if kinds[j] == kinds[k] and abs(opened[j] - angle) <= _EQUAL * angle)

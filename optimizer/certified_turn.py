@@ -98,7 +98,8 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
     gap, several = float(judged.gap[0]), request.robust or request.objective.priorities
     prices: tuple[ShadowPrice, ...] = ()
-    if not (several or np.isnan(gap)):
+    if not (several or np.isnan(gap) or machine.web_groups):
+        # of a group no web gives way by itself
         prices = prices_over_turn(posed(request), asked, found.proof, u, shown.all_of_them, touched, gap)
     return CertifiedTurn(
         str(judged.status),

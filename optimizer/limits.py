@@ -11,8 +11,9 @@ from typing import Protocol
 
 import numpy as np
 
-from optimizer.arrays import Real, Reals, spread
+from optimizer.arrays import Real, Reals, mapped, spread
 from optimizer.fixed import fixed_masses, fixed_webs
+from optimizer.groups import alike_webs
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
@@ -163,7 +164,7 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
         centre, edge = np.ones(len(webs), complex), np.full(len(webs), 1j)
     else:
         centre, edge = direction(towards), direction(half_angle)
-    shape = (*leading, len(webs))
+    shape, alike = (*leading, len(webs)), alike_webs(machine)
     left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.add.reduce(fixed_masses(machine), axis=-1)
     return Limits(
         radius=spread(stacked([web.radius_m for web in webs]), shape),
@@ -173,6 +174,7 @@ def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
         half_angle_cos=spread(edge.real, shape),
         half_angle_sin=spread(edge.imag, shape),
         max_total_mass=spread(left, leading),
+        alike=None if alike is None else mapped(alike, lambda array: spread(array, shape)),
     )
 
 

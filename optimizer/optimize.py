@@ -11,7 +11,6 @@ from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
 from optimizer.certified_discrete import certified_discrete
 from optimizer.certified_fitted import certified_fitted
-from optimizer.certified_groups import certified_groups
 from optimizer.certified_robust import certified_robust, nothing_off
 from optimizer.certified_shapes import certified_shapes
 from optimizer.certified_turn import certified_turn
@@ -23,7 +22,6 @@ from optimizer.figures.proof import implied_max_mass, named, named_proofs, physi
 from optimizer.figures.sensitivity import of_first_order
 from optimizer.fixed import beside
 from optimizer.formulate import given_ceilings, limited, smallest_peak
-from optimizer.groups import units
 from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
@@ -73,8 +71,6 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         best = certified_discrete(asked, scene.responses, square, solver)
     elif request.machine.semicontinuous:
         best = certified_fitted(asked, scene.responses, square, solver)
-    elif request.machine.web_groups:
-        best = certified_groups(asked, scene.responses, square, solver)
     else:
         asked, best = certified_shapes(asked, scene.responses, square, solver)
     if envelopes(request.machine):
@@ -156,7 +152,7 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted:
     machine, goal, u = request.machine, request.objective, best.unbalance[0]
     mass, _ = beside(machine, best.mass_kg[0], best.angle_deg[0])
     touched = touched_limits(machine, goal, scene.responses, mass, u, scene.omega_squared)
-    (proofs,) = named_proofs(best.proven, best.found, best.omega_squared, goal.least_mass)
+    (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
     figures = {name: column[0] for name, column in best.certificate.items()}
     return {
         **fitted.fields,
@@ -215,7 +211,7 @@ def _conflict(
     alone : the smallest peak of each response by itself under these limits. Where a ceiling is below it, what proves it
         proves the conflict as well.
     """
-    program = replace(best.proven, limits=replace(best.proven.limits, max_mass=most))
+    program = replace(best.program, limits=replace(best.program.limits, max_mass=most))
     excess = program.excess()
     by_one = (_of_one_ceiling(excess, n, alone[name].multipliers) for n, name in enumerate(program.ceilings.names))
     for proof in (best.found.conflict, *by_one):
@@ -239,25 +235,22 @@ def _infeasible(
     components = {ceiling.name for ceiling, _ in given} - {each.name for each in scene.responses}
     alone_too = [each for each, _ in limited(scene.responses, request.objective) if each.name in components]
     peaks = {each.name: smallest_peak(each.spread(square.shape), machine) for each in (*scene.responses, *alone_too)}
-    grouped = units(machine) if machine.web_groups else None
-    if grouped is not None:
-        peaks = {name: grouped.united(peak) for name, peak in peaks.items()}
 
     def by_itself(most: Real) -> dict[str, tuple[Statement, Optima]]:
         within = {
-            name: replace(each, limits=replace(best.proven.limits, max_mass=most)) for name, each in peaks.items()
+            name: replace(each, limits=replace(best.program.limits, max_mass=most)) for name, each in peaks.items()
         }
         return {name: (each, optima(each, 1e-9, False, solver)) for name, each in within.items()}
 
     # one reach for all that is proven here
-    reached = (best.proven, *(within_reach(peak, solver) for peak in peaks.values()))
+    reached = (best.program, *(within_reach(peak, solver) for peak in peaks.values()))
     most = np.maximum.reduce([each.limits.max_mass for each in reached], axis=0)
     alone, against = by_itself(most), None
     if best.found.unreachable[0]:
         of_excess = _conflict(request, best, most, {name: found for name, (_, found) in alone.items()}, solver)
         if of_excess is None:
             # of the reach that the conflict is proven for, if peaks by themselves could need a larger one
-            most, of_excess = best.proven.limits.max_mass, (best.proven, best.found)
+            most, of_excess = best.program.limits.max_mass, (best.program, best.found)
             alone = by_itself(most)
         (proof,) = named_proofs(*of_excess, square, request.objective.least_mass)
         against = proof.conflict
@@ -268,7 +261,6 @@ def _infeasible(
     smallest = {name: float(found.objective[0] * square[0]) for name, (_, found) in alone.items()}
     bound = {name: float(found.lower_bound[0] * square[0]) for name, (_, found) in alone.items()}
     impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
-    of_webs = most if grouped is None else (most / grouped.count)[..., grouped.owner]
     return {
         "counterweights": (),
         "total_mass_kg": None,
@@ -288,7 +280,7 @@ def _infeasible(
                 for ceiling, allowed in given
                 if ceiling.name in components
             ),
-            implied_max_mass_kg=implied_max_mass(machine, of_webs)[0],
+            implied_max_mass_kg=implied_max_mass(machine, most)[0],
             closest=Closest(
                 counterweights=fitted.counterweights,
                 balance_shafts=fitted.balance_shafts,

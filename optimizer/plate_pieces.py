@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.mechanics.envelope import Envelope
-from optimizer.program.limits import Limits
+from optimizer.program.limits import OF_WEBS, Limits
 from optimizer.program.statement import Statement
 
 #: tangents reach no less far than chords, whatever the rounding of their pieces
@@ -36,15 +36,13 @@ def tangents(plate: Envelope, nodes: Real) -> Webs:
 def pieces(whole: Statement, owner: np.ndarray, webs: Mapping[int, Webs]) -> Statement:
     """The program with some webs in place of each plate."""
     limits = whole.limits
-    parts = {
-        name: getattr(limits, name)[..., owner].copy()
-        for name in ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
-    }
+    parts = {name: getattr(limits, name)[..., owner].copy() for name in OF_WEBS}
+    alike = None if limits.alike is None else limits.alike.pieces(owner)
     for k, (radius, mass) in webs.items():
         parts["radius"][..., owner == k], parts["max_mass"][..., owner == k] = radius, mass
     return replace(
         whole,
         norms=whole.norms.only(owner),
         ceilings=whole.ceilings.only(owner),
-        limits=Limits(**parts, max_total_mass=limits.max_total_mass),
+        limits=Limits(**parts, max_total_mass=limits.max_total_mass, alike=alike),
     )

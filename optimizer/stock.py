@@ -8,9 +8,9 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.discrete.options import Options
 from optimizer.errors import refuse
-from optimizer.figures.balance_rate import crank_angles
 from optimizer.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
+from optimizer.own_cranks import crank_angles
 from schemas.base import FieldProblem
 from schemas.catalogue import Catalogue, in_sector
 from schemas.machine import Machine

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.base import Answer, Model
-from schemas.catalogue import no_catalogue
+from schemas.catalogue import no_catalogue, no_groups
 from schemas.quantities import Count, Milliseconds
 from schemas.reciprocating import no_balance_shafts
 from schemas.requests import OptimizeRequest
@@ -28,6 +28,7 @@ class AccuracyRequest(OptimizeRequest):
             yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of the whole turn")
         yield from no_balance_shafts(self.machine, ("machine",), "the ladder")
         yield from no_catalogue(self.machine, ("machine",), "the ladder")
+        yield from no_groups(self.machine, ("machine",), "the ladder")
 
 
 class AccuracyRow(Model):

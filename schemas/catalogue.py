@@ -66,12 +66,17 @@ def stated(machine: "Rotor") -> Iterator[Path]:
 
 
 def no_catalogue(machine: "Rotor", path: Path, what: str) -> Iterator[Rule]:
-    """Refuses discrete choices and groups where counterweights of any mass and angle are chosen one by one."""
-    grouped = (("web_groups",),) if machine.web_groups else ()
+    """Refuses discrete choices where counterweights of any mass and angle are chosen."""
     heavy = (k for k, web in enumerate(machine.webs) if web.min_fitted_mass_kg is not None)
     least = (("webs", k, "min_fitted_mass_kg") for k in heavy)
-    for field in (*stated(machine), *grouped, *least):
+    for field in (*stated(machine), *least):
         yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {what}")
+
+
+def no_groups(machine: "Rotor", path: Path, what: str) -> Iterator[Rule]:
+    """Refuses identical castings where counterweights are chosen one by one."""
+    message = f"serves only to choose the counterweights of a machine, not {what}"
+    yield Rule(bool(machine.web_groups), (*path, "web_groups"), message)
 
 
 def catalogue_rules(machine: "Rotor") -> Iterator[Rule]:

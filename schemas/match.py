@@ -6,7 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base import Model
-from schemas.catalogue import no_catalogue
+from schemas.catalogue import no_catalogue, no_groups
 from schemas.fitted import FittedCounterweight, fitted_rules
 from schemas.objective import Objective
 from schemas.quantities import Count, Flag, Mass, Name
@@ -137,6 +137,7 @@ class MatchRequest(Ruled):
         ):
             yield Rule(broken, ("machine", *path), message)
         yield from no_catalogue(self.machine, ("machine",), "a match")
+        yield from no_groups(self.machine, ("machine",), "a match")
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need rows to go on")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")

@@ -139,16 +139,10 @@ class OptimizeRequest(Scene, Ruled):
 
     def _group_rules(self) -> Iterator[Rule]:
         """What does not go with identical castings."""
-        machine, place = self.machine, ("machine", "web_groups")
+        machine = self.machine
         if not machine.web_groups:
             return
-        yield from self.worst_case_rules("does not go with web_groups")
-        for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "does not go with web_groups: of the first order only")
-        yield Rule(machine.discrete, place, "any mass at any angle only: not with a catalogue")
-        plates = any(web.envelope is not None for web in machine.webs)
-        yield Rule(plates, place, "not beside webs with an envelope")
-        yield from no_balance_shafts(machine, ("machine",), "a machine with web_groups")
+        yield Rule(machine.discrete, ("machine", "web_groups"), "any mass at any angle only: not with a catalogue")
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""

@@ -102,7 +102,8 @@ class Rotor(Ruled):
                 web = webs.get(name)
                 if web is not None:
                     yield Rule(web.fixed is not None, path, "the weight of this web is fixed: nothing is chosen")
-                    yield Rule(web.envelope is not None, path, "only webs with a counterweight_radius_m, no envelope")
+                    endless = group.mirror and web.envelope is None and web.max_mass_kg is None
+                    yield Rule(endless, path, "a mirrored pair needs max_mass_kg: give its webs a limit")
 
     @property
     def discrete(self) -> bool:

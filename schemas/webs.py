@@ -7,7 +7,7 @@ from pydantic import ConfigDict, Field
 
 from schemas.base import Model, NotEmpty
 from schemas.catalogue import Holes, Masses
-from schemas.quantities import Angle, Count, Length, Mass, MaxMass, Name, Position
+from schemas.quantities import Angle, Count, Flag, Length, Mass, MaxMass, Name, Position
 from schemas.rules import REQUIRED, Rule, Ruled
 from schemas.throws import MAX_THROWS
 from schemas.units import Unit, between, positive
@@ -71,12 +71,22 @@ class FixedWeight(Model):
 
 
 class WebGroup(Model):
-    """Webs that get identical castings: the same weight, in the same place on their own cranks."""
+    """Webs that get identical castings: the same weight, in the same place on their own cranks or mirrored there."""
 
     name: Name = Field(description="name of the group, unique in the machine", examples=["cheeks"])
     webs: Annotated[tuple[Name, ...], Field(max_length=MAX_GROUPED), NotEmpty()] = Field(
         description="names of its webs, which are alike", examples=[["1a", "1b"]]
     )
+    mirror: Flag = Field(
+        False,
+        description="every second web of the list carries the mirror image, about the plane of its own crank: the same"
+        " mass, at the same angle on the other side of the crank",
+        examples=[False],
+    )
+
+    def mirrors(self, place: int) -> bool:
+        """Whether the web at a place of the list carries the mirror image."""
+        return self.mirror and place % 2 == 1
 
 
 class Web(Ruled):

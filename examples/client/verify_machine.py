@@ -94,24 +94,36 @@ class Machine:
             found[name] = co, counter
         return found
 
+    def together(self, pulls: Sequence[Number]) -> list[Number]:
+        """What pulls at the webs, of identical castings by the mean of what pulls at all, as seen from their cranks."""
+        found = list(pulls)
+        for group in self.groups:
+            back = [(pulls[k] * direction(angle).conjugate(), mirrored) for k, angle, mirrored in group]
+            mean = total(one.conjugate() if mirrored else one for one, mirrored in back) / real(len(group))
+            for k, angle, mirrored in group:
+                found[k] = (mean.conjugate() if mirrored else mean) * direction(angle)
+        return found
 
-def _groups(place: Place) -> list[list[tuple[int, float]]]:
-    """Webs that get the same casting, by number, with the angles of their own cranks, degrees."""
+
+def _groups(place: Place) -> list[list[tuple[int, float, bool]]]:
+    """Webs that get the same casting, by number, the angles of their own cranks [deg], and which are mirrored there."""
     names = [(web / "name").text() for web in place / "webs"]
     throws = [((one / "position_m").double(), (one / "crank_angle_deg").double()) for one in place / "throws"]
     found = []
     for group in place / "web_groups":
-        found.append([(names.index(name), 0.0) for name in map(Place.text, group / "webs") if name in names])
+        mirror = (group / "mirror").read((bool,), "true or false", False)
+        webs = [names.index(name) for name in map(Place.text, group / "webs") if name in names]
+        found.append([(k, 0.0, mirror and n % 2 == 1) for n, k in enumerate(webs)])
         if len(found[-1]) < len(list(group / "webs")):
             raise NotCovered(group / "webs")
-        for n, (k, _) in enumerate(found[-1] if throws else ()):
+        for n, (k, _, mirrored) in enumerate(found[-1] if throws else ()):
             web = list(place / "webs")[k]
             at = (web / "position_m").double()
             near = min(range(len(throws)), key=lambda t: abs(throws[t][0] - at))
             named = int((web / "throw").double(float(near))) if web / "throw" else near
             if named >= len(throws):
                 raise NotCovered(web / "throw")
-            found[-1][n] = k, throws[named][1]
+            found[-1][n] = k, throws[named][1], mirrored
     return found
 
 

@@ -142,7 +142,7 @@ KNOWN = (
     " moment_weight direction_weights x y force_ceiling_N force_ceiling_x_N force_ceiling_y_N moment_ceiling_Nm"
     " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap unbalances x_kg_m y_kg_m"
     " catalogue masses_kg mass_step_kg angle_step_deg max_part_numbers max_counterweights catalogue_masses_kg"
-    " hole_angles_deg fixed angle_deg radius_m web_groups max_centrifugal_force_N min_fitted_mass_kg"
+    " hole_angles_deg fixed angle_deg radius_m web_groups mirror max_centrifugal_force_N min_fitted_mass_kg"
     " overspeed_rpm parts motion centre_of_mass_m length_m "
 )
 IDLE = (

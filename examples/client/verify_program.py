@@ -16,7 +16,6 @@ from verify_numbers import (
     Place,
     direction,
     largest,
-    real,
     total,
 )
 
@@ -120,7 +119,7 @@ class Statement:
         price = cost + ((proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO)
         free = {w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name)}
         if price.high == 0:
-            grouped = {machine.webs[k].name for group in machine.groups for k, _ in group}
+            grouped = {machine.webs[k].name for group in machine.groups for k, _, _ in group}
             free = self._balance(y, terms, [w for w in free.values() if w.sector is None and w.name not in grouped])
         # |y| <= lambda holds by shortening all alike; what a ceiling costs is its own length, if it has no row
         most = {key: rows.get(one.row, ZERO) for key, one in terms.items()}
@@ -150,18 +149,9 @@ class Statement:
     def _gains(self, slope: dict[str, Number]) -> dict[str, Number]:
         """What a kilogram on each web takes off at most."""
         machine = self.machine
-        gains, pulls = {}, []
-        for web in machine.webs:
-            pulls.append(-(slope["force"] + slope["moment"] * (web.position - machine.plane)) * machine.square)
-            gains[web.name] = web.radius * support(pulls[-1], web.sector)
-        for group in machine.groups:
-            # of identical castings a kilogram on each gains what it does on all together
-            first, crank = group[0]
-            back = [(pulls[k], direction(angle).conjugate() * direction(crank)) for k, angle in group]
-            pull = total(one * turned for one, turned in back) / real(len(group))
-            for k, _ in group:
-                gains[machine.webs[k].name] = machine.webs[k].radius * support(pull, machine.webs[first].sector)
-        return gains
+        arms = [web.position - machine.plane for web in machine.webs]
+        pulls = machine.together([-(slope["force"] + slope["moment"] * arm) * machine.square for arm in arms])
+        return {web.name: web.radius * support(pull, web.sector) for web, pull in zip(machine.webs, pulls)}
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
         """Of the rows and of the terms, those that are not 0 and those that are to be given."""

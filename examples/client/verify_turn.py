@@ -160,8 +160,8 @@ class Program:
             slopes = [slope + factor * p for slope, factor in zip(slopes, factors)]
         beta = (proof / "budget").number(0.0, least=0) if machine.budget else ZERO
         believed, least = False, least - (price * most if cost is not ZERO else ZERO)
-        for web, slope in zip(machine.webs, slopes):
-            gain = web.radius * support(-slope, web.sector) - cost - beta
+        for web, pull in zip(machine.webs, machine.together([-slope for slope in slopes])):
+            gain = web.radius * support(pull, web.sector) - cost - beta
             if gain.high <= 0:
                 continue
             carries = self.exact.reach(web, Place(None))

@@ -46,13 +46,14 @@ def counterweights(machine: Machine, place: Place) -> Claims:
         total_mass = total_mass + mass
         turning.append(Mass(mass * web.radius, direction(angle), ZERO, web.position))
     for group in machine.groups:
-        (first, crank), *others = group
+        (first, crank, _), *others = group
         same = by_name[machine.webs[first].name]
-        for k, angle in others:
+        for k, angle, mirrored in others:
             one = by_name[machine.webs[k].name]
             yield near("web_groups", one / "mass_kg", (same / "mass_kg").number())
-            ahead = Fraction((one / "angle_deg").double()) - Fraction((same / "angle_deg").double())
-            off = (ahead - Fraction(angle) + Fraction(crank) + 180) % 360 - 180
+            there, asked = ((Fraction((each / "angle_deg").double()) - Fraction(own))
+                            for each, own in ((one, angle), (same, crank)))  # fmt: skip
+            off = (there + (asked if mirrored else -asked) + 180) % 360 - 180
             fitted = (one / "mass_kg").number().high > 0
             yield "web_groups", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
     if machine.budget is not None:

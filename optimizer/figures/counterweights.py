@@ -5,12 +5,12 @@ from collections.abc import Sequence
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.figures.balance_rate import own_throws
 from optimizer.fixed import beside
 from optimizer.limits import WEB_LIMITS, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.envelope import Envelope
 from optimizer.mechanics.layout import stacked
+from optimizer.own_cranks import own_throws
 from optimizer.program.limits import Limits
 from optimizer.shapes import envelopes
 from schemas.counterweights import Counterweight, Shape
@@ -26,12 +26,18 @@ _ROUNDING = 8 * float(np.finfo(float).eps)
 def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
     """Masses [kg] and angles [deg] of unbalances [kg m] (..., K), within the limits of the webs to the last digit.
 
-    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit.
+    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit; webs that are
+    to be alike are so to the last digit.
 
     Parameters
     ----------
     limits : (..., K) of the machine.
     """
+    mass, angle = _within(machine, unbalance, limits)
+    return (mass, angle) if limits.alike is None else limits.alike.fitted(mass, angle)
+
+
+def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
     mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
     mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
     free, centre, half_angle = sectors(machine)

@@ -241,6 +241,10 @@ def spread(statement: Statement, multipliers: Multipliers) -> Real | float:
     of_terms = norms.scatter * multipliers.row[..., statement.row, None] * np.abs(norms.influence)
     of_ceilings = ceilings.scatter * np.abs(multipliers.ceiling)[..., None] * np.abs(ceilings.influence)
     each: Real = np.add.reduce(of_terms, axis=-2) + np.add.reduce(of_ceilings, axis=-2)
+    alike = statement.limits.alike
+    if alike is not None:
+        # webs that carry as much as one another share what it is
+        each = (alike.summed(each) / alike.count)[..., alike.owner]
     return each * (1.0 - _EPS * (_EACH + statement.row.size + multipliers.ceiling.shape[-1]))
 
 

@@ -53,9 +53,13 @@ class BothStages(Solutions):
 
 
 def suits_kernel(statement: Statement) -> bool:
-    """Whether the compiled interior point takes such programs: one group, real influences. Others are cone programs."""
+    """Whether the compiled interior point takes such programs; others are cone programs.
+
+    They have one group, real influences, and no webs that are to be alike.
+    """
     influences = (statement.norms.influence, statement.ceilings.norms.influence)
-    return bool(statement.group[-1] == 0 and not any(np.iscomplexobj(each) for each in influences))
+    apart = statement.group[-1] == 0 and statement.limits.alike is None
+    return bool(apart and not any(np.iscomplexobj(each) for each in influences))
 
 
 def both_stages(

@@ -1,10 +1,14 @@
 """Where the counterweights may be: mass, sector, budget."""
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.alike import Alike
+
+#: fields with an entry for each web
+OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
 
 
 @dataclass(frozen=True)
@@ -20,7 +24,8 @@ class Limits:
     centre: Complex  # (..., K) unit vectors
     half_angle_cos: Real  # (..., K)
     half_angle_sin: Real  # (..., K)
-    max_total_mass: Real  # (...) kg, inf where there is no budget; last, as it is no limit of a web
+    max_total_mass: Real  # (...) kg, inf where there is no budget
+    alike: Alike | None = None  # webs that carry alike counterweights, whose other limits are alike too
 
     @property
     def reach(self) -> Real:
@@ -66,7 +71,7 @@ class Limits:
 
     def into(self, u: Complex) -> Complex:
         """An unbalance within all limits, close to one that is nearly so, kg m (..., K)."""
-        u = self.into_sectors(u)
+        u = self.into_sectors(self._nearest(u))
         size = np.abs(u)
         largest = self.reach
         u = u * np.where(size > largest, largest / np.where(size > 0, size, 1.0), 1.0)
@@ -75,7 +80,11 @@ class Limits:
         return u * np.where(over, self.max_total_mass / np.where(over, mass, 1.0), 1.0)[..., None]
 
     def support(self, g: Complex) -> Real:
-        """Largest Re(conj(g_k) v) over unit-disc vectors v in sector k (docs/mathematics.md section 5), (..., K)."""
+        """Largest Re(conj(g_k) v) over unit-disc vectors v in sector k (docs/mathematics.md section 5), (..., K).
+
+        Of alike webs the mean of theirs, with vectors that are alike.
+        """
+        g = self._nearest(g)
         rotated = g * np.conj(self.centre)
         across = np.abs(rotated.imag)
         inside = across * self.half_angle_cos <= rotated.real * self.half_angle_sin
@@ -91,5 +100,14 @@ class Limits:
 
     def only(self, webs: np.ndarray) -> "Limits":
         """The limits of some of the webs (K,) bool."""
-        of_webs = {field.name: np.compress(webs, getattr(self, field.name), axis=-1) for field in fields(self)[:-1]}
-        return Limits(**of_webs, max_total_mass=self.max_total_mass)
+        of_webs = {name: np.compress(webs, getattr(self, name), axis=-1) for name in OF_WEBS}
+        alike = None if self.alike is None else self.alike.only(webs)
+        return Limits(**of_webs, max_total_mass=self.max_total_mass, alike=alike)
+
+    def together(self, of_webs: Real) -> Real:
+        """Of alike webs the sum, of others as it is (..., U)."""
+        summed: Real = of_webs if self.alike is None else self.alike.summed(of_webs)
+        return summed
+
+    def _nearest(self, u: Complex) -> Complex:
+        return u if self.alike is None else self.alike.nearest(u)

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.program.alike import apart, united
 from optimizer.program.cascade import cascade
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.compiled import both_stages, suits_kernel
@@ -58,6 +59,11 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
     relative_gap : asked gap, relative to the objective without counterweights.
     least_mass : take the least total mass among the optima.
     """
+    alike = statement.limits.alike
+    if alike is not None and alike.plain:
+        # no proof says otherwise: the terms are the same, and so are the multipliers
+        found = optima(united(statement, alike), relative_gap, least_mass, solver)
+        return replace(found, unbalance=apart(found.unbalance, alike))
     carries = statement.limits.reach > 0
     if carries.all():
         return _optima(statement, relative_gap, least_mass, solver)

@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.program.alike import united
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.limits import Limits
 from optimizer.program.norms import scalars
@@ -89,7 +90,16 @@ def bounded(statement: Statement, level: float) -> Statement:
     level : what the objective is known to reach within limits and ceilings, or more. The reach holds for all that is
         no larger.
     """
-    limits = statement.limits
+    limits, alike = statement.limits, statement.limits.alike
+    if alike is not None:
+        if not alike.plain:
+            # what one web of a pair can do alone says nothing
+            return replace(statement, limits=replace(limits, max_mass=np.minimum(limits.max_mass, LARGEST)))
+        together = united(statement, alike)
+        proven = bounded(together, level).limits.max_mass
+        told = (proven != together.limits.max_mass)[alike.owner]
+        each = np.where(told, (proven / alike.count)[alike.owner], limits.max_mass)
+        return replace(statement, limits=replace(limits, max_mass=each))
     far = far_limits(statement)
     while np.any(far):
         mass = np.minimum(_masses(statement, far, level), limits.max_total_mass)

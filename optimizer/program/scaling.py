@@ -29,7 +29,11 @@ class Scaling:
     def unbalance(self, statement: Statement, solution: ScaledSolution) -> Complex:
         """Unbalance of a scaled solution, kg m (K,)."""
         limits = statement.limits
-        return self.reach * limits.centre * (solution.x + 1j * limits.half_angle_sin * solution.y)
+        if limits.alike is None:
+            return self.reach * limits.centre * (solution.x + 1j * limits.half_angle_sin * solution.y)
+        first = limits.alike.first
+        place = solution.x + 1j * limits.half_angle_sin[first] * solution.y
+        return limits.alike.carried(self.reach[first] * limits.centre[first] * place)
 
     def multipliers(self, statement: Statement, solution: ScaledSolution) -> Multipliers:
         """Multipliers in units of what is minimised per unit of objective or response."""
@@ -118,26 +122,29 @@ def scale(
     budget = bool(np.sum(reach / limits.radius) > limits.max_total_mass)
     sectors = not bool(limits.free.all())
     count, cap, highest = len(ceilings.names), ceilings.cap / ceilings.size, statement.largest(statement.floor)
+    of_terms = replace(norms, influence=norms.influence / unit)
+    of_ceilings = replace(ceilings.norms, influence=ceilings.norms.influence / ceilings.size[:, None])
+    # of alike webs the unknowns are those of the first
+    every = np.arange(reach.size) if limits.alike is None else limits.alike.first
+    mass = limits.together(reach / limits.radius)
     data = ScaledData(
         shape=Shape(
-            stage, reach.size, tuple(statement.row.tolist()), tuple(statement.group.tolist()), count, sectors, budget
+            stage, every.size, tuple(statement.row.tolist()), tuple(statement.group.tolist()), count, sectors, budget
         ),
         constant=_parts(norms.counting(norms.constant / unit)),
-        matrix=_matrix(replace(norms, influence=norms.influence / unit), statement, reach),
+        matrix=_matrix(of_terms, statement, reach),
         floor=(statement.floor - highest[statement.group]) / unit,
         ceiling_constant=_parts(ceilings.norms.counting(ceilings.norms.constant / ceilings.size)),
-        ceiling_matrix=_matrix(
-            replace(ceilings.norms, influence=ceilings.norms.influence / ceilings.size[:, None]), statement, reach
-        ),
+        ceiling_matrix=_matrix(of_ceilings, statement, reach),
         ceiling_cap=cap - np.clip(cap, 0.0, margin),
-        sine=limits.half_angle_sin,
-        cosine=limits.half_angle_cos,
-        slack=np.where(limits.free, 2.0, 0.0),
-        mass=reach / limits.radius / mass_unit,
-        budget=reach / limits.radius / limits.max_total_mass if budget else np.zeros_like(reach),
+        sine=limits.half_angle_sin[every],
+        cosine=limits.half_angle_cos[every],
+        slack=np.where(limits.free[every], 2.0, 0.0),
+        mass=mass / mass_unit,
+        budget=mass / limits.max_total_mass if budget else np.zeros_like(mass),
         target=np.array([(target - np.sum(highest)) / unit]),
-        spread=norms.scatter * np.abs(norms.influence) / unit * reach,
-        ceiling_spread=ceilings.norms.scatter * np.abs(ceilings.norms.influence) / ceilings.size[:, None] * reach,
+        spread=limits.together(norms.scatter * np.abs(norms.influence) / unit * reach),
+        ceiling_spread=limits.together(ceilings.norms.scatter * np.abs(of_ceilings.influence) * reach),
     )
     return data, Scaling(unit, reach, unit if stage == "objective" else mass_unit)
 
@@ -147,8 +154,18 @@ def _parts(vectors: Complex) -> Real:
 
 
 def _matrix(norms: Norms, statement: Statement, reach: Real) -> Real:
-    """(2 J, 2 K) matrix from (x, y) to the real and then the imaginary parts of H u, which scalars have none of."""
-    along = norms.influence * reach * statement.limits.centre
-    across = 1j * along * statement.limits.half_angle_sin
+    """(2 J, 2 K) matrix from (x, y) to the real and then the imaginary parts of H u, which scalars have none of.
+
+    Of alike webs (x, y) are those of the first.
+    """
+    limits = statement.limits
+    if limits.alike is None:
+        along = norms.influence * reach * limits.centre
+        across = 1j * along * limits.half_angle_sin
+    else:
+        of_first = (reach * limits.centre)[limits.alike.first]
+        sine = limits.half_angle_sin[limits.alike.first]
+        carried = (limits.alike.carried(of_first), limits.alike.carried(1j * of_first * sine))
+        along, across = (limits.alike.summed(norms.influence * each) for each in carried)
     counts = ~np.array(norms.scalar, dtype=bool)[:, None] if any(norms.scalar) else 1.0
     return np.block([[along.real, across.real], [along.imag * counts, across.imag * counts]])

@@ -8,6 +8,7 @@ their size, that leaves every term of the objective and every response under a c
 import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped
+from optimizer.program.alike import Alike
 from optimizer.program.limits import Limits
 from optimizer.program.points import Points, points_at
 from optimizer.program.scaling import least_change
@@ -86,6 +87,21 @@ def brought(
     between = np.where(none | edge | next_to, 0.0, size)
     part = slice(None) if moved.size == len(u) else moved
     change = np.add.reduce(influence[part] * (put - u)[part][:, None, :], axis=-1)
-    put[part] += between[part] * least_change(influence[part] * between[part][:, None, :], change)
-    put[part] = mapped(limits, lambda array: array[part]).into(put[part])
+    within = mapped(limits, lambda array: array[part])
+    put[part] += _made_up(within.alike, influence[part], between[part], change)
+    put[part] = within.into(put[part])
     return put, moved
+
+
+def _made_up(alike: Alike | None, influence: Real | Complex, room: Real, change: Complex) -> Complex:
+    """The least change (N, K), relative to a room (N, K), that takes back a change (N, J); of alike webs alike."""
+    if alike is None:
+        return room * least_change(influence * room[:, None, :], change)
+    # mirror images are no complex multiples: in real and imaginary parts of what the first webs carry
+    first: Complex = room[:, alike.first].astype(complex)
+    parts = [alike.summed(influence * alike.carried(each)[:, None, :]) for each in (first, 1j * first)]
+    both = np.concatenate(parts, axis=-1)
+    rows, wanted = (np.concatenate([every.real, every.imag], axis=1) for every in (both, change))
+    along, across = np.split(least_change(rows, wanted.astype(complex)).real, 2, axis=-1)
+    made_up: Complex = first * (along + 1j * across)
+    return alike.carried(made_up)

@@ -9,6 +9,7 @@ the mass (docs/mathematics.md section 9).
 import numpy as np
 
 from optimizer.arrays import Complex, plain
+from optimizer.program.alike import apart, united
 from optimizer.program.statement import Statement
 
 
@@ -21,6 +22,12 @@ def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None)
     u : (N, K) kg m, within the limits.
     kinds : (K,) webs of different numbers are never alike, whatever their limits; None where the limits tell all.
     """
+    alike = statement.limits.alike
+    if alike is not None and not alike.plain:
+        return u
+    if alike is not None:
+        of_units = None if kinds is None else kinds[alike.first]
+        return apart(symmetric(united(statement, alike), alike.means(u) * alike.count, of_units), alike)
     influence = statement.every_influence
     if u.shape[-1] < 2 or not u.size or np.iscomplexobj(influence):
         return u

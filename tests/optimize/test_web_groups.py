@@ -9,10 +9,10 @@ from pydantic import ValidationError
 from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
+from schemas.accuracy import AccuracyRequest
 from schemas.answers import OptimizeAnswer
-from schemas.pareto import ParetoRequest
+from schemas.match import MatchRequest
 from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
 from tests.verification.checking import broken, optimized
 
 ANGLES, PLANES, RADIUS = (0.0, 120.0, 250.0), (-0.3, 0.0, 0.3), 0.2
@@ -205,11 +205,12 @@ def test_unlike_webs_are_refused(change: dict[str, Any], words: str) -> None:
 
 
 def test_where_they_are_not_counted() -> None:
-    asked = body([NAMES], objective={"orders": "all"})
-    assert refused(asked)[0] == ("objective", "orders")
     catalogue = copy.deepcopy(body([NAMES]))
     catalogue["machine"]["catalogue"] = {"masses_kg": [1], "angle_step_deg": 30}
     assert refused(catalogue)[0] == ("machine", "web_groups")
-    assert refused(body([NAMES]), ParetoRequest)[0] == ("machine", "web_groups")
-    axes = [{"path": "/machine/speed_rpm", "values": [300]}]
-    assert refused({"base": body([NAMES]), "axes": axes}, SweepRequest)[0] == ("base", "machine", "web_groups")
+    assert refused(body([NAMES]), AccuracyRequest)[0] == ("machine", "web_groups")
+    match = {
+        "machine": body([NAMES])["machine"],
+        "parts": [{"class": "piston", "names": list("abc"), "masses_kg": [1, 2, 3]}],
+    }
+    assert refused(match, MatchRequest)[0] == ("machine", "web_groups")
