@@ -7,10 +7,11 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.certified_turn import CertifiedTurn, fitted, out_of_reach
-from optimizer.curve import TurnResponse, peaks
+from optimizer.curve import TurnResponse
 from optimizer.formulate import RESPONSES
 from optimizer.goals import Goals, bearing_responses, goals
 from optimizer.mechanics.shaft_curves import shaking
+from optimizer.program.cut import Quantity, reached
 from optimizer.program.cuts import Unkept, over_turn
 from optimizer.robust import Machine, Measure, Robust
 from optimizer.scene import Prepared
@@ -79,8 +80,9 @@ def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> fl
 
 
 def _peak(robust: Robust, machine: Machine, response: TurnResponse, u: Complex) -> float:
-    off = robust.scatter.of(response.influence, u)
-    return (float(peaks([response], u, _CLOSE).upper[0]) + off) * machine.scene.omega_squared
+    quantity = Quantity(response, "peak", machine.scenario, machine.share if machine.scatters else 0.0)
+    (found,) = reached([quantity], u, np.full(1, _CLOSE), [False], robust.scatter)
+    return found.upper * machine.scene.omega_squared
 
 
 def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:

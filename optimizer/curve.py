@@ -20,6 +20,7 @@ from optimizer.circle import Circle, smallest_circle
 from optimizer.moved import Harmonics, moved
 from optimizer.outline import Outline, nearer
 from optimizer.pieces import Bracket, Index, Pieces
+from optimizer.scattered import Parts
 
 #: points added to those of the pieces for the smallest circle around a curve, at most
 _MOST_POINTS = 50
@@ -49,6 +50,10 @@ class Curves(Protocol):
     @property
     def rms_error(self) -> Real:
         """What root mean squares of curve + constant, by this mean and variance, may be off by (J,)."""
+
+    @property
+    def parts(self) -> Parts:
+        """What the inertia of each row adds to the curves."""
 
     def at(self, angle: Real) -> Complex:
         """The curves at angles (n,) rad: (J, n); in the middle between the limits at a jump or one of them."""

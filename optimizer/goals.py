@@ -43,6 +43,7 @@ class Case:
     turn: WholeTurn | None = None  # where the objective looks at the whole turn
     scenario: str | None = None
     weight: float = 1.0
+    masses: float = 0.0  # share by which every reciprocating mass may be off, over the turn
 
     @property
     def omega_squared(self) -> float:
@@ -247,7 +248,7 @@ class _Asked:
         return self._placed("bending", moments)
 
     def _quantity(self, response: TurnResponse, measure: Literal["peak", "rms"] = "peak") -> Quantity:
-        return Quantity(response, measure, self.case.scenario)
+        return Quantity(response, measure, self.case.scenario, self.case.masses)
 
     def _limited(self, field: CeilingField, limit: MachineLimit, quantity: int, ceiling: float) -> Limited:
         return Limited(field, limit, quantity, ceiling, self.case.omega_squared, self.case.scenario)

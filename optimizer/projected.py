@@ -14,6 +14,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.curve import Curves, TurnResponse
 from optimizer.pieces import Index, Pieces, Source
+from optimizer.scattered import Parts
 
 _DEGREE = 3
 #: for the rounding of a mean square, in units of what is added up in the curve
@@ -58,9 +59,12 @@ class Component:
     def pieces(self) -> Pieces:
         whole, one = self.curves.pieces, slice(self.number, self.number + 1)
         centre, half, cubic = whole.centre[one], whole.half[one], whole.cubic[one]
-        source = _Component(whole.source, self.number, self.unit, self.sense)
-        along, rest = source.product(cubic, centre, half), leibniz(cubic, whole.rest[one], half)
-        return Pieces(centre, half, along, rest, whole.size[one], source)
+        along, rest = self._source.product(cubic, centre, half), leibniz(cubic, whole.rest[one], half)
+        return Pieces(centre, half, along, rest, whole.size[one], self._source)
+
+    @cached_property
+    def parts(self) -> "_ComponentParts":
+        return _ComponentParts(self.curves.parts, self.pieces, self._source)
 
     @property
     def mean(self) -> Complex:
@@ -89,6 +93,10 @@ class Component:
     def at(self, angle: Real) -> Complex:
         seen = self.curves.at(angle)[self.number : self.number + 1]
         return (self.unit * np.exp(1j * self.sense * angle) * seen).real.astype(complex)
+
+    @property
+    def _source(self) -> "_Component":
+        return _Component(self.curves.pieces.source, self.number, self.unit, self.sense)
 
     @property
     def _shares(self) -> Real:
@@ -139,3 +147,40 @@ class _Component:
     def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
         seen = self.source.values(curve + self.number, piece, angle)
         return (self.unit * np.exp(1j * self.sense * angle) * seen).real.astype(complex)
+
+
+@dataclass(frozen=True)
+class _ComponentParts:
+    """What rows add to the component (:class:`optimizer.scattered.Parts`)."""
+
+    parts: Parts
+    pieces: Pieces
+    of: _Component
+
+    @property
+    def largest(self) -> Real:
+        """No more than of the vector."""
+        return self.parts.largest[self.of.number : self.of.number + 1]
+
+    def fourth(self, curve: Index, piece: Index) -> Real:
+        centre, half = self.pieces.centre[0, piece], self.pieces.half[0, piece]
+        cubic = self.parts.cubics(curve + self.of.number, piece, centre, half)
+        known, width = self.parts.fourth(curve + self.of.number, piece), half[:, None]
+        # pieces without width hold nothing
+        power = np.where(width > 0.0, width, 1.0) ** 4
+        return leibniz(cubic, known * width**4, width) / power
+
+    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
+        cubic = self.parts.cubics(curve + self.of.number, piece, centre, half)
+        return self.of.product(cubic, centre[:, None], half[:, None])
+
+    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
+        return self._seen(self.parts.values(curve + self.of.number, piece, angle), angle)
+
+    def at(self, curve: int, angle: Real) -> Complex:
+        return self._seen(self.parts.at(curve + self.of.number, angle), angle)
+
+    def _seen(self, values: Complex, angle: Real) -> Complex:
+        """Along the axis, of vectors (n, R) at angles (n,) rad."""
+        turned = self.of.unit * np.exp(1j * self.of.sense * angle)
+        return (turned[:, None] * values).real.astype(complex)

@@ -107,7 +107,9 @@ class Machine:
             for signs in known
         )
         turn = self.turn if self.request.objective.over_the_turn else None
-        return Case(self.request, self.scene.laden, variants or (self.nominal,), turn, self.scenario, self.weight)
+        masses = self.share if self.scatters else 0.0
+        named = self.scenario, self.weight, masses
+        return Case(self.request, self.scene.laden, variants or (self.nominal,), turn, *named)
 
 
 class Robust:

@@ -111,8 +111,9 @@ class OptimizeRequest(Scene, Ruled):
         yield from self._group_rules()
         yield from self._fitted_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
-            scatters = self.tolerances.reciprocating_mass_relative > 0
-            message = f"of the first order only: not with objective.{self.objective.over_the_turn[0]}"
+            squares = self.objective.bearing_weight > 0 and self.objective.bearing_measure == "rms"
+            scatters = squares and self.tolerances.reciprocating_mass_relative > 0
+            message = "of peaks only: not with objective.bearing_measure rms"
             yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
         if not any(web.envelope is not None for web in self.machine.webs):
             return

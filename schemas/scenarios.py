@@ -62,7 +62,7 @@ class Tolerances(Model):
     reciprocating_mass_relative: Fraction = Field(
         0.0,
         description="share by which the reciprocating mass of every row, its part of the rod included, may be off; of"
-        " the first order only",
+        " peaks only, not of a root mean square",
         examples=[0.01],
     )
 

@@ -17,6 +17,7 @@ from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_data import RowData, shared
+from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import panels
 from optimizer.pieces import Index, Pieces
@@ -166,6 +167,12 @@ class TurnCurves:
         terms = np.abs(self.weights) @ np.abs(points.middle[0])
         size = np.max(terms, axis=-1) + np.abs(self.constant)
         return Pieces(centre, width, cubic.reshape(*centre.shape, 4), rest, size.reshape(-1), source=self)
+
+    @cached_property
+    def parts(self) -> RowParts:
+        """What the inertia of each row adds to the curves of one machine."""
+        (weights,), (centre,), (half,) = self.weights, self.whole.centre, self.whole.half
+        return RowParts(self.whole.rows, centre, half, self.reading, weights)
 
     @cached_property
     def mean(self) -> Complex:

@@ -13,6 +13,8 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.astray import peaks_astray
+from optimizer.cells import worst_masses
 from optimizer.circle import smallest_circle
 from optimizer.curve import TurnResponse, peaks
 
@@ -76,6 +78,7 @@ class Quantity:
     response: TurnResponse
     measure: Literal["peak", "rms"] = "peak"
     scenario: str | None = None  # whose response it is; None is the machine as it is given
+    masses: float = 0.0  # share by which the mass of every row may be off
 
     @property
     def name(self) -> str:
@@ -138,6 +141,7 @@ class Samples:
 
     def __init__(self, quantities: Sequence[Quantity]) -> None:
         self.quantities = quantities
+        self._parts: dict[tuple[int, int], Complex] = {}  # what rows add, (n, R)
         together: dict[int, tuple[Real, Complex]] = {}
         self._places: list[tuple[Real, Complex]] = []  # angles (n,) rad and values (n,)
         for quantity in quantities:
@@ -152,7 +156,7 @@ class Samples:
             self._places.append((angle, _cleared(quantity, values[number])))
         #: quantities whose curves cancel to their rounding error everywhere
         self.cancelled = [
-            not np.any(values) and quantity.response.turning is None
+            not (np.any(values) or quantity.masses > 0.0) and quantity.response.turning is None
             for quantity, (_, values) in zip(quantities, self._places, strict=True)
         ]
 
@@ -176,12 +180,23 @@ class Samples:
             if quantity.measure == "rms":
                 found.append(quantity.rms(u, scatter))
                 continue
+            if quantity.masses > 0.0:
+                value = value + self._astray(quantity, value + quantity.response.added(u, angle), angle)
             moved = value + quantity.response.added(u, angle)
             size = np.abs(moved.real if quantity.response.scalar else moved)
             k = int(np.argmax(size))
             cut = quantity.cut(float(angle[k]), complex(value[k]))
             found.append(quantity.peak(u, scatter, float(size[k]), float(size[k]), cut))
         return tuple(found)
+
+    def _astray(self, quantity: Quantity, moved: Complex, angle: Real) -> Complex:
+        """What masses that are about the worst add to samples (n,)."""
+        response = quantity.response
+        key = id(response.curves), response.number
+        if key not in self._parts:
+            self._parts[key] = response.curves.parts.at(response.number, angle)
+        parts = quantity.masses * self._parts[key]
+        return np.sum(worst_masses(moved, parts) * parts, axis=-1)
 
 
 class Pool:
@@ -228,12 +243,20 @@ def reached(
     tolerance : (quantities,) of upper - lower, relative to lower.
     cancelled : (quantities,) those whose curves are nothing.
     """
-    turning = [q for q, each in enumerate(quantities) if each.measure == "peak" and not cancelled[q]]
+    scattered = [q for q, each in enumerate(quantities) if each.masses > 0.0]
+    turning = [
+        q for q, each in enumerate(quantities) if each.measure == "peak" and not cancelled[q] and not each.masses
+    ]
     found: dict[int, Reached] = {}
     for q, quantity in enumerate(quantities):
         if quantity.measure == "peak" and cancelled[q]:
             size = abs(quantity.response.offset(u))
             found[q] = quantity.peak(u, scatter, size, size, quantity.cut(0.0, 0j))
+    if scattered:
+        some = [quantities[q] for q in scattered]
+        worst = peaks_astray([each.response for each in some], [each.masses for each in some], u, tolerance[scattered])
+        for q, angle, value, lower, upper in zip(scattered, *(part.tolist() for part in worst), strict=True):
+            found[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
     if turning:
         bracket = peaks([quantities[q].response for q in turning], u, tolerance[turning])
         for q, angle, value, lower, upper in zip(turning, *(part.tolist() for part in bracket), strict=True):

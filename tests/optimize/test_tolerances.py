@@ -12,6 +12,7 @@ from optimizer.analyze import analyze
 from optimizer.robust import scatter_of
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.scenarios import Tolerances
+from tests.hard_turn.machines import twin
 from tests.optimize.machines import random_machine
 from tests.optimize.robust import answered, crank, scenario, six_rows, worst
 from tests.optimize.whole_turn import ALONE, inline_six, one_throw
@@ -233,10 +234,69 @@ def test_tolerances_that_are_none_are_refused_by_name(tolerances: dict[str, floa
         OptimizeRequest.model_validate({"machine": crank(), "tolerances": tolerances})
 
 
-def test_scatter_of_masses_is_of_the_first_order() -> None:
-    body = {"machine": one_throw(), "objective": {"bearing_weight": 1}}
-    with pytest.raises(ValidationError, match=r"objective\.bearing_weight"):
+def test_scatter_of_masses_is_of_peaks() -> None:
+    body = {"machine": one_throw(), "objective": {"bearing_weight": 1, "bearing_measure": "rms"}}
+    with pytest.raises(ValidationError, match=r"of peaks only: .*bearing_measure rms"):
         OptimizeRequest.model_validate({**body, "tolerances": {"reciprocating_mass_relative": 0.01}})
+
+
+@pytest.mark.parametrize("share", [0.05, 1.0])
+def test_a_bearing_that_suits_the_heaviest_and_the_lightest_piston(share: float) -> None:
+    """Analytic: circles of radius (1 +- p) m_rec/4 that meet in one point; the larger holds the smaller."""
+    answer = answered(
+        one_throw(), objective={**ALONE, "bearing_weight": 1}, tolerances={"reciprocating_mass_relative": share}
+    )
+    assert answer.status == "optimal"
+    assert answer.worst_case is not None
+    assert answer.certificate is not None
+    assert worst(answer) == pytest.approx((1 + share) / 4, abs=1.01e-6 * answer.certificate.yardstick)
+    assert answer.worst_case.bearing_peak_N == pytest.approx(worst(answer), rel=1e-9)
+    assert answer.total_mass_kg == pytest.approx(1 + (1 + share) / 2, rel=1e-5)
+    assert answer.price_of_robustness is not None
+    # with u for the nominal masses the heavy piston's circle is beside the origin by p m_rec/4
+    assert answer.price_of_robustness.nominal_optimum_worst_case == pytest.approx((1 + 2 * share) / 4, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "objective", [{**ALONE, "bearing_weight": 1}, {"combine": "max", "orders": "all", "bending_weight": 2.0}]
+)
+def test_all_corners_of_the_masses_as_scenarios_are_their_scatter_over_the_turn(objective: dict[str, Any]) -> None:
+    """Independent: the four corners of two masses, each a machine of its own."""
+    made = twin(gas=True)
+    listed = [
+        scenario(
+            str(n),
+            **{
+                f"throws__{t}__rows__0__reciprocating_mass_kg": one["rows"][0]["reciprocating_mass_kg"]
+                for t, one in enumerate(other["throws"])
+            },
+        )
+        for n, other in enumerate(_scattered(made, 0.1))
+    ]
+    for each in (made, *(one for one in _scattered(made, 0.1))):
+        for one in each["throws"]:
+            one["rows"][0]["connecting_rod"]["reciprocating_share"] = 0.0
+    answer = answered(made, objective=objective, tolerances={"reciprocating_mass_relative": 0.1})
+    corners = answered(made, objective=objective, scenarios=listed)
+    assert (answer.status, corners.status) == ("optimal", "optimal")
+    assert corners.certificate is not None
+    assert worst(answer) == pytest.approx(worst(corners), abs=2e-6 * corners.certificate.yardstick)
+    assert answer.total_mass_kg == pytest.approx(corners.total_mass_kg, rel=1e-3)
+    assert answer.worst_case is not None
+    assert corners.worst_case is not None
+    assert answer.worst_case.force_peak_N == pytest.approx(corners.worst_case.force_peak_N, rel=1e-2)
+
+
+def test_a_bearing_ceiling_that_only_some_masses_exceed_is_out_of_reach() -> None:
+    """Analytic: the floor is (1 + p) m_rec/4."""
+    asked = {"objective": {"bearing_ceiling_N": 0.26}, "tolerances": {"reciprocating_mass_relative": 0.05}}
+    answer = answered(one_throw(), **asked)
+    assert answer.status == "infeasible"
+    assert answer.infeasibility is not None
+    (first, _) = answer.infeasibility.smallest
+    assert (first.ceiling_field, first.ceiling) == ("bearing_ceiling_N", 0.26)
+    assert first.lower_bound <= 1.05 / 4 * (1 + 1e-9)
+    assert first.smallest == pytest.approx(1.05 / 4, rel=1e-6)
 
 
 @pytest.mark.parametrize(
