@@ -28,6 +28,7 @@ ALL_PANELS = (
     "flywheel",
     "main-bearings",
     "pin-loads",
+    "match",
     "sweep",
 )
 

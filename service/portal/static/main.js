@@ -11,6 +11,7 @@ import { counterweights } from "./panels/counterweights.js";
 import { cranks } from "./panels/cranks.js";
 import { flywheel, mainBearings, rodLoads, torque } from "./panels/dynamics.js";
 import { hodographs, orders, overAngle } from "./panels/first_order.js";
+import { match } from "./panels/match.js";
 import { missing, offered, Panels } from "./panels/panels.js";
 import { pareto } from "./panels/pareto.js";
 import { indicator, orderHodographs, stageScheme } from "./panels/pictures.js";
@@ -29,7 +30,7 @@ import { workbooks } from "./workbook.js";
 
 const MODEL = "OptimizeRequest";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
-const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, sweep];
+const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, match, sweep];
 
 const schema = get("openapi.json").then((document) => new Schema(document));
 /** @type {any} made when the schema is here */
