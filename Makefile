@@ -34,8 +34,8 @@ quick: .venv/development $(kernels)
 
 # compiled once, in half a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
-$(kernels): optimizer/compiling.py $(wildcard optimizer/*/kernel/*.py) .venv/runtime
-	rm -f optimizer/*/kernel/__pycache__/*.nb[ic]
+$(kernels): optimizer/compiling.py $(wildcard optimizer/kernel/*.py optimizer/*/kernel/*.py) .venv/runtime
+	rm -f optimizer/kernel/__pycache__/*.nb[ic] optimizer/*/kernel/__pycache__/*.nb[ic]
 	$(bin)/python -m optimizer.compile_kernels
 	mkdir -p $(@D) && touch $@
 

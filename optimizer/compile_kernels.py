@@ -10,12 +10,11 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from optimizer.warm_up import warm_up
+from optimizer.warm_up import follow_a_turn, warm_up
 
 
 def last_first() -> None:
     """Compile, by one use of each, what an answer comes to last."""
-    from optimizer.mechanics.kernel.rows import Places, Rows, row_series
     from optimizer.program.kernel.cancelling import least_changes
     from optimizer.program.kernel.lanes import Lanes, new_work, state_size, views
     from optimizer.program.kernel.newton import direction, longest_step, second_order, take_step
@@ -36,9 +35,7 @@ def last_first() -> None:
     means(vectors, np.ones((1, 1, 1)), alike, np.zeros(1, np.int64), vectors)
     worst_turned(vectors, np.ones(1, complex), 0.1)
     least_changes(np.ones((1, 1, 1), complex), vectors, 1)
-    row, place, none = np.zeros((1, 1, 6)), np.zeros((1, 1)), np.zeros((0, 1, 1))
-    rows = Rows(row, np.zeros((1, 1, 0, 7)), np.zeros((1, 0), np.int64), True)
-    row_series(rows, Places(place, place[:0, :0], place, none, none), 0, 0)
+    follow_a_turn()
 
 
 def main() -> None:

@@ -11,33 +11,24 @@ Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy;
 Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, NamedTuple, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real, Reals
-from optimizer.polynomials import bernstein, shifts, squared
+
+if TYPE_CHECKING:
+    from optimizer.kernel.parts import Asked, Best, Known, Parts
 
 Index = NDArray[np.intp]
 #: real for scalars, complex across the shaft
 Vector = NDArray[Any]
 
-#: what may hold a peak is cut into so many parts: by its polynomial, or expanded anew, which leaves out 16^-4 as much
-_PARTS, _FINER = 4, 16
-#: a rest of this share of the tolerance is no longer what keeps a bracket open
-_ENOUGH = 0.125
-#: after so many cuts in a row the bracket is told as it is
-_MOST_CUTS = 40
-#: and so it is where so many parts may hold peaks: what is so steep is not worth more time
-_MOST_PARTS = 50_000
 #: no bracket is narrower than this share of what is added up in it
 ROUNDING = 32 * np.finfo(float).eps
-#: rad, by which an angle may be rounded within two turns
-ANGLE_ROUNDING = 64 * np.finfo(float).eps
 
 
 class Bracket(NamedTuple):
@@ -89,6 +80,16 @@ class Pieces:
         """How far the curves may be from the middle of their pieces, (J, P)."""
         return np.sum(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
 
+    @cached_property
+    def known(self) -> "Known":
+        """What is compiled takes them as."""
+        from optimizer.kernel.parts import Known
+
+        centre, half, rest, reach = (
+            np.require(each, float, ("C", "W")) for each in (self.centre, self.half, self.rest, self.reach)
+        )
+        return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest, reach)
+
     def peaks(
         self, offset: Vector, tolerance: Reals, curve: Index | None = None, group: Index | None = None
     ) -> Bracket:
@@ -107,82 +108,16 @@ class Pieces:
         asked, count = np.broadcast_to(tolerance, offset.shape), int(np.max(sought, initial=-1)) + 1
         if not np.all(known):
             offset, of_member, asked, sought = offset[known], of_member[known], asked[known], sought[known]
-        return _bracketed(self, offset, of_member, sought, count, asked, _SQUARE)
+        return _bracketed(self, offset, of_member, sought, count, asked, 0.0)
 
     def largest(self, sign: float, tolerance: float) -> Bracket:
         """Largest values (J,) of scalars times a sign: 1 for their maxima, -1 for their minima, negated."""
-        measure = _Measure(lambda cubic: sign * cubic.real, lambda value: value)
         every = np.arange(self.half.shape[0])
-        return _bracketed(self, np.zeros(every.size), every, every, every.size, np.full(every.size, tolerance), measure)
-
-
-class _Measure(NamedTuple):
-    """What a peak is the largest of: a real polynomial made of the cubic (n, 4), and a rising function of it."""
-
-    polynomial: Callable[[Complex], Real]
-    size: Callable[[Real], Real]
-
-
-@dataclass(frozen=True)
-class _Parts:
-    """Parts of pieces that may hold peaks, (n,)."""
-
-    member: Index  # whose peak
-    piece: Index
-    centre: Real
-    half: Real
-    cubic: Complex  # (n, 4), offset included
-    rest: Real
-    fourth: Real  # rest of an expansion about the centre, over half^4
-
-    def chosen(self, keep: NDArray[np.bool_]) -> "_Parts":
-        return _Parts(**{name: value[keep] for name, value in vars(self).items()})
-
-    def and_(self, other: "_Parts") -> "_Parts":
-        return _Parts(**{name: np.concatenate([value, getattr(other, name)]) for name, value in vars(self).items()})
-
-    def cut(self, count: int) -> "_Parts":
-        """Each in so many parts, by the same polynomial."""
-        places, shift = shifts(count)
-        again = _Parts(**{name: np.repeat(value, count, axis=0) for name, value in vars(self).items()})
-        return replace(
-            again,
-            centre=(self.centre[:, None] + self.half[:, None] * places).reshape(-1),
-            half=again.half / count,
-            cubic=np.einsum("nk,pki->npi", self.cubic, shift).reshape(-1, 4),
-        )
-
-
-@dataclass
-class _Best:
-    """The best found of each of G peaks, and what nothing is above."""
-
-    lower: Real
-    upper: Real
-    angle: Real
-    piece: Index
-    member: Index
-
-    @staticmethod
-    def of(count: int) -> "_Best":
-        """Nothing found yet."""
-        nowhere = np.zeros(count, dtype=np.intp)
-        return _Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
-
-    def keep(self, peak: Index, value: Real, angle: Real, piece: Index, member: Index) -> None:
-        """Keep the largest of the values (n,) for each peak, and what belongs to it, where it beats the best."""
-        order = np.argsort(value, kind="stable")
-        largest = np.full(self.lower.size, -1, dtype=np.intp)
-        largest[peak[order]] = order  # of several for one peak the last counts
-        better = np.flatnonzero((largest >= 0) & ~(value[largest] <= self.lower))
-        for kept, new in zip(
-            (self.lower, self.angle, self.piece, self.member), (value, angle, piece, member), strict=True
-        ):
-            kept[better] = new[largest[better]]
+        return _bracketed(self, np.zeros(every.size), every, every, every.size, np.full(every.size, tolerance), sign)
 
 
 def _bracketed(
-    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, measure: _Measure
+    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, sign: float
 ) -> Bracket:
     """Brackets (count,), nan where a peak has no member.
 
@@ -191,91 +126,42 @@ def _bracketed(
     Parameters
     ----------
     offset, of_member, group, tolerance : (m,) of every member: its curve, and the peak to which it belongs.
+    sign : 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated.
     """
+    from optimizer.kernel.parts import MOST_CUTS, MOST_PARTS, Asked, Best, Parts, first_open, narrowed, still_open
+
+    if not group.size:
+        return Bracket(*(np.full(count, np.nan) for _ in range(4)))
     scale, share = np.zeros(count), np.zeros(count)
     np.maximum.at(scale, group, pieces.size[of_member] + np.abs(offset))
     np.maximum.at(share, group, tolerance)
-    best = _Best.of(count)
-
-    def allowed() -> Real:
-        return np.maximum(share * np.abs(best.lower), ROUNDING * scale)
-
-    def first_open() -> _Parts:
-        """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
-        rows = np.arange(of_member.size)
-        in_turn = of_member.size == pieces.half.shape[0] and np.array_equal(of_member, rows)
-        every = slice(None) if in_turn else of_member
-        there = pieces.half[every] > 0.0
-        centred = pieces.cubic[every, :, 0] + offset[:, None]
-        middle = measure.size(measure.polynomial(centred[..., None])[..., 0])
-        least = np.where(there, middle - pieces.rest[every], -np.inf)
-        where = np.argmax(least, axis=-1)
-        best.keep(group, least[rows, where], pieces.centre[every][rows, where], where, rows)
-        most = np.where(there, middle + pieces.reach[every], -np.inf)
-        open_ = most > (best.lower + allowed())[group][:, None]
-        np.maximum.at(best.upper, group, np.max(np.where(open_, -np.inf, most), axis=-1))
-        member, piece = np.nonzero(open_)
-        at = (of_member[member], piece)
-        half, rest, cubic = pieces.half[at], pieces.rest[at], _moved(pieces.cubic[at], offset[member])
-        return still_open(_Parts(member, piece, pieces.centre[at], half, cubic, rest, rest / half**4), _MOST_PARTS)
-
-    def still_open(parts: _Parts, most_parts: float) -> _Parts:
-        """Those that may hold a peak above the best found, theirs included, unless there are too many; the others are
-        told in the bracket."""
-        if not parts.member.size:
-            return parts
-        coefficients = bernstein(measure.polynomial(parts.cubic))
-        most = measure.size(np.max(coefficients, axis=-1)) + parts.rest
-        first, final = (measure.size(coefficients[:, end]) - parts.rest for end in (0, -1))
-        at_first, peak = first >= final, group[parts.member]
-        angle = parts.centre + np.where(at_first, -parts.half, parts.half)
-        best.keep(peak, np.where(at_first, first, final), angle, parts.piece, parts.member)
-        open_ = most > (best.lower + allowed())[peak]
-        if np.count_nonzero(open_) > most_parts:
-            open_[:] = False
-        rounding = ANGLE_ROUNDING * np.abs(parts.cubic[:, 1]) / parts.half
-        np.maximum.at(best.upper, peak[~open_], (most + rounding)[~open_])
-        return parts.chosen(open_)
-
-    parts = first_open()
-    for cuts in range(1, _MOST_CUTS):
-        if not parts.member.size:
-            break
-        too_coarse = parts.rest > _ENOUGH * allowed()[group[parts.member]]
-        fine = parts.chosen(~too_coarse).cut(_PARTS)
-        # most of the finer ones are let go by what is known: an expansion costs far more
-        coarse = still_open(parts.chosen(too_coarse).cut(_FINER), np.inf)
-        coarse = _expanded(pieces, of_member, offset, coarse, allowed()[group[coarse.member]])
-        parts = still_open(fine.and_(coarse), _MOST_PARTS if cuts < _MOST_CUTS - 1 else 0)
-    if not group.size:
-        return Bracket(*(np.full(count, np.nan) for _ in range(4)))
-    value = pieces.source.values(of_member[best.member], best.piece, best.angle)
-    lower = measure.size(measure.polynomial((value + offset[best.member])[:, None])[:, 0])
-    return Bracket(best.angle, value, lower, best.upper + ROUNDING * scale).where(np.isin(np.arange(count), group))
+    curve, peak = (np.require(each, np.int64, ("C", "W")) for each in (of_member, group))
+    asked = Asked(curve, peak, np.require(offset, complex, ("C", "W")), share, ROUNDING * scale, sign)
+    nowhere = np.zeros(count, np.int64)
+    best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+    parts, cuts = first_open(pieces.known, asked, best), 0
+    while parts.member.size:
+        fine, coarse, cuts = narrowed(parts, asked, best, cuts)
+        every = [fine, _expanded(pieces, asked, best, coarse)] if coarse.member.size else [fine]
+        parts = Parts(*map(np.concatenate, zip(*every, strict=True)))
+        parts = still_open(parts, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
+    value = pieces.source.values(curve[best.member], best.piece, best.angle)
+    there = value + asked.offset[best.member]
+    lower = sign * there.real if sign else np.abs(there)
+    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(np.isin(np.arange(count), group))
 
 
-def _expanded(pieces: Pieces, of_member: Index, offset: Vector, parts: _Parts, allowed: Real) -> _Parts:
-    """The same parts (n,) by polynomials of their own; where that does not help enough, with bounds of their own too.
+def _expanded(pieces: Pieces, asked: "Asked", best: "Best", parts: "Parts") -> "Parts":
+    """The same parts (n,) by polynomials of their own, and where that does not help enough by bounds of their own."""
+    from optimizer.kernel.parts import ENOUGH, Parts
 
-    Parameters
-    ----------
-    allowed : (n,) how wide the bracket may be.
-    """
-    if not parts.member.size:
-        return parts
-    curve = of_member[parts.member]
-    cubic = pieces.source.cubics(curve, parts.piece, parts.centre, parts.half)
-    rest = parts.fourth * parts.half**4
-    steep = rest > _ENOUGH * allowed
+    curve, peak = asked.curve[parts.member], asked.group[parts.member]
+    centre, half, _, fourth = parts.place.T
+    cubic = np.array(pieces.source.cubics(curve, parts.piece, centre, half), dtype=complex)
+    cubic[:, 0] += asked.offset[parts.member]
+    rest = fourth * half**4
+    steep = rest > ENOUGH * np.maximum(asked.share * np.abs(best.lower), asked.rounding)[peak]
     if np.any(steep):
-        some = parts.chosen(steep)
-        rest[steep] = np.minimum(rest[steep], pieces.source.rests(curve[steep], some.piece, some.centre, some.half))
-    return replace(parts, cubic=_moved(cubic, offset[parts.member]), rest=rest, fourth=rest / parts.half**4)
-
-
-def _moved(cubic: Vector, offset: Vector) -> Vector:
-    """Polynomials (..., k) with a constant (...) added."""
-    return np.concatenate([cubic[..., :1] + offset[..., None], cubic[..., 1:]], axis=-1)
-
-
-_SQUARE = _Measure(squared, lambda value: np.sqrt(np.maximum(value, 0.0)))
+        closer = pieces.source.rests(curve[steep], parts.piece[steep], centre[steep], half[steep])
+        rest[steep] = np.minimum(rest[steep], closer)
+    return Parts(parts.member, parts.piece, np.stack([centre, half, rest, rest / half**4], axis=-1), cubic)

@@ -1,4 +1,4 @@
-"""Polynomials of one variable on [-1, 1]: their squares, their Bernstein coefficients, and parts of the interval."""
+"""Polynomials of one variable on [-1, 1]: their Bernstein coefficients, and parts of the interval."""
 
 from functools import cache
 from math import comb
@@ -6,26 +6,13 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.arrays import Complex, Real
-
-
-def squared(polynomial: Complex) -> Real:
-    """|p|^2 of polynomials (..., k) of a real variable: (..., 2 k - 1)."""
-    count = polynomial.shape[-1]
-    found = np.zeros((*polynomial.shape[:-1], 2 * count - 1))
-    for i in range(count):
-        found[..., i : i + count] += (polynomial[..., i : i + 1] * np.conj(polynomial)).real
-    return found
-
-
-def bernstein(polynomial: Real) -> Real:
-    """Bernstein coefficients on [-1, 1] of polynomials (n, k); the first and last are the values at the ends."""
-    return polynomial @ _to_bernstein(polynomial.shape[-1] - 1)
+from optimizer.arrays import Real
 
 
 @cache
-def _to_bernstein(degree: int) -> Real:
-    """(degree + 1, degree + 1): x^k = (2 t - 1)^k, and t^i = sum_j C(j, i) / C(degree, i) B_j(t)."""
+def to_bernstein(degree: int) -> Real:
+    """From coefficients to those of Bernstein on [-1, 1], of which the first and last are the values at the ends,
+    (degree + 1, degree + 1): x^k = (2 t - 1)^k, and t^i = sum_j C(j, i) / C(degree, i) B_j(t)."""
     in_t = [[comb(k, i) * 2.0**i * (-1.0) ** (k - i) for i in range(degree + 1)] for k in range(degree + 1)]
     raised = [[comb(j, i) / comb(degree, i) for j in range(degree + 1)] for i in range(degree + 1)]
     return np.array(in_t) @ np.array(raised)

@@ -12,14 +12,37 @@ def warm_up() -> None:
     RuntimeError
         if either leaves it open: who cannot solve this solves nothing.
     """
-    from optimizer.analyze import analyze
     from optimizer.formulate import formulate
     from optimizer.optimize import optimize
     from optimizer.outputs import prepare
     from optimizer.program.reference.solver import Solver
     from optimizer.program.solution import CONE_PROGRAM
-    from schemas.requests import AnalyzeRequest, OptimizeRequest
+    from schemas.requests import OptimizeRequest
 
+    request = OptimizeRequest.model_validate({"machine": _machine()})
+    answer = optimize(request)
+    if answer.status != "optimal":
+        raise RuntimeError(f"the warm-up was answered {answer.status}")
+    follow_a_turn()
+    # seldom asked: what the compiled method leaves open
+    scene = prepare(request, ("residual",))
+    statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    # no gap is small enough, so that an attempt is made
+    found = Solver().smallest_objective(statement, -1.0, told=lambda best: best.method == CONE_PROGRAM)
+    if found.method != CONE_PROGRAM or found.gap > _GAP * found.objective:
+        raise RuntimeError(f"the reference solver left a gap of {found.gap:g}")
+
+
+def follow_a_turn() -> None:
+    """Loads of a rod over the whole turn, with their exact peaks."""
+    from optimizer.analyze import analyze
+    from schemas.requests import AnalyzeRequest
+
+    analyze(AnalyzeRequest.model_validate({"machine": _machine(), "outputs": ["rod_loads"]}))
+
+
+def _machine() -> dict[str, object]:
+    """One row between two webs."""
     throw = {
         "position_m": 0.0,
         "crank_radius_m": 0.1,
@@ -30,16 +53,4 @@ def warm_up() -> None:
         {"name": name, "position_m": position, "counterweight_radius_m": 0.1, "max_mass_kg": 10.0}
         for name, position in (("a", -0.1), ("b", 0.1))
     ]
-    machine = {"kind": "reciprocating", "speed_rpm": 1000.0, "throws": [throw], "webs": webs}
-    request = OptimizeRequest.model_validate({"machine": machine})
-    answer = optimize(request)
-    if answer.status != "optimal":
-        raise RuntimeError(f"the warm-up was answered {answer.status}")
-    analyze(AnalyzeRequest.model_validate({"machine": machine, "outputs": ["rod_loads"]}))
-    # seldom asked: what the compiled method leaves open
-    scene = prepare(request, ("residual",))
-    statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
-    # no gap is small enough, so that an attempt is made
-    found = Solver().smallest_objective(statement, -1.0, told=lambda best: best.method == CONE_PROGRAM)
-    if found.method != CONE_PROGRAM or found.gap > _GAP * found.objective:
-        raise RuntimeError(f"the reference solver left a gap of {found.gap:g}")
+    return {"kind": "reciprocating", "speed_rpm": 1000.0, "throws": [throw], "webs": webs}

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from optimizer.compile_kernels import last_first
+from optimizer.kernel import parts
 from optimizer.mechanics.kernel import rows
 from optimizer.program.kernel import symmetries
 from optimizer.warm_up import warm_up
@@ -31,8 +32,9 @@ def test_what_is_compiled_beside_is_what_answers_need() -> None:
     last_first()
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
     names = ("direction", "longest_step", "second_order", "take_step", "means", "worst_turned", "least_changes")
-    for package, entries in ((symmetries, names), (rows, ("row_series",))):
-        kept = Path(package.__file__).parent / "__pycache__"
+    of_turn = (rows, ("row_series",)), (parts, ("first_open", "narrowed"))
+    for module, entries in ((symmetries, names), *of_turn):
+        kept = Path(module.__file__).parent / "__pycache__"
         for name in entries:
             assert len(list(kept.glob(f"*.{name}-*.{version}.*.nbc"))) <= 1, name
 

@@ -1,0 +1,1 @@
+"""Inner loops of what stands between mechanics and program, compiled."""
