@@ -75,6 +75,8 @@ class Access:
             await self._app(scope, receive, send)
         finally:
             holding.end()
+            # it holds the scope that holds it, and with it all of the request until the next collection of garbage
+            del state["still_admitted"]
 
     def _still_admitted(self, scope: Scope, caller: Caller) -> bool:
         if self._keys is None or caller.key is None:

@@ -76,6 +76,8 @@ class Connection(H11Protocol):
         _stop(self._write_timer)
         self.left()
         super().connection_lost(exc)
+        if isinstance(self.transport, Joined):
+            self.transport.ended()
 
     def data_received(self, data: bytes) -> None:
         # it is not idle while it waits

@@ -62,3 +62,8 @@ class Joined:
     def close(self) -> None:
         self.flush()
         self._transport.close()
+
+    def ended(self) -> None:
+        """Its connection has ended. The transport holds a method of its own, and would stay with all it has until the
+        next collection of garbage."""
+        vars(self._transport).pop("_read_ready_cb", None)
