@@ -12,7 +12,8 @@ from service.jobs.piece import Piece
 from service.jobs.spool import Spool
 from service.jobs.worker import prepare
 
-_NICENESS = 10
+#: behind what computes answers, which is nicer than the service by 5 at most; more would starve beside other programs
+NICENESS = 10
 _CONNECT_S = 4
 
 
@@ -70,8 +71,12 @@ class Engine:
         return self._running
 
 
-def engine(name: str, workers: int) -> Engine:
+def engine(name: str, workers: int, niceness: int = NICENESS) -> Engine:
     """The engine of a setting: ``processes``, or ``dask:`` and the address of a scheduler.
+
+    Parameters
+    ----------
+    workers, niceness : of processes on this machine; those of a cluster are what they are.
 
     Raises
     ------
@@ -80,7 +85,7 @@ def engine(name: str, workers: int) -> Engine:
     """
     kind, _, address = name.partition(":")
     if kind == "processes" and not address:
-        return Engine(lambda: Processes(workers))
+        return Engine(lambda: Processes(workers, niceness))
     if kind == "dask" and address:
         try:
             import distributed  # noqa: F401
@@ -98,11 +103,11 @@ def reads_files(name: str) -> bool:
 class Processes:
     """Processes on this machine."""
 
-    def __init__(self, workers: int) -> None:
+    def __init__(self, workers: int, niceness: int = NICENESS) -> None:
         self._context = _Recording()
         self._workers = workers
         self.executor: Executor = ProcessPoolExecutor(
-            workers, mp_context=self._context, initializer=prepare, initargs=(_NICENESS,)
+            workers, mp_context=self._context, initializer=prepare, initargs=(niceness,)
         )
         self._spool = Spool(self.executor)
 
