@@ -29,6 +29,8 @@ Vector = NDArray[Any]
 
 #: no bracket is narrower than this share of what is added up in it
 ROUNDING = 32 * np.finfo(float).eps
+#: rad, by which an angle may be rounded within two turns
+ANGLE_ROUNDING = 64 * np.finfo(float).eps
 
 
 class Bracket(NamedTuple):

@@ -1,4 +1,4 @@
-"""Polynomials of one variable on [-1, 1]: their Bernstein coefficients, and parts of the interval."""
+"""Polynomials of one variable on [-1, 1]: their squares, their Bernstein coefficients, and parts of the interval."""
 
 from functools import cache
 from math import comb
@@ -6,7 +6,21 @@ from math import comb
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.arrays import Real
+from optimizer.arrays import Complex, Real
+
+
+def squared(polynomial: Complex) -> Real:
+    """|p|^2 of polynomials (..., k) of a real variable: (..., 2 k - 1)."""
+    count = polynomial.shape[-1]
+    found = np.zeros((*polynomial.shape[:-1], 2 * count - 1))
+    for i in range(count):
+        found[..., i : i + count] += (polynomial[..., i : i + 1] * np.conj(polynomial)).real
+    return found
+
+
+def bernstein(polynomial: Real) -> Real:
+    """Bernstein coefficients on [-1, 1] of polynomials (n, k)."""
+    return polynomial @ to_bernstein(polynomial.shape[-1] - 1)
 
 
 @cache
