@@ -9,10 +9,8 @@ import numpy as np
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
-from optimizer.certified_discrete import certified_discrete
-from optimizer.certified_fitted import certified_fitted
+from optimizer.certified_one import certified_one
 from optimizer.certified_robust import certified_robust, nothing_off
-from optimizer.certified_shapes import certified_shapes
 from optimizer.certified_turn import certified_turn
 from optimizer.errors import MissingInput
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
@@ -67,12 +65,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
     asked, square = posed(request), np.array([scene.omega_squared])
-    if request.machine.discrete:
-        best = certified_discrete(asked, scene.responses, square, solver)
-    elif request.machine.semicontinuous:
-        best = certified_fitted(asked, scene.responses, square, solver)
-    else:
-        asked, best = certified_shapes(asked, scene.responses, square, solver)
+    asked, best = certified_one(asked, scene.responses, square, solver)
     if envelopes(request.machine):
         # of what is cut from a plate the radius follows; no balance shafts stand beside plates
         request, scene = asked, replace(scene, request=asked)

@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.certified import certified
+from optimizer.certified import Certified, certified
 from optimizer.figures.counterweights import as_given, unbalance
 from optimizer.fixed import beside, laden
 from optimizer.formulate import responses, shape_facts
@@ -37,7 +37,11 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     layout = laden(layout_of(request.machine), request.machine)
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
-    best = certified(request, responses(layout, baseline), square, solver)
+    return columns_of(request, certified(request, responses(layout, baseline), square, solver), multipliers)
+
+
+def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
+    """The same of what was certified; the request is of the radii that it has."""
     mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
     columns: Columns = {
         **best.certificate,
@@ -50,10 +54,10 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     for k, web in enumerate(request.machine.webs):
         columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
     columns = {
-        name: np.where(best.found.unreachable, np.nan, column) if column.dtype == float else column
+        name: np.where(best.status == "infeasible", np.nan, column) if column.dtype == float else column
         for name, column in columns.items()
     }
-    return columns, unbalance(mass, angle, layout.webs.radius)
+    return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
 
 
 def given(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:

@@ -22,6 +22,8 @@ _PROGRAM_S = 7e-6
 #: and for each row at each angle of the turn, in the outputs
 _SAMPLE_S = 3.5e-7
 _ROW_S = 6e-6
+#: for a program by itself, of plates or alike webs, and for a search among discrete choices
+_ALONE_S, _SEARCH_S = 0.02, 0.5
 #: for the program over the turn, and for each curve that it cuts
 _TURN_S, _CUTS_S = 0.04, 0.01
 #: cells of a chunk at most, which bounds the memory of who computes it, and of who reads it
@@ -141,6 +143,10 @@ def _seconds_per_design(request: SweepRequest) -> float:
     seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always)
     if request.over_the_turn:
         seconds += _TURN_S + _CUTS_S * curves_over_turn(request)
+    elif request.searched and isinstance(request.base, OptimizeRequest):
+        seconds += min(_SEARCH_S, request.base.accuracy.time_limit_s)
+    elif request.one_by_one:
+        seconds += _ALONE_S
     elif isinstance(request.base, OptimizeRequest):
         seconds += _PROGRAM_S * max(len(request.base.machine.webs), 1)
     return seconds

@@ -7,12 +7,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
+from optimizer.errors import OutOfRange
 from optimizer.given import on_webs
 from optimizer.outputs import columns, input_rules
 from optimizer.program.reference.solver import Solver
 from optimizer.required import missing
 from optimizer.sweep.counterweights import given, optimal, shape_keys
 from optimizer.sweep.designs import axis_values
+from optimizer.sweep.one_by_one import optimal_alone
 from optimizer.sweep.over_turn import optimal_over_turn
 from optimizer.sweep.work import work_per_design
 from schemas.requests import AnalyzeRequest, OptimizeRequest
@@ -68,7 +70,7 @@ class Group:
 
     def __init__(self, request: SweepRequest, values: Sequence[Real]) -> None:
         self._base, self._targets, self._values = request.base, request.targets, values
-        self.multipliers, self.always = request.multipliers, request.always
+        self.multipliers, self.always, self.one_by_one = request.multipliers, request.always, request.one_by_one
         self._over_the_turn = bool(request.over_the_turn)
 
     def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
@@ -98,6 +100,9 @@ class Group:
 
 
 def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    if group.one_by_one:
+        _fill_one_by_one(table, group, designs, solver)
+        return
     designs = _refuse(table, designs, all_rules(group.of(designs)))
     turning = group.over_the_turn(designs)
     for design, alone in turning.items():
@@ -123,6 +128,34 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
         _fill_first_order(table, group, designs[~cut], solver)
+
+
+def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    """Rows of designs that are searched, cut from plates or alike: as single answers are."""
+    found: dict[int, Complex] = {}
+    for design in designs.tolist():
+        alone, at = group.one(design), np.array([design])
+        assert isinstance(alone, OptimizeRequest)  # nothing else chooses counterweights
+        if not _refuse(table, at, all_rules(alone)).size:
+            continue
+        turning = alone.objective.over_the_turn
+        lacking = next(missing(alone), None) if turning else None
+        needs = input_rules(alone.machine, (*group.always, *alone.outputs))
+        if not _refuse(table, at, [*([Rule(True, *lacking)] if lacking else []), *needs]).size:
+            continue
+        try:
+            columns, unbalance = (
+                optimal_over_turn([alone], group.multipliers)
+                if turning
+                else optimal_alone(alone, solver, group.multipliers)
+            )
+        except OutOfRange as refusal:
+            table.refuse(at, Rule(True, *refusal.problems[0]))
+            continue
+        table.put(at, columns)
+        found[design] = unbalance[0]
+    if found:
+        _fill_outputs(table, group, np.array(list(found)), np.array(list(found.values())))
 
 
 def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:

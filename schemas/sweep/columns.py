@@ -94,6 +94,9 @@ def _columns(
             path = pointer(("machine", "webs", k))
             yield Column(f"mass_kg.{web.name}", "number", "kg", "mass of the counterweight on this web", path)
             yield Column(f"angle_deg.{web.name}", "number", "deg", "its angle as drawn at shaft angle 0", path)
+            if web.envelope is not None:
+                meaning = "half of the opening of what is cut from its plate"
+                yield Column(f"half_angle_deg.{web.name}", "number", "deg", meaning, path)
 
 
 def _of_each(machine: Machine, output: str) -> Iterator[Column]:

@@ -1,19 +1,19 @@
 """What a client asks of a sweep: a base request, axes through it, and what to keep of the results."""
 
 from collections.abc import Iterator
-from itertools import chain, combinations
+from itertools import combinations
 from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
 from schemas.base import FieldProblem, Model
-from schemas.catalogue import no_catalogue
 from schemas.objective import OVER_THE_TURN, of_the_shaft
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Angle, Count, Flag
 from schemas.reciprocating import ReciprocatingMachine, no_balance_shafts
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.rules import Path, Rule, Ruled
+from schemas.sweep.alone import MAX_SEARCHED, alone_problems, one_by_one, searched
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
 from schemas.sweep.crank_orders import MAX_ORDERED, MAX_SEQUENCES, CrankOrders, crank_orders
@@ -112,7 +112,8 @@ class SweepRequest(Ruled):
     def rules(self) -> Iterator[Rule]:
         # each looks at what the ones before have found right
         ordered = self.design == "crank_orders"
-        varied = (self._order_problems,) if ordered else (self._axis_problems, self._design_problems)
+        designs = (self._axis_problems, self._design_problems, self._search_problems)
+        varied = (self._order_problems,) if ordered else designs
         for part in (self._output_problems, self._angle_problems, *varied, self._column_problems):
             found = list(part())
             yield from (Rule(True, path, message) for path, message in found)
@@ -154,6 +155,16 @@ class SweepRequest(Ruled):
         return tuple(name for name in OVER_THE_TURN if name in given or name in varied)
 
     @property
+    def one_by_one(self) -> bool:
+        """Whether its designs are no batch: they are searched, cut from plates or alike."""
+        return one_by_one(self.base, self.targets)
+
+    @property
+    def searched(self) -> bool:
+        """Whether the counterweights of its designs are searched among discrete choices."""
+        return searched(self.base, self.targets)
+
+    @property
     def always(self) -> tuple[str, ...]:
         """Outputs that rows hold whether they were asked for or not."""
         return ("main_bearings",) if of_the_shaft(self.over_the_turn) else ()
@@ -178,16 +189,12 @@ class SweepRequest(Ruled):
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
             yield FieldProblem(("multipliers",), "serves only to optimize: what is analyzed has no certificate")
-        for broken, path, message in self.base.machine.no_envelopes("a sweep is of counterweights of a known radius"):
-            if broken:
-                yield FieldProblem(("base", "machine", *path), message)
+        yield from alone_problems(self.base, self.design)
         if isinstance(self.base, OptimizeRequest):
             for broken, path, message in self.base.worst_case_rules("serves only to optimize one machine, not a sweep"):
                 if broken:
                     yield FieldProblem(("base", *path), message)
-        place = ("base", "machine")
-        alone = (each(self.base.machine, place, "a sweep") for each in (no_balance_shafts, no_catalogue))
-        for broken, path, message in chain.from_iterable(alone):
+        for broken, path, message in no_balance_shafts(self.base.machine, ("base", "machine"), "a sweep"):
             if broken:
                 yield FieldProblem(path, message)
         for j, output in enumerate(self.base.outputs):
@@ -265,6 +272,11 @@ class SweepRequest(Ruled):
                 yield FieldProblem(("axes", i, name), f"paired axes need equally many values: {levels[0]}")
         if self.design == "grid" and None not in levels and self.total > MAX_DESIGNS:
             yield FieldProblem(("axes",), f"a sweep holds at most {MAX_DESIGNS} designs; these axes make {self.total}")
+
+    def _search_problems(self) -> Iterator[FieldProblem]:
+        if self.searched and self.total > MAX_SEARCHED:
+            message = f"at most {MAX_SEARCHED} designs are searched one by one; these make {self.total}"
+            yield FieldProblem(("samples",) if self.design == "latin_hypercube" else ("axes",), message)
 
     def _column_problems(self) -> Iterator[FieldProblem]:
         kinds = {column.name: column.kind for column in self.all_columns}

@@ -16,7 +16,6 @@ from schemas.accuracy import AccuracyRequest
 from schemas.answers import OptimizeAnswer
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep import SweepRequest
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized, verdict
 
@@ -260,12 +259,6 @@ def test_what_does_not_go_with_a_catalogue(kind: Any, body: dict[str, Any], path
     with pytest.raises(ValidationError) as caught:
         kind.model_validate({"machine": twin(), **body})
     assert path in [tuple(problem.path) for error in caught.value.errors() for problem in error["ctx"]["problems"]]
-
-
-def test_sweeps_refuse_a_catalogue() -> None:
-    axis = {"path": "/machine/speed_rpm", "values": [500, 600]}
-    with pytest.raises(ValidationError, match="not a sweep"):
-        SweepRequest.model_validate({"base": {"machine": twin()}, "axes": [axis]})
 
 
 @pytest.mark.parametrize("time_limit_s", [1e-9, 30.0])

@@ -7,7 +7,7 @@ from typing import Any
 import pyarrow as pa
 
 from optimizer.analyze import analyze
-from optimizer.errors import MissingInput
+from optimizer.errors import NotComputable
 from optimizer.optimize import optimize
 from optimizer.program import cuts
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
@@ -56,7 +56,7 @@ def single(request: SweepRequest, row: dict[str, Any]) -> OptimizeAnswer | Analy
         if request.task == "analyze":
             return analyze(check(AnalyzeRequest, body))
         return optimize(check(OptimizeRequest, body))
-    except (InvalidRequest, MissingInput) as error:
+    except (InvalidRequest, NotComputable) as error:
         return [f"{pointer(problem.path)}: {problem.message}" for problem in error.problems]
 
 
@@ -128,6 +128,8 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
         for one in answer.counterweights:
             yield f"mass_kg.{one.web}", one.mass_kg
             yield f"angle_deg.{one.web}", one.angle_deg
+            if f"half_angle_deg.{one.web}" in {column.name for column in request.all_columns}:
+                yield f"half_angle_deg.{one.web}", None if one.shape is None else one.shape.half_angle_deg
     else:
         yield "status", "analyzed"
     yield "total_mass_kg", answer.total_mass_kg

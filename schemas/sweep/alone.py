@@ -1,0 +1,45 @@
+"""Designs that are certified each by itself: chosen from a catalogue, at least so heavy, cut from plates, or alike."""
+
+from collections.abc import Iterator, Sequence
+from itertools import chain
+
+from schemas.base import FieldProblem
+from schemas.catalogue import no_catalogue, no_groups
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.target import Target
+
+#: designs of a sweep whose counterweights are searched, each for as long as a single answer
+MAX_SEARCHED = 10_000
+#: fields that ask for a search and may be null in the base
+_ASKED_BY_AXES = ("max_counterweights", "min_fitted_mass_kg")
+
+
+def searched(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:
+    """Whether counterweights are searched among discrete choices."""
+    machine = base.machine
+    varied = any(target.path[-1] in _ASKED_BY_AXES for target in targets)
+    return isinstance(base, OptimizeRequest) and (machine.discrete or machine.semicontinuous or varied)
+
+
+def one_by_one(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> bool:
+    """Whether designs are no batch of one program."""
+    plates = any(web.envelope is not None for web in base.machine.webs)
+    return isinstance(base, OptimizeRequest) and bool(plates or base.machine.web_groups or searched(base, targets))
+
+
+def alone_problems(base: OptimizeRequest | AnalyzeRequest, design: str) -> Iterator[FieldProblem]:
+    """What only an optimum of one design after the other can be asked for."""
+    if isinstance(base, OptimizeRequest) and design != "crank_orders":
+        return
+    what = "crank_orders" if isinstance(base, OptimizeRequest) else "a sweep of what is analyzed"
+    machine, place = base.machine, ("machine",)
+    rules = (
+        no_catalogue(machine, place, what),
+        no_groups(machine, place, what),
+        ((broken, (*place, *path), message) for broken, path, message in machine.no_envelopes(
+            f"{what}: counterweights have a known radius"
+        )),
+    )  # fmt: skip
+    for broken, path, message in chain.from_iterable(rules):
+        if broken:
+            yield FieldProblem(("base", *path), message)
