@@ -2,10 +2,9 @@
 
 import numpy as np
 import pytest
-from scipy import sparse
 
 from optimizer.program.reference.assembled import Assembly, dense
-from optimizer.program.reference.boost import boosted, boosts
+from optimizer.program.reference.boost import Boost, boosts
 
 
 def test_a_boost_maps_the_cone_onto_itself() -> None:
@@ -32,10 +31,13 @@ def test_a_point_near_the_boundary_is_brought_to_the_middle() -> None:
 
 
 def test_other_rows_are_left_as_they_are() -> None:
-    whole = boosted(np.array([5.0, 1.0, 0.6, 0.7, 2.0]), np.array([1]))
-    assert isinstance(whole, sparse.csr_matrix)
+    rows = np.array([5.0, 1.0, 0.6, 0.7, 2.0])
+    boost = Boost.about(rows, np.array([1]))
+    whole = boost.of(np.eye(5))
     plain = [0, 4]
-    np.testing.assert_array_equal(whole.toarray()[plain], np.eye(5)[plain])
+    np.testing.assert_array_equal(whole[plain], np.eye(5)[plain])
+    np.testing.assert_array_equal(whole[1:4, 1:4], boosts(rows[1:2], rows[None, 2:4])[0])
+    np.testing.assert_allclose(boost.of(rows), whole @ rows, atol=1e-14)
 
 
 def test_a_boosted_program_is_the_same_program() -> None:

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.reference.boost import boosted
+from optimizer.program.reference.boost import Boost
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution
 
 # loaded with the first program: it takes as long as all else that is imported for an answer
@@ -105,14 +105,12 @@ class Assembly:
             self._cones.append((cones, constant.size))
         return slice(start, self._rows)
 
-    def matrix(self) -> "sparse.csc_matrix":
-        """(rows, columns)."""
-        from scipy import sparse
-
-        row, column, value = (
-            np.concatenate([getattr(part, name) for part in self._parts]) for name in ("row", "column", "value")
-        )
-        return sparse.csc_matrix((value, (row, column)), shape=(self._rows, self.columns))
+    def matrix(self) -> Real:
+        """(rows, columns); dense, as cuts fill most of it."""
+        found = np.zeros((self._rows, self.columns))
+        for part in self._parts:
+            found[part.row, part.column] += part.value
+        return found
 
     def constant(self) -> Real:
         """(rows,)."""
@@ -136,7 +134,6 @@ class Assembly:
         regularization : that the solver adds to what it factors; with less it sees more digits, or none.
         """
         import clarabel
-        from scipy import sparse
 
         settings = clarabel.DefaultSettings()
         settings.verbose = False
@@ -144,20 +141,21 @@ class Assembly:
         settings.static_regularization_constant = regularization
         settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = tolerance
         matrix, constant = self.matrix(), self.constant()
-        turned = None if about is None else boosted(constant + matrix @ about, self._first_rows())
-        if turned is not None:
-            matrix, constant = sparse.csc_matrix(turned @ matrix), turned @ constant
+        boost = None
+        if about is not None:
+            boost = Boost.about(constant + matrix @ about, self._first_rows())
+            matrix, constant = boost.of(matrix), boost.of(constant)
         cones: list[object] = []
         for plane, rows in self._cones:
             cones += (
                 [clarabel.SecondOrderConeT(_PLANE)] * (rows // _PLANE) if plane else [clarabel.NonnegativeConeT(rows)]
             )
         # clarabel: A v + s = b with s in the cones
-        quadratic = sparse.csc_matrix((self.columns, self.columns))
-        found = clarabel.DefaultSolver(quadratic, cost, -matrix, constant, cones, settings).solve()
+        quadratic = _by_columns(np.zeros((self.columns, self.columns)))
+        found = clarabel.DefaultSolver(quadratic, cost, _by_columns(-matrix), constant, cones, settings).solve()
         v, dual, status = np.array(found.x), np.array(found.z), clarabel.SolverStatus
-        if turned is not None:
-            dual = turned @ dual
+        if boost is not None:
+            dual = boost.of(dual)
         if found.status == status.MaxTime:
             return NoPoint(f"not solved within {time_limit_s:.3g} s")
         if found.status in (status.PrimalInfeasible, status.AlmostPrimalInfeasible):
@@ -175,6 +173,15 @@ class Assembly:
                 found.append(np.arange(start, start + rows, _PLANE))
             start += rows
         return np.concatenate(found)
+
+
+def _by_columns(matrix: Real) -> "sparse.csc_matrix":
+    """Entries of a dense matrix that are not 0, as the solver wants them."""
+    from scipy import sparse
+
+    column, row = np.nonzero(matrix.T)
+    start = np.concatenate([[0], np.cumsum(np.bincount(column, minlength=matrix.shape[1]))])
+    return sparse.csc_matrix((matrix[row, column], row, start), shape=matrix.shape)
 
 
 def vector_duals(dual: Real) -> Complex:

@@ -6,14 +6,11 @@ unit vector e the cone is p q >= y^2 for p = t + e.a, q = t - e.a and y across; 
 Source: Nesterov and Todd, Self-scaled barriers and interior-point methods for convex programming (1997), section 3.
 """
 
-from typing import TYPE_CHECKING
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Real
-
-if TYPE_CHECKING:
-    from scipy import sparse
 
 #: q is taken to be no smaller than this share of p: a boost beyond 100 costs more digits than it shows
 _NEAREST = 1e-4
@@ -41,20 +38,20 @@ def boosts(size: Real, vector: Real) -> Real:
     return found
 
 
-def boosted(rows: Real, cones: np.ndarray) -> "sparse.csr_matrix":
-    """What boosts all cones of some rows (m,) and leaves the others; symmetric.
+class Boost(NamedTuple):
+    """Boosts of all cones of some rows, which leave the other rows."""
 
-    Parameters
-    ----------
-    rows : (m,) of a point near an optimum.
-    cones : (n,) first row of each cone in the plane.
-    """
-    from scipy import sparse
+    place: np.ndarray  # (n, 3) rows of each cone
+    boosts: Real  # (n, 3, 3), symmetric
 
-    place = cones[:, None] + np.arange(3)
-    each = boosts(rows[cones], rows[place[:, 1:]])
-    plain = np.setdiff1d(np.arange(rows.size), place)
-    row = np.concatenate([np.repeat(place, 3, axis=-1).ravel(), plain])
-    column = np.concatenate([np.tile(place, 3).ravel(), plain])
-    value = np.concatenate([each.ravel(), np.ones(plain.size)])
-    return sparse.csr_matrix((value, (row, column)), shape=(rows.size, rows.size))
+    @staticmethod
+    def about(rows: Real, cones: np.ndarray) -> "Boost":
+        """From rows (m,) of a point near an optimum and the first row (n,) of each cone."""
+        place = cones[:, None] + np.arange(3)
+        return Boost(place, boosts(rows[cones], rows[place[:, 1:]]))
+
+    def of(self, rows: Real) -> Real:
+        """Rows (m,) or (m, k), boosted."""
+        found, shape = rows.copy(), (*self.place.shape, -1)
+        found[self.place] = (self.boosts @ rows[self.place].reshape(shape)).reshape(rows[self.place].shape)
+        return found
