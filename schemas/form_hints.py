@@ -26,6 +26,7 @@ def hinted(model: type, schema: Schema) -> None:
     if "properties" not in schema:
         return
     schema["title"] = model_title(model.__name__)
+    _condition(schema)
     heading = headings([one.__name__ for one in model.__mro__])
     given: Schema = schema["properties"]
     names = [name for name in heading if name in given] + [name for name in given if name not in heading]
@@ -39,6 +40,16 @@ def hinted(model: type, schema: Schema) -> None:
         }
         for place, name in enumerate(names)
     }
+
+
+def _condition(schema: Schema) -> None:
+    """Of fields that go together, the usual ones are required unless others are there: alternatives of a whole model
+    would be a choice in a form, and no type at all in languages.
+    """
+    usual, *others = schema.get("anyOf", [{}])
+    if others:
+        del schema["anyOf"]
+        schema |= {"if": {"not": {"anyOf": others}}, "then": usual}
 
 
 def _unit(node: Any) -> Schema:

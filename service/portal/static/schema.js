@@ -18,8 +18,7 @@ export class Schema {
   // all alternatives, however deep they are nested
   alternatives(node) {
     const found = this.deref(node);
-    // of an object they only say which of its fields go together
-    const options = found.properties ? undefined : found.anyOf ?? found.oneOf;
+    const options = found.anyOf ?? found.oneOf;
     if (options) return options.flatMap((option) => this.alternatives(option));
     // plain values of several types are one schema with a list of types
     return [found.type].flat().map((type) => ({ ...found, type }));
@@ -64,8 +63,8 @@ export class Schema {
   }
 
   object(node) {
-    // of fields that go together the first ones are those that are usual
-    return { properties: node.properties, required: new Set([...(node.required ?? []), ...(node.anyOf?.[0].required ?? [])]) };
+    // of fields that go together those that are usual
+    return { properties: node.properties, required: new Set([...(node.required ?? []), ...(node.then?.required ?? [])]) };
   }
 
   union(objects) {

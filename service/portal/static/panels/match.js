@@ -88,7 +88,7 @@ function shown(machine, found, lines) {
 function certified({ status, status_reason: reason, certificate: { relative_gap: gap, method } }) {
   if (gap === null) return `Nothing is proven of this assignment. ${reason}`;
   const how = method === "exhaustion" ? "every assignment was counted" : "sorting the masses bounds every assignment";
-  const best = gap > 0 ? `no other assignment is better by more than ${share(gap)}` : "no other assignment is better";
+  const best = gap > 0 ? `within ${share(gap)} of the best assignment` : "no other assignment is better";
   return `${status === "optimal" ? "Certified" : "Proven only so far"}: ${best} (${how}).`;
 }
 

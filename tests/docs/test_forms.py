@@ -1,0 +1,15 @@
+"""What docs/api.md says of forms is what the schema says."""
+
+from typing import Any
+
+from schemas.requests import OptimizeRequest
+from tests.docs.reading import agrees, blocks, section
+
+
+def test_the_fields_shown_are_those_of_the_schema() -> None:
+    definitions: dict[str, Any] = OptimizeRequest.model_json_schema()["$defs"]
+    (shown,) = blocks(section("docs/api.md", "Forms from the schema"))
+    models = {"crank_radius_m": "Throw", "diameter_m": "Bearing", "hole_angles_deg": "Web", "sector": "Web"}
+    agrees(shown, {name: definitions[model]["properties"][name] for name, model in models.items()})
+    assert set(shown) == set(models)
+    assert definitions["Web"]["then"] == {"required": ["counterweight_radius_m", "max_mass_kg"]}
