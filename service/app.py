@@ -25,6 +25,7 @@ from service.guard.users import Users
 from service.http import errors
 from service.http.computing import Computing
 from service.http.cors import Cors
+from service.http.direct import Direct
 from service.http.openapi import Documented
 from service.http.pacing import Pacing
 from service.http.rounds import Rounds
@@ -158,6 +159,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
                 Shares(chosen),
                 errors.answered,
             ),
+            Middleware(Direct, computations.endpoints()),
         ),
         title="counterweight",
         version=package_version(),

@@ -6,14 +6,17 @@ from collections.abc import Callable
 from contextlib import suppress
 from functools import cache
 from typing import Any
+from urllib.parse import unquote
 
 import h11
+from uvicorn.protocols.http.flow_control import HIGH_WATER_LIMIT
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.guard.addresses import client_network
 from service.guard.refusals import TooManyConnections
 from service.http.errors import PROBLEM_JSON, Fault, fault, problem
 from service.http.joined import Joined
+from service.http.plain_requests import Head, PlainCycle, plain_head
 from service.http.rounds import Rounds
 from service.settings import Settings
 
@@ -48,6 +51,10 @@ class Connection(H11Protocol):
         self._write_timer: asyncio.TimerHandle | None = None
         self._unread = 0
         self._waits = False
+        # while a plain request is read and answered: what of its body is to come, and what came after it
+        self._plain = False
+        self._missing = 0
+        self._next = b""
         #: called when it has ended
         self.left: Callable[[], None] = _nothing
 
@@ -92,8 +99,88 @@ class Connection(H11Protocol):
             # lost, or refused, while it waited
             return
         self.transport.go_on()  # type: ignore[attr-defined]
-        super().data_received(data)
+        self._read(data)
+
+    def _read(self, data: bytes) -> None:
+        if self._plain:
+            self._read_on(data)
+        elif (found := self._plain_head(data)) is not None:
+            head, end = found
+            self._begin(head)
+            self._read_on(data[end:])
+        else:
+            super().data_received(data)
         self._watch_headers()
+
+    def _plain_head(self, data: bytes) -> tuple[Head, int] | None:
+        # h11 goes on with what it has begun to read
+        between = self.conn.our_state is h11.IDLE and self.conn.their_state is h11.IDLE
+        return plain_head(data) if between and not self.conn.trailing_data[0] else None
+
+    def _begin(self, head: Head) -> None:
+        # it may have come together with the one before it
+        self._unset_keepalive_if_required()
+        path, _, query = head.target.partition(b"?")
+        self.headers = head.headers
+        self.scope = {
+            "type": "http",
+            "asgi": {"version": self.asgi_version, "spec_version": "2.3"},
+            "http_version": "1.1",
+            "server": self.server,
+            "client": self.client,
+            "scheme": self.scheme,  # type: ignore[typeddict-item]
+            "method": head.method,
+            "root_path": self.root_path,
+            "path": self.root_path + unquote(path.decode("ascii")),
+            "raw_path": self.root_path.encode("ascii") + path,
+            "query_string": query,
+            "headers": head.headers,
+            "state": self.app_state.copy(),
+        }
+        self.cycle = PlainCycle(
+            scope=self.scope,
+            conn=self.conn,
+            transport=self.transport,
+            flow=self.flow,
+            logger=self.logger,
+            access_logger=self.access_logger,
+            access_log=self.access_log,
+            default_headers=self.server_state.default_headers,
+            message_event=asyncio.Event(),
+            on_response=self.on_response_complete,
+        )
+        self.cycle.keep_alive = head.keep_alive
+        self._plain, self._missing = True, head.length
+        if not head.length:
+            self.cycle.more_body = False
+            self.cycle.message_event.set()
+        task = self.loop.create_task(self.cycle.run_asgi(self.app))
+        task.add_done_callback(self.tasks.discard)
+        self.tasks.add(task)
+
+    def _read_on(self, data: bytes) -> None:
+        """More of a plain request, and what its client asks for after it, which waits."""
+        body = data[: self._missing]
+        self._next += data[self._missing :]
+        self._missing -= len(body)
+        if self.cycle.response_complete:
+            # answered early; its client may read the answer only when all is sent
+            if not self._missing:
+                self._end()
+            return
+        if body:
+            self.cycle.body += body
+            self.cycle.more_body = self._missing > 0
+            self.cycle.message_event.set()
+        if self._next or len(self.cycle.body) > HIGH_WATER_LIMIT:
+            self.flow.pause_reading()
+
+    def _end(self) -> None:
+        self._plain = False
+        asked, self._next = self._next, b""
+        if asked and not self.transport.is_closing():
+            # before what has come since, which may wait to be looked at
+            self._read(asked)
 
     def _watch_headers(self) -> None:
         if not self._owes_headers() or self.transport.is_closing():
@@ -104,8 +191,13 @@ class Connection(H11Protocol):
 
     def _owes_headers(self) -> bool:
         # a body that was answered early is read to its end, as its client may read the answer only then
-        answered = self.conn.our_state in (h11.DONE, h11.MUST_CLOSE) and self.conn.their_state is h11.SEND_BODY
-        return self.conn.their_state is h11.IDLE or answered
+        return self._answered_early or (not self._plain and self.conn.their_state is h11.IDLE)
+
+    @property
+    def _answered_early(self) -> bool:
+        if self._plain:
+            return self.cycle.response_complete and self._missing > 0
+        return self.conn.our_state in (h11.DONE, h11.MUST_CLOSE) and self.conn.their_state is h11.SEND_BODY
 
     def _headers_late(self) -> None:
         self._headers_timer = None
@@ -115,7 +207,7 @@ class Connection(H11Protocol):
             return
         if self.transport.is_closing() or not self._owes_headers():
             return
-        if self.conn.their_state is h11.SEND_BODY:
+        if self._answered_early:
             self.transport.close()
         else:
             self._refuse(Fault(408, "Headers too slow", f"No whole header came within {self.headers_timeout_s:g} s."))
@@ -134,12 +226,14 @@ class Connection(H11Protocol):
         if self._waits:
             # it is not idle: what comes next has come
             self._unset_keepalive_if_required()
-        if self.conn.their_state is h11.SEND_BODY:
+        if self._answered_early:
             self._watch_headers()
         self.transport.flush()  # type: ignore[attr-defined]
         # what is left is too little to pause for, and still must not stay for ever
         if self.transport.get_write_buffer_size():
             self._watch_writing()
+        if self._plain and not self._missing:
+            self._end()
 
     def _watch_writing(self) -> None:
         if self._write_timer is None:

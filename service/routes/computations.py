@@ -1,30 +1,26 @@
 """The computing routes, one for each entry of the table of computations."""
 
-from collections.abc import Callable, Coroutine
 from typing import Any
 
 from fastapi import APIRouter
-from fastapi.routing import APIRoute
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response
 
 from service.computations import COMPUTATIONS, Computation
 from service.guard.access import require
 from service.http.computing import computing_of
+from service.http.direct import Endpoint
 from service.http.openapi import BINARY, COMPUTE_PROBLEMS, problems, request_body
 
 
-class BytesRoute(APIRoute):
-    """Bytes in, bytes out: there is nothing in path, query and body that the framework should look for and convert."""
-
-    def get_route_handler(self) -> Callable[[Request], Coroutine[Any, Any, Response]]:
-        found: Callable[[Request], Coroutine[Any, Any, Response]] = self.endpoint
-        return found
+def endpoints() -> dict[str, Endpoint]:
+    """What answers all computations, by path."""
+    return {one.path: _endpoint(one) for one in COMPUTATIONS.values()}
 
 
 def router() -> APIRouter:
-    """The routes of all computations."""
-    made = APIRouter(route_class=BytesRoute)
+    """The routes of all computations, as they are documented; requests come to them by :mod:`service.http.direct`."""
+    made = APIRouter()
     for one in COMPUTATIONS.values():
         made.add_api_route(
             one.path,
@@ -42,7 +38,7 @@ def router() -> APIRouter:
     return made
 
 
-def _endpoint(one: Computation) -> Callable[[Request], Coroutine[Any, Any, Response]]:
+def _endpoint(one: Computation) -> Endpoint:
     async def endpoint(request: Request) -> Response:
         require(request, one.scope)
         return await computing_of(request).answer(request, one)
