@@ -23,8 +23,8 @@ _PARTS, _FINER = 4, 16
 _ENOUGH = 0.125
 #: signs of so many rows are tried one by one
 _FEW = 3
-#: after so many cuts the bracket is told as it is, and where so many numbers would have to be held
-_MOST_CUTS, _MOST_NUMBERS = 60, 2_000_000
+#: after so many cuts the bracket is told as it is, and after so many coefficients of rows were looked at
+_MOST_CUTS, _MOST_NUMBERS = 60, 4_000_000
 
 
 class Parts(Protocol):
@@ -85,13 +85,11 @@ def worst_peaks(pieces: Pieces, parts: Parts, share: float, offset: Complex, cur
     def allowed() -> Real:
         return np.maximum(tolerance * np.maximum(best.lower, 0.0), ROUNDING * scale)
 
-    def still_open(cells: Cells, last: bool = False) -> tuple[Cells, Seen]:
+    def still_open(cells: Cells) -> tuple[Cells, Seen]:
         """Those that may hold a peak above the best found, theirs included; the others are told in the bracket."""
         seen = look(cells)
         _keep(best, cells, seen)
         open_ = seen.most > (best.lower + allowed())[cells.member]
-        if last or cells.parts[open_].size > _MOST_NUMBERS:
-            open_[:] = False
         np.maximum.at(best.upper, cells.member[~open_], seen.most[~open_])
         kept = cells.chosen(open_)._replace(towards=seen.towards[open_], width=seen.width[open_])
         return kept, Seen._make(each[open_] for each in seen)
@@ -113,6 +111,7 @@ def worst_peaks(pieces: Pieces, parts: Parts, share: float, offset: Complex, cur
         )
 
     cells, seen = still_open(expanded(_first(pieces, parts, share, offset, curve, tolerance, best)))
+    spent = 0
     for cuts in range(1, _MOST_CUTS):
         if not cells.member.size:
             break
@@ -121,11 +120,17 @@ def worst_peaks(pieces: Pieces, parts: Parts, share: float, offset: Complex, cur
         few = ~coarse & (count > 0) & (count <= _FEW)
         turn = ~coarse & ~few & seen.by_direction
         cut = ~(coarse | few | turn)
+        # what these make
+        made = _FINER * np.sum(coarse) + np.sum(2 ** count[few]) + 2 * np.sum(turn) + _PARTS * np.sum(cut)
+        spent += int(made) * cells.parts[0].size
+        if spent > _MOST_NUMBERS or cuts == _MOST_CUTS - 1:
+            np.maximum.at(best.upper, cells.member, seen.most)
+            break
         finer, _ = still_open(cells.chosen(coarse).cut(_FINER))
         known = Seen._make(each[few] for each in seen)
         again = [expanded(finer), cells.chosen(few).decided(known), cells.chosen(turn).turned()]
         again.append(cells.chosen(cut).cut(_PARTS))
-        cells, seen = still_open(Cells._make(map(np.concatenate, zip(*again, strict=True))), cuts == _MOST_CUTS - 1)
+        cells, seen = still_open(Cells._make(map(np.concatenate, zip(*again, strict=True))))
     signs = best.signs
     own = parts.values(curve, best.piece, best.angle)
     value = pieces.source.values(curve, best.piece, best.angle) + share * np.sum(signs * own, axis=-1)
