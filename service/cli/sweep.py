@@ -30,7 +30,7 @@ _PATIENCE_S = 30.0
 def sweep(
     file: File,
     output: Annotated[
-        Path | None, typer.Option("--output", "-o", help="Result: .parquet, .arrow, .csv or .ndjson.")
+        Path | None, typer.Option("--output", "-o", help="Result: .parquet, .arrow, .csv, .ndjson or .xlsx.")
     ] = None,
     dry_run: Annotated[bool, typer.Option("--dry-run", help="Count the designs, run nothing.")] = False,
     workers: Annotated[int | None, typer.Option(min=1, help="Processes.", show_default="one a core")] = None,
@@ -53,6 +53,7 @@ def sweep(
     if output is None:
         fail("say where the rows shall go: --output results.parquet")
     _require_writable(output)
+    _require_fits(output, asked)
     place = folder or output.with_name(output.name + ".sweep")
     desk = _desk(place, workers, engine)
     try:
@@ -96,6 +97,18 @@ def _require_writable(output: Path) -> None:
         fail(f"{output}: the name must end in {', '.join(WRITERS)}")
     if not output.parent.is_dir():
         fail(f"{output}: there is no folder {output.parent}")
+
+
+def _require_fits(output: Path, asked: "SweepRequest") -> None:
+    """Before anything is computed; of a front nobody knows yet how many stay."""
+    from service.jobs.worksheet import TooLargeForWorksheet, require_fits
+
+    if output.suffix == ".xlsx" and asked.pareto is None:
+        rows = asked.total if asked.top is None else min(asked.total, asked.top.count)
+        try:
+            require_fits(rows, len(asked.chosen_columns))
+        except TooLargeForWorksheet as error:
+            fail(f"{output}: {error}")
 
 
 def _desk(place: Path, workers: int | None, engine: str | None) -> "Desk":
@@ -170,6 +183,7 @@ def _finish(desk: "OwnerJobs", job: "Job", asked: "SweepRequest", output: Path, 
     from service.jobs.export import export
     from service.jobs.files import FilesUnavailable
     from service.jobs.owner_jobs import NotFinished, RowsDamaged
+    from service.jobs.worksheet import TooLargeForWorksheet
 
     schema = desk.schema(job)
     try:
@@ -179,7 +193,7 @@ def _finish(desk: "OwnerJobs", job: "Job", asked: "SweepRequest", output: Path, 
         _not_written(f"cannot write {output}: {error.strerror}; the same command tries again")
     except (RowsDamaged, FilesUnavailable) as error:
         _not_written(f"cannot write {output}: {error} The same command goes on.")
-    except NotFinished as error:
+    except (NotFinished, TooLargeForWorksheet) as error:
         _not_written(f"cannot write {output}: {error}")
     if as_json:
         put(desk.state(job).model_dump_json())

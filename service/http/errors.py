@@ -29,6 +29,7 @@ from service.jobs.results import UnknownColumn
 from service.jobs.rows import UnknownJob
 from service.jobs.schema import WrongSchema
 from service.jobs.store import KeyReused, QuotaExceeded, TooManyJobs
+from service.jobs.worksheet import TooLargeForWorksheet
 from service.validation import MAX_ERRORS, InvalidRequest, UnreadableBody, UnreadableJson, pointer
 from service.watch.readiness import NotReady
 from service.workers.pool import Busy, TooSlow, WorkerDied
@@ -146,6 +147,7 @@ FAULTS: Mapping[type[Exception], Callable[[Any], Fault]] = {
     NotFinished: _not_finished,
     BadHeader: _fixed(422, "Invalid header"),
     UnknownColumn: _fixed(422, "Unknown column"),
+    TooLargeForWorksheet: _fixed(422, "Too large for a worksheet"),
     TooManyJobs: _later(429, "Too many jobs", 30),
     QuotaExceeded: _fixed(409, "Quota exceeded"),
     DatabaseUnavailable: _database,

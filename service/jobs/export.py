@@ -16,6 +16,7 @@ WRITERS: Mapping[str, Format] = {
     ".arrow": ARROW_FILE,
     ".csv": FORMATS["csv"],
     ".ndjson": FORMATS["ndjson"],
+    ".xlsx": FORMATS["xlsx"],
 }
 
 
@@ -26,6 +27,8 @@ def export(path: Path, schema: pa.Schema, batches: Iterable[pa.RecordBatch]) -> 
     ------
     OSError
         if it cannot be written; then nothing has changed.
+    TooLargeForWorksheet
+        if it is to be a workbook, and the rows are too many; likewise.
     """
     writer = WRITERS[path.suffix]
     if not writer.describes_itself:

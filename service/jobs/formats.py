@@ -1,6 +1,5 @@
-"""Rows as bytes: Parquet, Arrow, CSV and NDJSON, a batch at a time, in full double precision."""
+"""Rows as bytes: Parquet, Arrow, CSV, NDJSON and workbooks, a batch at a time, in full double precision."""
 
-import io
 import json
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -11,9 +10,12 @@ import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
+from service.computations import XLSX
+from service.jobs.outbox import Outbox
+from service.jobs.worksheet import worksheet
 from service.plain import FORMULA
 
-Name = Literal["ndjson", "csv", "parquet", "arrow"]
+Name = Literal["ndjson", "csv", "parquet", "arrow", "xlsx"]
 Batches = Iterable[pa.RecordBatch]
 
 #: of rows that are written together, before they are compressed
@@ -30,33 +32,8 @@ class Format:
     describes_itself: bool
 
 
-class _Outbox(io.RawIOBase):
-    """A file that is taken away while it is written."""
-
-    def __init__(self) -> None:
-        self._pieces: list[bytes] = []
-        self._position = 0
-
-    def writable(self) -> bool:
-        return True
-
-    def tell(self) -> int:
-        return self._position
-
-    def write(self, data: object) -> int:
-        piece = bytes(data)  # type: ignore[call-overload]
-        self._pieces.append(piece)
-        self._position += len(piece)
-        return len(piece)
-
-    def take(self) -> bytes:
-        taken = b"".join(self._pieces)
-        self._pieces.clear()
-        return taken
-
-
 def _parquet(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
-    out = _Outbox()
+    out = Outbox()
     with pq.ParquetWriter(out, schema, compression="zstd") as writer:
         for group in _groups(batches):
             writer.write_table(pa.Table.from_batches(group, schema))
@@ -85,7 +62,7 @@ def _arrow_file(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
 
 
 def _arrow(new: Callable[..., Any], schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
-    out = _Outbox()
+    out = Outbox()
     with new(out, schema) as writer:
         for batch in batches:
             writer.write_batch(batch)
@@ -94,7 +71,7 @@ def _arrow(new: Callable[..., Any], schema: pa.Schema, batches: Batches) -> Iter
 
 
 def _csv(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
-    out = _Outbox()
+    out = Outbox()
     names = [_harmless(pa.array([name]))[0].as_py() for name in schema.names]
     plain = pa.schema([pa.field(name, _plain(field.type)) for name, field in zip(names, schema, strict=True)])
     with pa_csv.CSVWriter(out, plain) as writer:
@@ -147,6 +124,7 @@ FORMATS: Mapping[Name, Format] = {
     "csv": Format("text/csv; charset=utf-8; header=present", _csv, describes_itself=False),
     "parquet": Format("application/vnd.apache.parquet", _parquet, describes_itself=True),
     "arrow": Format("application/vnd.apache.arrow.stream", _arrow_stream, describes_itself=True),
+    "xlsx": Format(XLSX, worksheet, describes_itself=False),
 }
 
 #: Arrow with its index at the end, as programs expect of a file

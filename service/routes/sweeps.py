@@ -26,6 +26,7 @@ from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs, Rows
 from service.jobs.page import SweepPage
 from service.jobs.results import chosen, description
+from service.jobs.worksheet import require_fits
 
 router = APIRouter(tags=["sweeps"])
 
@@ -200,6 +201,8 @@ def read_results(
     schema = chosen(desk.schema(job), columns or ())
     last = None if limit is None else offset + limit
     rows = (desk.kept if select == "kept" and job.selects else desk.rows)(job, schema, offset, last)
+    if name == "xlsx":
+        require_fits(max(0, (rows.count if last is None else min(last, rows.count)) - offset), len(schema))
     more = last if last is not None and last < rows.count else None
     return _stream(request, job, name, rows, FORMATS[name].encode(schema, rows.batches), more)
 

@@ -87,7 +87,7 @@ def test_no_rows(name: str) -> None:
     assert (content == b"") == (name == "ndjson")
 
 
-@pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow"])
+@pytest.mark.parametrize("name", ["ndjson", "csv", "parquet", "arrow", "xlsx"])
 def test_memory_stays_flat(name: str) -> None:
     def batches(count: int) -> Iterator[pa.RecordBatch]:
         for k in range(count):

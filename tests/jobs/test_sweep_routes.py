@@ -11,11 +11,14 @@ import anyio.to_thread
 import pyarrow as pa
 import pyarrow.parquet as pq
 import pytest
+from openpyxl import load_workbook
 from starlette.testclient import TestClient
 
 from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.app import create_app
+from service.computations import XLSX
+from service.jobs import worksheet
 from service.settings import Settings
 from tests.jobs.sweeps import MACHINE, MASS, analyses, optimisations
 
@@ -112,6 +115,19 @@ def test_pages_and_columns(client: TestClient, sweep: str) -> None:
     ):
         answer = client.get(f"{sweep}/results?{wrong}")
         assert (answer.status_code, answer.headers["content-type"]) == (422, "application/problem+json")
+
+
+def test_a_workbook_within_the_limits_of_a_worksheet(
+    client: TestClient, sweep: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    got = client.get(f"{sweep}/results", headers={"Accept": XLSX})
+    assert got.headers["content-type"] == XLSX
+    sheet = load_workbook(io.BytesIO(got.content))["rows"]
+    assert (sheet.max_row, sheet.cell(1, 1).value) == (401, "index")
+    monkeypatch.setattr(worksheet, "MOST_ROWS", 100)
+    refused = client.get(f"{sweep}/results?format=xlsx")
+    assert (refused.status_code, refused.json()["title"]) == (422, "Too large for a worksheet")
+    assert client.get(f"{sweep}/results?format=xlsx&offset=300").status_code == 200
 
 
 def test_invalid_designs_are_rows(client: TestClient, sweep: str) -> None:

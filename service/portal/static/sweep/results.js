@@ -8,7 +8,7 @@ import { key } from "../key.js";
 import { colours, plot } from "../plots.js";
 
 const MOST_ROWS = 20_000;
-const FORMATS = ["csv", "ndjson", "parquet", "arrow"];
+const FORMATS = ["csv", "xlsx", "ndjson", "parquet", "arrow"];
 const RANKED = ["force_peak_N", "moment_peak_Nm", "total_mass_kg", "relative_gap"];
 const WORDS = { force_peak_N: "peak force, N", moment_peak_Nm: "peak moment, N m", total_mass_kg: "total mass, kg", relative_gap: "relative gap" };
 
