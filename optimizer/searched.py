@@ -16,6 +16,7 @@ _ALL = (
     "Every set of counterweights that can be chosen was compared: none within the limits has a smaller objective, and"
     " of those with the same one none is lighter."
 )
+_LIGHTEST = "Every set of counterweights that can be chosen was compared: none that keeps the ceilings is lighter."
 _TREE = "The gap to the proven lower bound of all sets that can be chosen is within the asked one."
 _TIME = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
 _SIZE = "The search ended because its tree had grown too large: the gap to the proven lower bound is what was reached."
@@ -55,6 +56,17 @@ class Found(Protocol):
     def ended(self) -> str | None:
         """ "time" or "size" where that ended it before the asked gap."""
         ...
+
+
+def ended(found: Found | None) -> str:
+    """What is said of the lightest set that keeps the ceilings; None: none of any masses does."""
+    if found is None:
+        return _NONE.format(proof="none of any masses does")
+    if not found.kept:
+        return _NONE.format(proof=_BY[found.method == EXHAUSTED]) if found.lower_bound == np.inf else _NONE_FOUND
+    if found.ended is not None:
+        return _TIME if found.ended == "time" else _SIZE
+    return _LIGHTEST if found.proven else _TREE
 
 
 def continuous(request: OptimizeRequest) -> OptimizeRequest:

@@ -90,6 +90,11 @@ def _masses(web: Web, catalogue: Catalogue, most: float) -> Iterator[float]:
             yield min(n * catalogue.mass_step_kg, most)
 
 
+def part_numbers(mass_kg: Real) -> int:
+    """How many different masses (K,) there are, those of nothing left out."""
+    return int(np.max(_parts(mass_kg), initial=-1)) + 1
+
+
 def _parts(mass: Real) -> np.ndarray:
     """Part numbers (K, O) of masses: the place of each among all that differ, -1 of none."""
     order = np.argsort(mass, axis=None, kind="stable")

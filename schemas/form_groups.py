@@ -92,7 +92,7 @@ GROUPS: dict[str, Groups] = {
     "AccuracyRequest": {"Machine": ("machine",), "Timing": ("repeats",)},
     "ReportRequest": {"Document": ("document", "versions")},
     "ParetoRequest": {"Machine": ("machine",), "Fronts": (
-        "points", "total_mass_budgets_kg", "responses", "multipliers",
+        "points", "total_mass_budgets_kg", "responses", "counts", "multipliers",
     )},
     "SweepRequest": {
         "What is computed": ("task", "base"),

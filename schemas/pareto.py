@@ -9,6 +9,7 @@ from schemas.answers import EffectUse, Timing
 from schemas.base import Answer, Model, NotEmpty
 from schemas.catalogue import no_catalogue
 from schemas.counterweights import Counterweight
+from schemas.counts import CountFront, CountTrade
 from schemas.first_order import FirstOrder, Floor
 from schemas.infeasibility import Infeasibility
 from schemas.limits import MachineLimit
@@ -56,6 +57,13 @@ class ParetoRequest(OptimizeRequest):
         examples=[["bearings", "mass"]],
     )
 
+    counts: CountTrade | None = Field(
+        None,
+        description="the number of counterweights, or of part numbers, against the least objective or mass that so few"
+        " come to, in `counts` of the answer; for counterweights that are chosen from a catalogue",
+        examples=[{"of": "weights", "least": "objective"}],
+    )
+
     multipliers: Flag = Field(
         False, description="the multipliers of every point's certificate, and of the ends'", examples=[False]
     )
@@ -66,7 +74,10 @@ class ParetoRequest(OptimizeRequest):
         yield from self.envelope_rules("a front is of counterweights of a known radius")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
-        yield from no_catalogue(self.machine, ("machine",), "a front")
+        if self.counts is None:
+            yield from no_catalogue(self.machine, ("machine",), "a front but for one of counts")
+        else:
+            yield from self._count_rules(self.counts)
         budgets = self.total_mass_budgets_kg or ()
         fixed = sum((web.fixed.mass_kg for web in self.machine.webs if web.fixed is not None), 0.0)
         for index, budget in enumerate(budgets):
@@ -79,6 +90,16 @@ class ParetoRequest(OptimizeRequest):
         yield from first_of(
             [Rule(together > MAX_POINTS_TOGETHER, ("points",), points), Rule(places > MAX_PLACES, ("points",), work)]
         )
+
+    def _count_rules(self, counts: CountTrade) -> Iterator[Rule]:
+        message = "counterweights that are counted are chosen from a catalogue: give masses and angles that there are"
+        yield Rule(not self.machine.discrete, ("counts",), message)
+        yield Rule(self.responses is not None, ("responses",), "give either responses or counts")
+        yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
+        ceilings = [name for name in type(self.objective).model_fields if "_ceiling_" in name]
+        limited = any(getattr(self.objective, name) is not None for name in ceilings)
+        message = "the least mass of all is none: give ceilings that are to be kept"
+        yield Rule(counts.least == "mass" and not limited, ("counts", "least"), message)
 
     def _trade_rules(self) -> Iterator[Rule]:
         if self.responses is None:
@@ -268,6 +289,9 @@ class ParetoAnswer(Answer):
     )
     trades: tuple[TradedFront, ...] = Field(
         (), description="the same of the responses that are named; none without", examples=[[]]
+    )
+    counts: tuple[CountFront, ...] = Field(
+        (), description="the same of the number of counterweights or of part numbers; none without", examples=[[]]
     )
     without_counterweights: FirstOrder = Field(
         description="first order without counterweights", examples=[{"force": {"peak_N": 10006.1}}]

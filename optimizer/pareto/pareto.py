@@ -15,6 +15,7 @@ from optimizer.fixed import beside, fixed_masses
 from optimizer.optimize import finite_or_null, optimize
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
+from optimizer.pareto.counts import count_front
 from optimizer.pareto.front import Front, Point, front
 from optimizer.pareto.trade import Trade, trade
 from optimizer.pareto.trades import needed, traded_front
@@ -56,18 +57,22 @@ def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
     solving = time.perf_counter()
     machines = _machines(request)
-    made = [_front(request, machine, scene, solver) for machine in machines if request.responses is None]
+    plain = request.responses is None and request.counts is None
+    made = [_front(request, machine, scene, solver) for machine in machines if plain]
     fronts = tuple(one.front for one in made)
     solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
     trading = time.perf_counter()
     trades = tuple(traded_front(request, machine, scene) for machine in machines if request.responses is not None)
+    counts = tuple(count_front(request, machine, scene, solver) for machine in machines if request.counts is not None)
     end = time.perf_counter()
     solved += end - trading
+    worst = [*(one.status for one in fronts), *(one.status for one in trades), *(one.status for one in counts)]
     before = scene.first_order()
     return ParetoAnswer(
-        status=max((*(one.status for one in fronts), *(one.status for one in trades)), key=_WORST.index),
+        status=max(worst, key=_WORST.index),
         fronts=fronts,
         trades=trades,
+        counts=counts,
         without_counterweights=first_order(before),
         floor=floor(scene.layout, before),
         reference_plane_m=float(scene.layout.reference_plane),

@@ -7,6 +7,7 @@ from schemas.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest
 from schemas.trade import TradedFront, TradedPoint
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, table
 from service.report.chapters.balance import limits
+from service.report.chapters.counts import counted
 from service.report.chapters.verdict import reachable
 
 _REASONS: dict[Reason, str] = {
@@ -27,6 +28,10 @@ def traded(request: ParetoRequest, answer: ParetoAnswer) -> Iterator[Chapter]:
         budget = trade.max_total_mass_kg
         limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
         yield Chapter(f"Trade-off, {limit}: {trade.status}", tuple(_trade(request.objective, trade)))
+    for count in answer.counts:
+        budget = count.max_total_mass_kg
+        limit = "no limit of the total mass" if budget is None else f"total mass up to {digits(budget)} kg"
+        yield Chapter(f"Numbers, {limit}: {count.status}", (counted(count),))
 
 
 def _bounds(answer: ParetoAnswer) -> Table:

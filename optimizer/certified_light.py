@@ -1,0 +1,80 @@
+"""Of the sets that can be chosen and keep the ceilings the lightest, with a certified gap."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.discrete.search import search
+from optimizer.formulate import formulate
+from optimizer.program.norms import Norms
+from optimizer.program.optima import optima
+from optimizer.program.reach import within_reach
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Names, Statement, Term
+from optimizer.response import Response
+from optimizer.searched import ended
+from optimizer.stock import stock
+from schemas.requests import OptimizeRequest
+
+#: gap of the least mass of any masses at any angles, which the search begins with
+_SHARP = 1e-6
+
+
+@dataclass(frozen=True)
+class Lightest:
+    """The lightest set that was found, and what is proven; of those that keep the ceilings."""
+
+    mass_kg: Real  # (K,), those that are chosen
+    angle_deg: Real  # (K,)
+    lower_bound: float  # kg, inf where it is proven that none keeps the ceilings
+    status: str
+    reason: str
+    nodes: int
+    method: str
+
+
+def certified_light(
+    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+) -> Lightest:
+    """The lightest set that can be chosen and keeps the ceilings.
+
+    Parameters
+    ----------
+    omega_squared : (1,) rad^2/s^2.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told.
+    """
+    held, gap = stock(request.machine), request.accuracy.relative_gap
+    program = within_reach(formulate(request.machine, request.objective, responses, omega_squared), solver)
+    weighed = _weighed(program.chosen(0))
+    best = optima(weighed.alone(), _SHARP, False, solver)
+    if best.unreachable[0]:
+        nothing = np.zeros(weighed.limits.radius.shape)
+        return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, str(best.method[0]))
+    least = float(best.lower_bound[0])
+    size = max(float(best.objective[0]), least)
+    found = search(weighed, held.options, best.unbalance[0], least, gap, size, request.accuracy.time_limit_s)
+    mass, angle = held.fitted(found.chosen)
+    bound = max(least, found.lower_bound)
+    status = "optimal" if found.kept and float(np.sum(mass)) - bound <= gap * float(np.sum(mass)) else "inaccurate"
+    if not found.kept and bound == np.inf:
+        status = "infeasible"
+    return Lightest(mass, angle, bound, status, ended(found), found.nodes, found.method)
+
+
+def _weighed(program: Statement) -> Statement:
+    """The program that makes the total mass small under the same ceilings and limits: a term for each web, kg."""
+    webs = program.limits.radius.size
+    return replace(
+        program,
+        norms=Norms(np.zeros(webs, complex), np.diag(1.0 / program.limits.radius)),
+        row=np.zeros(webs, int),
+        group=np.zeros(1, int),
+        floor=np.zeros(1),
+        names=Names((Term("mass", "co"),) * webs, ("mass",)),
+    )

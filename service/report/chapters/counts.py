@@ -1,0 +1,30 @@
+"""What one counterweight, or one part number, more is worth."""
+
+from schemas.counts import CountFront, CountPoint
+from service.report.blocks import Block, Cell, Number, table
+
+_COUNTED = {"weights": "counterweights", "part_numbers": "part numbers"}
+_VALUE = {"objective": "#objective", "mass": "#least mass, kg"}
+
+
+def counted(front: CountFront) -> Block:
+    """A row for every number."""
+    heads = [f"#at most, {_COUNTED[front.of]}", _VALUE[front.least], "#proven at least", "#relative gap"]
+    heads += ["#peak force, N", "#peak moment, N m", "#mass, kg", "#counterweights", "#part numbers", ""]
+    return table("", heads, [_row(point) for point in front.points])
+
+
+def _row(point: CountPoint) -> tuple[Cell | float | None, ...]:
+    gap = point.relative_gap
+    fitted = (point.weights, point.part_numbers)
+    return (
+        Number(point.at_most, str(point.at_most)),
+        point.value,
+        point.lower_bound,
+        None if gap is None else Number(gap, f"{gap:.1e}"),
+        point.force_peak_N,
+        point.moment_peak_Nm,
+        point.total_mass_kg,
+        *(None if each is None else Number(each, str(each)) for each in fitted),
+        "" if point.status == "optimal" else point.status,
+    )
