@@ -1,9 +1,6 @@
 """Where the time of a sweep goes, and how far the program is from what the core could do."""
 
 import time
-from collections.abc import Callable, Iterator
-from contextlib import ExitStack, contextmanager
-from importlib import import_module
 from typing import Any
 from unittest.mock import patch
 
@@ -15,6 +12,7 @@ from optimizer.program.kernel import interior_point
 from schemas.sweep import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks.operations import operations_per_program
+from tests.benchmarks.stopwatch import Stopwatch
 
 _STAGES = "program, both stages"
 #: part of the work -> functions that do it; what they call belongs to the innermost part
@@ -42,49 +40,11 @@ PARTS: dict[str, tuple[str, ...]] = {
 }
 
 
-class Stopwatch:
-    """Seconds by part; a part does not count what it calls of another."""
-
-    def __init__(self) -> None:
-        self.seconds: dict[str, float] = {}
-        self._running: list[str] = []
-        self._since = 0.0
-
-    @contextmanager
-    def part(self, name: str) -> Iterator[None]:
-        self._book()
-        self._running.append(name)
-        try:
-            yield
-        finally:
-            self._book()
-            self._running.pop()
-
-    def _book(self) -> None:
-        now = time.perf_counter()
-        if self._running:
-            self.seconds[self._running[-1]] = self.seconds.get(self._running[-1], 0.0) + now - self._since
-        self._since = now
-
-    def watched(self, name: str, function: Callable[..., Any]) -> Callable[..., Any]:
-        def timed(*arguments: Any, **options: Any) -> Any:
-            with self.part(name):
-                return function(*arguments, **options)
-
-        return timed
-
-
 def where_the_time_goes(request: SweepRequest) -> dict[str, float]:
     """Seconds by part of one worker's work, the bytes of the request to the bytes of the file."""
     body, watch = request.model_dump_json().encode(), Stopwatch()
-    with ExitStack() as patched:
-        for name, functions in PARTS.items():
-            for place in functions:
-                module, function = place.split(":")
-                known = getattr(import_module(module), function)
-                patched.enter_context(patch(f"{module}.{function}", watch.watched(name, known)))
-        with watch.part("everything else"):
-            KINDS["sweep"].compute(body, 0, request.total, lambda: None)
+    with watch.over(PARTS), watch.part("everything else"):
+        KINDS["sweep"].compute(body, 0, request.total, lambda: None)
     return watch.seconds
 
 

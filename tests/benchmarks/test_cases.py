@@ -36,6 +36,11 @@ def test_every_bearing_optimum_of_the_benchmark_is_certified(build: Callable[[],
     assert whole_turn.times(build(), False, 1).gap <= 1e-6
 
 
+def test_every_part_of_an_answer_over_the_turn_is_watched() -> None:
+    parts = whole_turn.where_the_time_goes(whole_turn.MACHINES["in-line six, gas"](), 1)
+    assert all(time > 0 for time in parts.values()), parts
+
+
 def test_scroll_pin_cases_run() -> None:
     assert min(outputs.scroll_pins(1).values()) > 0
 

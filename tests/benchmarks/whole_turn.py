@@ -22,6 +22,7 @@ from optimizer.optimize import optimize
 from optimizer.outputs import prepare
 from schemas.requests import OptimizeRequest
 from tests.benchmarks.outputs import sixteen_rows
+from tests.benchmarks.stopwatch import Stopwatch
 from tests.optimize.whole_turn import inline_six
 
 #: a compressor's cycle whose gas pushes about as hard as the inertia
@@ -34,6 +35,19 @@ _CYLINDER = {
     "relative_clearance": 0.02,
     "expansion_exponent": 1.35,
     "compression_exponent": 1.35,
+}
+
+
+_ELSE = "input, mechanics, and the making of the answer"
+#: part of an answer -> functions that do it; what they call belongs to the innermost part
+PARTS: dict[str, tuple[str, ...]] = {
+    "rounds": ("optimizer.certified_turn:over_turn",),
+    "cone programs": ("optimizer.program.cut_stage:solved",),
+    "series of the rows": ("optimizer.mechanics.kernel.rows:row_series",),
+    "brackets": ("optimizer.pieces:_bracketed",),
+    "smallest circles": ("optimizer.figures.bearings:floors", "optimizer.program.cut:smallest_circle"),
+    "rest of the proofs": ("optimizer.optimize:certified_turn",),
+    "figures, warnings": ("optimizer.optimize:answered",),
 }
 
 
@@ -69,9 +83,7 @@ MACHINES = {"in-line six, inertia": inline_six, "in-line six, gas": six_with_gas
 
 def times(machine: dict[str, Any], least_mass: bool, repeats: int) -> Times:
     """A bearing optimum to 1e-6, without samples."""
-    objective = {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1, "least_mass": least_mass}
-    body = {"machine": machine, "objective": objective, "angles": {"step_deg": 30}}
-    request = OptimizeRequest.model_validate(body)
+    request = _request(machine, least_mass)
     optimize(request)
     solving, whole = [], []
     for _ in range(repeats):
@@ -90,6 +102,23 @@ def times(machine: dict[str, Any], least_mass: bool, repeats: int) -> Times:
     return Times(statistics.median(solving), statistics.median(whole), proof.rounds, proof.cuts, proof.relative_gap)
 
 
+def where_the_time_goes(machine: dict[str, Any], repeats: int) -> dict[str, float]:
+    """Milliseconds of the core in one answer with least mass, by part."""
+    request = _request(machine, least_mass=True)
+    optimize(request)
+    watch = Stopwatch(time.process_time)
+    with watch.over(PARTS):
+        for _ in range(repeats):
+            with watch.part(_ELSE):
+                optimize(request)
+    return {name: 1e3 * watch.seconds.get(name, 0.0) / repeats for name in (*PARTS, _ELSE)}
+
+
+def _request(machine: dict[str, Any], least_mass: bool) -> OptimizeRequest:
+    objective = {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1, "least_mass": least_mass}
+    return OptimizeRequest.model_validate({"machine": machine, "objective": objective, "angles": {"step_deg": 30}})
+
+
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--repeats", type=int, default=10, help="warm repeats of every case")
@@ -102,7 +131,16 @@ def main() -> None:
             found = times(build(), least_mass, repeats)
             row = (f"{found.solving:.1f}", f"{found.whole:.1f}", str(found.rounds), str(found.cuts), f"{found.gap:.1e}")
             table.add_row(name, "yes" if least_mass else "no", *row)
-    Console(width=120).print(table)
+    console = Console(width=120)
+    console.print(table)
+    split = Table(title="where the time of an answer with least mass goes, mean, milliseconds of one core")
+    parts = {name: where_the_time_goes(build(), repeats) for name, build in MACHINES.items()}
+    split.add_column("part")
+    for name in parts:
+        split.add_column(name, justify="right")
+    for part in (*PARTS, _ELSE):
+        split.add_row(part, *(f"{of[part]:.1f}" for of in parts.values()))
+    console.print(split)
 
 
 if __name__ == "__main__":
