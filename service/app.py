@@ -170,6 +170,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app.state.frame_origins = chosen.frame_origins
     app.state.readiness = readiness
     app.state.desk = desk
+    app.state.sweep_workers = chosen.sweep_workers
     app.state.pool = pool
     app.state.threads = threads
     app.state.rounds = rounds

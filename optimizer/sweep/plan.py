@@ -69,7 +69,11 @@ class Plan:
 
     @property
     def estimate(self) -> SweepEstimate:
-        """The answer to a dry run."""
+        """The answer to a dry run, for one worker."""
+        return self.estimate_for(1)
+
+    def estimate_for(self, workers: int) -> SweepEstimate:
+        """The answer to a dry run, for as many workers; those beyond the chunks have nothing to do."""
         return SweepEstimate(
             total=self.total,
             chunks=self.chunks,
@@ -77,6 +81,8 @@ class Plan:
             seed=self.seed,
             bytes=self._bytes,
             cpu_s=self.cpu_s,
+            workers=workers,
+            wall_s=self.cpu_s * -(-self.chunks // workers) / self.chunks if self.chunks else 0.0,
             columns=tuple(SweepColumn(**column._asdict()) for column in self.columns),
         )
 

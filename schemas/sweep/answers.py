@@ -71,6 +71,13 @@ class SweepEstimate(Answer):
     seed: int = Field(description="seed of the designs", examples=[0])
     bytes: int = Field(description="rough room that the sweep will take on disk", examples=[120000000])
     cpu_s: Seconds = Field(
-        description="rough time of one core that it will take, all designs together", examples=[45.0]
+        description="rough time of one core that it will take, all designs together, at rates that were measured on"
+        " ordinary machines: within a factor of three or so",
+        examples=[45.0],
+    )
+    workers: int = Field(description="processes that would compute it, as they are set", examples=[4])
+    wall_s: Seconds = Field(
+        description="rough time until it is done, if each worker has a core to itself and nobody else asks",
+        examples=[12.0],
     )
     columns: tuple[SweepColumn, ...] = Field(description="columns of the result", examples=[[{"name": "index"}]])

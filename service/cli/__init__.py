@@ -12,6 +12,7 @@ from service.cli.catalogue import effects, examples, schema
 from service.cli.compute import command
 from service.cli.draw import draw
 from service.cli.key import key
+from service.cli.plot import plot
 from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
@@ -48,7 +49,7 @@ def command_line() -> typer.Typer:
     for one in COMPUTATIONS.values():
         if one.chapters is not None:
             made.command(name=one.title)(command(one))
-    for other in (sweep, report, draw, template, verify, effects, examples, schema, serve):
+    for other in (sweep, plot, report, draw, template, verify, effects, examples, schema, serve):
         made.command()(other)
     made.add_typer(key, name="key")
     return made

@@ -48,7 +48,7 @@ def sweep(
 
     asked = question(SweepRequest, file)
     if dry_run or asked.dry_run:
-        _estimate(asked, as_json)
+        _estimate(asked, workers, as_json)
         return
     if output is None:
         fail("say where the rows shall go: --output results.parquet")
@@ -74,12 +74,14 @@ def sweep(
     raise typer.Exit(0 if set(counts) <= {"optimal", "analyzed"} else 1)
 
 
-def _estimate(asked: "SweepRequest", as_json: bool) -> None:
+def _estimate(asked: "SweepRequest", workers: int | None, as_json: bool) -> None:
+    from os import cpu_count
+
     from optimizer.errors import MissingInput
     from optimizer.sweep.plan import plan
 
     try:
-        found = plan(asked).estimate
+        found = plan(asked).estimate_for(workers or cpu_count() or 1)
     except MissingInput as error:
         fail_fields(error.problems)
     if as_json:

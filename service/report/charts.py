@@ -182,6 +182,16 @@ def axis(low: float, high: float, parts: int = 5) -> tuple[float, float, list[fl
     return first * step, last * step, [mark * step for mark in range(first, last + 1)]
 
 
+def spread(values: Sequence[float], factor: float = 1.0) -> tuple[float, float, list[float]]:
+    """Ends and marks of an axis around values in units of ``factor``, wherever these are; with room on either side."""
+    low, high = min(values) / factor, max(values) / factor
+    room = 0.03 * (high - low) or 0.1 * abs(high) or 1.0
+    low, high = low - room, high + room
+    step = _round_step((high - low) / 5)
+    marks = range(math.ceil(low / step), math.floor(high / step) + 1)
+    return low, high, [mark * step for mark in marks]
+
+
 def _round_step(rough: float) -> float:
     power = 10.0 ** math.floor(math.log10(rough))
     return next(each * power for each in (1.0, 2.0, 2.5, 5.0, 10.0) if each * power >= rough * (1 - 1e-9))

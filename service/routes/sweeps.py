@@ -66,11 +66,12 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     """With the header `Idempotency-Key`, the same body sent again is the same sweep; another body is refused."""
     key = idempotency_key(request)
     body = await computing.body(request)
+    workers: int = request.app.state.sweep_workers
 
     def work() -> Response:
         asked = computing.checked(SweepRequest, body)
         if asked.dry_run:
-            return Response(plan(asked).estimate.model_dump_json(), 200, _NO_STORE, "application/json")
+            return Response(plan(asked).estimate_for(workers).model_dump_json(), 200, _NO_STORE, "application/json")
         return accepted(request, *desk.sweep(asked, key))
 
     return await threads_of(request).run(holding(request).who, work)

@@ -130,7 +130,9 @@ def test_a_bad_sweep_names_the_field(tmp_path: Path) -> None:
 def test_a_dry_run(tmp_path: Path) -> None:
     file = written(tmp_path, optimisations())
     assert json.loads(here(file, "--dry-run", "--json").stdout)["total"] == 6
-    done = here(file, "--dry-run")
+    assert json.loads(here(file, "--dry-run", "--json", "--workers", "3").stdout)["workers"] == 3
+    done = here(file, "--dry-run", "--workers", "3")
+    assert "until it is done, 3 workers, about s" in done.stdout
     assert done.exit_code == 0
     assert "force_peak_N" in done.stdout
     assert [path.name for path in tmp_path.iterdir()] == ["sweep.json"]

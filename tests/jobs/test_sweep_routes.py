@@ -166,6 +166,9 @@ def test_a_dry_run_starts_nothing(client: TestClient) -> None:
     before = client.get("/v1/sweeps").json()
     answer = client.post("/v1/sweeps", json=analyses(dry_run=True))
     assert (answer.status_code, answer.json()["total"]) == (200, 400)
+    # as the service is set
+    assert answer.json()["workers"] == 2
+    assert 0 < answer.json()["wall_s"] <= answer.json()["cpu_s"]
     assert client.get("/v1/sweeps").json() == before
 
 

@@ -116,6 +116,12 @@ def test_a_dry_run_counts_ten_million_designs_without_making_them() -> None:
     assert estimate.total == 10_000_000
     assert estimate.chunks == -(-estimate.total // estimate.chunk_rows)
     assert [column.name for column in estimate.columns] == [column.name for column in request.all_columns]
+    # analytic: chunks are dealt out, so the last round of eight workers may be short of some
+    assert (estimate.workers, estimate.wall_s) == (1, estimate.cpu_s)
+    eight = plan(request).estimate_for(8)
+    assert 1 / 8 <= eight.wall_s / eight.cpu_s <= 1 / 8 + 1 / eight.chunks
+    idle = plan(request).estimate_for(estimate.chunks + 5)
+    assert idle.wall_s == pytest.approx(estimate.cpu_s / estimate.chunks)
     # at most 8 bytes a number and some overhead
     assert 5e8 < estimate.bytes < 5e9
     assert table(request, 9_999_999).to_pylist()[0]["/machine/webs/0/max_mass_kg"] == 60.0

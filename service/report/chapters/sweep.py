@@ -21,6 +21,7 @@ def estimated(found: SweepEstimate) -> Iterator[Chapter]:
         ("designs a chunk", found.chunk_rows),
         ("result, about MB", found.bytes / 1e6),
         ("time of one core, about s", found.cpu_s),
+        (f"until it is done, {found.workers} workers, about s", found.wall_s),
     ]
     yield Chapter("Sweep, not run", (facts("", size),))
     columns = [(column.name, column.unit or "", column.meaning) for column in found.columns]
