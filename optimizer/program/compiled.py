@@ -1,8 +1,9 @@
 """The compiled interior point behind the certificate: many programs at once, each with its own proof."""
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
@@ -14,7 +15,7 @@ from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.points import Points, excess_at, points_at
 from optimizer.program.scaling import natural_reach
 from optimizer.program.settled import settled
-from optimizer.program.solution import CEILING_ROUNDING, Solutions
+from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
 from optimizer.program.statement import Statement
 
 if TYPE_CHECKING:
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
 
 #: multiple of the natural reach beyond which limits are ignored
 _REACH = 10.0
+
+
+#: both stages of scaled programs, as :func:`optimizer.program.kernel.interior_point.solve`
+Method = Callable[..., tuple[Any, ...]]
 
 
 class _Tolerances(NamedTuple):
@@ -84,8 +89,32 @@ def both_stages(
     if precision is not None:
         finest = precision.finest
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
-        solved = _solve(statement, share, least_mass, finer, precision, at_least)
+        solved = _solve(statement, share, least_mass, finer, solve_in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
+    plain, level = np.flatnonzero(plain_discs(statement)), np.broadcast_to(at_least, share.shape)
+    if not plain.size:
+        return _in_any_limits(statement, share, demand, least_mass, level)
+    part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])
+    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs(), level[plain]))
+    if quick.certified.all() and plain.size == share.size:
+        return quick
+    done = plain[quick.certified]
+    left = np.setdiff1d(np.arange(share.size), done)
+    rest = _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left])
+    return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
+
+
+def plain_discs(statement: Statement) -> np.ndarray:
+    """Programs that :mod:`optimizer.program.kernel.discs` takes (N,) bool: one row, no ceilings, sectors or budgets."""
+    norms, limits = statement.norms, statement.limits
+    shape = statement.floor.shape[-1] == 1 and 0 < norms.constant.shape[-1] < 3 and not statement.ceilings.names
+    if not shape or norms.scatter or any(norms.scalar) or limits.radius.shape[-1] == 0:
+        return np.zeros(statement.floor.shape[:-1], bool)
+    return limits.free.all(axis=-1) & (np.add.reduce(limits.max_mass, axis=-1) <= limits.max_total_mass)
+
+
+def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
+    """Both stages of programs of any limits; under ceilings what is left is tried once more."""
     solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
     found = _judged(statement, share, demand, least_mass, solved)
     if not statement.ceilings.names or found.certified.all():
@@ -179,17 +208,13 @@ def _solve(
     share: Real,
     least_mass: bool,
     tolerances: _Tolerances,
-    precision: Precision | None = None,
+    method: Method | None = None,
     at_least: Real | float = 0.0,
 ) -> _Solved:
     if statement.limits.radius.shape[-1] == 0:
         # nothing to choose
         nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
         return _Solved(nothing, nothing, proof, proof)
-    # the compiler is loaded when it is first needed
-    from optimizer.program.kernel.interior_point import solve
-
-    method = solve if precision is None else solve_in(precision)
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
     unit = np.add.reduce(np.abs(norms.constant), axis=-1)
@@ -198,7 +223,7 @@ def _solve(
     unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
     # interpreted numbers would warn where compiled ones end in a NaN, and the search with it
     with np.errstate(all="ignore"):
-        v, cone, row, mass_unit = method(
+        v, cone, row, mass_unit = (method or _compiled())(
             _programs(statement, reach, unit, tolerances.ceilings),
             least_mass,
             share / unit,
@@ -243,6 +268,19 @@ def _nearer(statement: Statement, lightest: Points, smallest: Points, target: Re
     needed = (over > 0) & (fall > over)
     step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
     return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
+
+
+def _compiled() -> Method:
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.interior_point import solve
+
+    return solve
+
+
+def _in_discs() -> Method:
+    from optimizer.program.kernel.discs import solve
+
+    return solve
 
 
 def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":

@@ -3,9 +3,7 @@
 All are solved side by side by the compiled interior point; what it does not certify goes down the cascade one by one.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import Any
 
 import numpy as np
 
@@ -17,7 +15,15 @@ from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, interior_point, only
 from optimizer.program.slack_rows import settle_without_slack_rows
-from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, OPTIMUM_SHARE, Solution, Solutions
+from optimizer.program.solution import (
+    CLOSED_FORM,
+    CONE_PROGRAM,
+    INTERIOR_POINT,
+    OPTIMUM_SHARE,
+    Solution,
+    Solutions,
+    joined,
+)
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
 
@@ -77,7 +83,7 @@ def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: 
         everywhere[:, webs] = part.unbalance
         parts.append(replace(part, unbalance=everywhere))
         places.append(programs)
-    return _joined(parts, np.argsort(np.concatenate(places)))
+    return joined(parts, np.argsort(np.concatenate(places)))
 
 
 def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
@@ -93,19 +99,6 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, program, cascade(program, asked, solver, quick))
     return answer
-
-
-def _joined(parts: Sequence[Optima], order: np.ndarray) -> Optima:
-    """Optima side by side, then in an order of all programs."""
-
-    def join(pieces: Sequence[Any]) -> Any:
-        if isinstance(pieces[0], np.ndarray):
-            return np.concatenate(pieces)[order]
-        names = [field.name for field in fields(pieces[0])]
-        return type(pieces[0])(*(join([getattr(piece, name) for piece in pieces]) for name in names))
-
-    whole: Optima = join(parts)
-    return whole
 
 
 def _compiled(statement: Statement, found: Solutions) -> Optima:

@@ -1,7 +1,8 @@
 """Counterweights with their proof."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -102,6 +103,14 @@ class Solutions:
                 each.put(programs, other)
             else:
                 each[programs] = other
+
+
+def joined(parts: Sequence[Any], order: np.ndarray) -> Any:
+    """Solutions of one kind side by side, then in an order of all programs."""
+    if isinstance(parts[0], np.ndarray):
+        return np.concatenate(parts)[order]
+    names = [field.name for field in fields(parts[0])]
+    return type(parts[0])(*(joined([getattr(part, name) for part in parts], order) for name in names))
 
 
 def evaluated(statement: Statement, u: Complex) -> Solution:

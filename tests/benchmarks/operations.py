@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.program.kernel import disc_steps, discs
 from optimizer.program.kernel.finer_numbers import interpreted
 
 Operate = Callable[[Any, Any], Any]
@@ -71,19 +72,21 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
 
     Parameters
     ----------
-    calls : arguments of :func:`optimizer.program.kernel.interior_point.solve`.
+    calls : arguments of :func:`optimizer.program.kernel.discs.solve`.
     """
-    space, iterations = interpreted(_numbers()), 0
+    space, iterations = interpreted(_numbers(), parts=(disc_steps, discs)), 0
     # one lane, so that the rounds of the loop are the iterations of a program
-    space["_LANES"] = 1
-    scaling = space["scaling"]
+    for name, place in vars(disc_steps).items():
+        if type(place) is int:
+            space[name] = place // disc_steps.LANES
+    factor = space["factor"]
 
     def one_more(*arguments: Any) -> None:
         nonlocal iterations
         iterations += 1
-        scaling(*arguments)
+        factor(*arguments)
 
-    space["scaling"] = one_more
+    space["factor"] = one_more
     Counted.done = programs = 0
     with np.errstate(all="ignore"):
         for data, *rest in calls:

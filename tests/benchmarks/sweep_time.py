@@ -8,7 +8,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.program.kernel import interior_point
+from optimizer.program.kernel import discs
 from schemas.sweep import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks.operations import operations_per_program
@@ -25,7 +25,7 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.sweep.counterweights:reciprocating",
         "optimizer.certified:formulate",
     ),
-    _STAGES: ("optimizer.program.kernel.interior_point:solve",),
+    _STAGES: ("optimizer.program.kernel.discs:solve", "optimizer.program.kernel.interior_point:solve"),
     "scaling, choice of the point": ("optimizer.program.optima:both_stages", "optimizer.program.optima:yardstick"),
     "certificate": ("optimizer.program.compiled:best_proof", "optimizer.program.compiled:mass_lower_bound"),
     "reference solver": ("optimizer.program.optima:cascade",),
@@ -49,22 +49,22 @@ def where_the_time_goes(request: SweepRequest) -> dict[str, float]:
 
 
 def solved(request: SweepRequest, designs: int) -> list[tuple[Any, ...]]:
-    """What the first designs of a sweep hand to the interior point."""
+    """What the first designs of a sweep hand to the interior point of plain discs."""
     calls: list[tuple[Any, ...]] = []
-    solve = interior_point.solve
+    solve = discs.solve
 
     def kept(*arguments: Any) -> Any:
         calls.append(arguments)
         return solve(*arguments)
 
-    with patch.object(interior_point, "solve", kept):
+    with patch.object(discs, "solve", kept):
         KINDS["sweep"].compute(request.model_dump_json().encode(), 0, designs, lambda: None)
     return calls
 
 
 def first_stage_share(request: SweepRequest) -> float:
     """Share of the first stage in the time of the program, on the same programs: its own work, best of five."""
-    calls, solve = solved(request, min(request.total, 2000)), interior_point.solve
+    calls, solve = solved(request, min(request.total, 2000)), discs.solve
     seconds = {False: np.inf, True: np.inf}
     for least_mass in (False, True) * 5:
         began = time.thread_time()

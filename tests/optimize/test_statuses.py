@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from optimizer.program import compiled
-from optimizer.program.kernel import interior_point
+from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import PRECISIONS
 from optimizer.program.reference import solver as solve
 from optimizer.program.reference.modelling import ConeProgram
@@ -94,7 +94,8 @@ def broken(monkeypatch: pytest.MonkeyPatch, change: Callable[[dict[str, Any]], d
 
     # in finer numbers it is made from the compiled one, and once: before that is changed
     finer = {precision: changed(compiled.solve_in(precision)) for precision in PRECISIONS}
-    monkeypatch.setattr(interior_point, "solve", changed(interior_point.solve))
+    for method in (discs, interior_point):
+        monkeypatch.setattr(method, "solve", changed(method.solve))
     monkeypatch.setattr(compiled, "solve_in", finer.__getitem__)
 
 

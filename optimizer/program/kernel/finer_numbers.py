@@ -5,12 +5,12 @@ digits, or, for more webs, numpy's longdouble (64 bits of mantissa on x86; where
 nothing).
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from decimal import MAX_EMAX, MIN_EMIN, Context, Decimal, localcontext
 from functools import cache
-from types import FunctionType, SimpleNamespace
+from types import FunctionType, ModuleType, SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -89,17 +89,21 @@ def finest(webs: int) -> Precision | None:
     return next((each for each in reversed(PRECISIONS) if 0 < webs <= each.most_webs), None)
 
 
-def interpreted(numpy: SimpleNamespace, number: Callable[[float], Any] = float) -> dict[str, Any]:
-    """Everything of the interior point before compilation, by name, with other numbers in place of doubles.
+def interpreted(
+    numpy: SimpleNamespace, number: Callable[[float], Any] = float, parts: Sequence[ModuleType] = ()
+) -> dict[str, Any]:
+    """Everything of an interior point before compilation, by name, with other numbers in place of doubles.
 
     Parameters
     ----------
     numpy : what stands in for it.
     number : what a literal becomes: decimals refuse to be mixed with doubles.
+    parts : modules of kernels; () is the interior point for any limits.
     """
     from optimizer.program.kernel import cones, interior_point, lanes, newton, webs
 
-    names = {name: value for part in (cones, lanes, webs, newton, interior_point) for name, value in vars(part).items()}
+    parts = parts or (cones, lanes, webs, newton, interior_point)
+    names = {name: value for part in parts for name, value in vars(part).items()}
     space: dict[str, Any] = {name: _literal(value, number) for name, value in names.items()}
     space["np"] = numpy
     for name, value in names.items():
