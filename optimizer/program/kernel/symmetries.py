@@ -41,14 +41,25 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
     relative, level = np.empty((terms, webs)), np.empty(terms)
     alike, image = np.empty((webs, webs), np.bool_), np.empty((webs, webs), np.bool_)
     own, counts, moved = np.empty(webs), np.empty(terms, np.bool_), np.empty(webs, np.complex128)
+    ones = np.ones(terms)
     for n in range(number):
         _scaled(influence[n], relative, level)
         _same_limits(limits, kinds, n, alike)
-        for q in range(terms):
-            counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
+        # most programs have hardly any, which is told at little cost
+        straight, turned_round = _partners(relative, ones, alike), _partners(relative, level, alike)
+        counted, changed = False, False
         for symmetry in range(4):
             # straight or from end to end, as they are or as mirror images
-            signs = level if symmetry % 2 else np.ones(terms)
+            signs = level if symmetry % 2 else ones
+            least, most = turned_round if symmetry % 2 else straight
+            if least == 0 or (symmetry == 0 and most == 1):
+                for k in range(webs):
+                    own[k] = 1.0 if symmetry == 0 else own[k]
+                continue
+            if not counted:
+                counted = True
+                for q in range(terms):
+                    counts[q] = abs(constant[n, q]) > _NOTHING * _done(influence[n, q], u[n])
             turn, known = _turn(constant[n], counts, signs, symmetry > 1)
             _images(relative, signs, limits, n, turn, symmetry > 1, alike, image)
             for k in range(webs):
@@ -65,7 +76,8 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
             if known:
                 for k in range(webs):
                     found[n, k] = moved[k] if symmetry == 0 else 0.5 * (found[n, k] + moved[k])
-        if _worse(constant[n], influence[n], limits.radius[n], u[n], found[n]):
+                    changed = changed or found[n, k] != u[n, k]
+        if changed and _worse(constant[n], influence[n], limits.radius[n], u[n], found[n]):
             found[n] = u[n]
     return found
 
@@ -103,6 +115,26 @@ def _same_limits(limits, kinds, n, alike):  # type: ignore[no-untyped-def]
                 and _close(limits.radius[n, k], limits.radius[n, other])
                 and _close(limits.max_mass[n, k], limits.max_mass[n, other])
             )
+
+
+@kernel
+def _partners(relative, signs, alike):  # type: ignore[no-untyped-def]
+    """How many webs have the influences of a web with these signs, itself among them, at least and at most."""
+    terms, webs = relative.shape
+    least, most = webs, 0
+    for k in range(webs):
+        count = 0
+        for other in range(webs):
+            # the last, a moment, tells most apart
+            q = terms
+            while q > 0 and abs(relative[q - 1, k] - signs[q - 1] * relative[q - 1, other]) <= _SAME:
+                q -= 1
+            if q == 0 and alike[k, other]:
+                count += 1
+        least, most = min(least, count), max(most, count)
+        if least == 0:
+            break
+    return least, most
 
 
 @kernel
