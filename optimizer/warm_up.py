@@ -5,7 +5,7 @@ _GAP = 1e-6
 
 
 def warm_up() -> None:
-    """Solve a small machine by the compiled method, both stages, and by the reference solver; follow it over the turn.
+    """Solve a small machine by the compiled methods, both stages, and by the reference solver; follow it over the turn.
 
     Raises
     ------
@@ -19,10 +19,12 @@ def warm_up() -> None:
     from optimizer.program.solution import CONE_PROGRAM
     from schemas.requests import OptimizeRequest
 
-    request = OptimizeRequest.model_validate({"machine": _machine()})
-    answer = optimize(request)
-    if answer.status != "optimal":
-        raise RuntimeError(f"the warm-up was answered {answer.status}")
+    # by the method for any limits, and by that for plain discs
+    for budget in (1.0, None):
+        request = OptimizeRequest.model_validate({"machine": {**_machine(), "max_total_mass_kg": budget}})
+        answer = optimize(request)
+        if answer.status != "optimal":
+            raise RuntimeError(f"the warm-up was answered {answer.status}")
     follow_a_turn()
     # seldom asked: what the compiled method leaves open
     scene = prepare(request, ("residual",))

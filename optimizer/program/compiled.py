@@ -108,7 +108,7 @@ def plain_discs(statement: Statement) -> np.ndarray:
     """Programs that :mod:`optimizer.program.kernel.discs` takes (N,) bool: one row, no ceilings, sectors or budgets."""
     norms, limits = statement.norms, statement.limits
     shape = statement.floor.shape[-1] == 1 and 0 < norms.constant.shape[-1] < 3 and not statement.ceilings.names
-    if not shape or norms.scatter or any(norms.scalar) or limits.radius.shape[-1] == 0:
+    if not shape or norms.scatter or any(norms.scalar) or limits.alike is not None or limits.radius.shape[-1] == 0:
         return np.zeros(statement.floor.shape[:-1], bool)
     return limits.free.all(axis=-1) & (np.add.reduce(limits.max_mass, axis=-1) <= limits.max_total_mass)
 

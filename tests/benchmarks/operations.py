@@ -79,14 +79,14 @@ def operations_per_program(calls: Sequence[tuple[Any, ...]]) -> tuple[float, flo
     for name, place in vars(disc_steps).items():
         if type(place) is int:
             space[name] = place // disc_steps.LANES
-    factor = space["factor"]
+    eliminate = space["eliminate"]
 
     def one_more(*arguments: Any) -> None:
         nonlocal iterations
         iterations += 1
-        factor(*arguments)
+        eliminate(*arguments)
 
-    space["factor"] = one_more
+    space["eliminate"] = one_more
     Counted.done = programs = 0
     with np.errstate(all="ignore"):
         for data, *rest in calls:

@@ -32,6 +32,7 @@ def test_what_is_compiled_beside_is_what_answers_need() -> None:
     last_first()
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
     names = ("direction", "longest_step", "second_order", "take_step", "means", "worst_turned", "least_changes")
+    names += ("look", "eliminate", "find_step", "correct", "go")
     of_turn = (rows, ("row_series",)), (parts, ("first_open", "narrowed"))
     for module, entries in ((symmetries, names), *of_turn):
         kept = Path(module.__file__).parent / "__pycache__"

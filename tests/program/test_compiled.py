@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from optimizer.arrays import mapped
 from optimizer.formulate import formulate
 from optimizer.outputs import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.compiled import BothStages, both_stages
 from optimizer.program.edge import Unreachable
+from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
-from optimizer.program.kernel.interior_point import solve
 from optimizer.program.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
@@ -267,17 +268,16 @@ def test_limits_of_zero(limit: str) -> None:
 def test_no_order_in_memory_is_compiled_anew(order: str) -> None:
     """Property: the same bits from what is already compiled, or a request would wait for a minute."""
     problem = _pair()
-    expected, compiled = run(problem), list(solve.signatures)
+    expected, compiled = run(problem), [list(method.solve.signatures) for method in (discs, interior_point)]
 
     def changed(values: np.ndarray) -> np.ndarray:
         values = np.array(values, order="F")
         values.flags.writeable = order == "fortran"
         return values
 
-    limits = {field.name: changed(getattr(problem.limits, field.name)) for field in fields(problem.limits)}
-    found = run(replace(problem, limits=replace(problem.limits, **limits)))
+    found = run(replace(problem, limits=mapped(problem.limits, changed)))
     assert all(same(expected, n, found, n) for n in range(expected.mass.size))
-    assert solve.signatures == compiled
+    assert [list(method.solve.signatures) for method in (discs, interior_point)] == compiled
 
 
 def test_a_web_in_two_halves_is_the_same_web() -> None:

@@ -142,7 +142,7 @@ def look(least_mass, webs, web, own):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def factor(least_mass, own, matrix):  # type: ignore[no-untyped-def]
+def eliminate(least_mass, own, matrix):  # type: ignore[no-untyped-def]
     """The equations of y_1, y_2 and the price, as L and U in place, the diagonal inverted.
 
     Of a term (price^2 - y y') (G + N dy) + (price at - y a') dy + (price a - at y) dprice, of the price what the sizes
@@ -226,7 +226,7 @@ def _solve(least_mass, own, matrix, step):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def direction(least_mass, webs, web, own, matrix, step):  # type: ignore[no-untyped-def]
+def find_step(least_mass, webs, web, own, matrix, step):  # type: ignore[no-untyped-def]
     """The step of all unknowns, and how long it may be for slacks (``PRIMAL``) and multipliers (``DUAL``)."""
     _solve(least_mass, own, matrix, step)
     _clear(own, DA1X, DT1)
@@ -319,7 +319,7 @@ def correct(least_mass, webs, web, own, step):  # type: ignore[no-untyped-def]
 
 
 @kernel
-def take_step(webs, web, own, step):  # type: ignore[no-untyped-def]
+def go(webs, web, own, step):  # type: ignore[no-untyped-def]
     """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
     for k in range(webs):
         first = k * WEB

@@ -31,10 +31,10 @@ from optimizer.program.kernel.disc_steps import (
     WEB,
     Y1X,
     correct,
-    direction,
-    factor,
+    eliminate,
+    find_step,
+    go,
     look,
-    take_step,
 )
 
 _MOST_STEPS = 25
@@ -115,9 +115,9 @@ def run(least_mass, programs, starts, tolerance, middle, ends, reached):  # type
                 program[t], solved = -1, solved + 1
         if solved == number:
             return
-        factor(least_mass, own, matrix)
+        eliminate(least_mass, own, matrix)
         # predictor
-        direction(least_mass, webs, web, own, matrix, step)
+        find_step(least_mass, webs, web, own, matrix, step)
         for t in range(LANES):
             gap, change = own[GAP + t], own[CHANGE + t]
             # both changes of the objectives together would close the gap
@@ -129,12 +129,12 @@ def run(least_mass, programs, starts, tolerance, middle, ends, reached):  # type
             own[AIM + t] = sigma * gap / degree
         # corrector
         correct(least_mass, webs, web, own, step)
-        direction(least_mass, webs, web, own, matrix, step)
+        find_step(least_mass, webs, web, own, matrix, step)
         for t in range(LANES):
             share = max(_STEP, 1.0 - own[GAP + t])
             own[PRIMAL + t] = min(share * own[PRIMAL + t], 1.0)
             own[DUAL + t] = min(share * own[DUAL + t], 1.0)
-        take_step(webs, web, own, step)
+        go(webs, web, own, step)
 
 
 @kernel
