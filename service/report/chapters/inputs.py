@@ -220,7 +220,13 @@ def _groups(machine: Machine) -> Iterator[Block]:
         yield table(
             "Identical castings, each in the same place on its own crank",
             ["group", "webs"],
-            [(group.name, ", ".join(group.webs)) for group in machine.web_groups],
+            [
+                (
+                    group.name,
+                    ", ".join(f"{web} mirrored" if group.mirrors(n) else web for n, web in enumerate(group.webs)),
+                )
+                for group in machine.web_groups
+            ],
         )
 
 
