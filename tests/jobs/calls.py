@@ -74,8 +74,9 @@ class Sweep:
         return range(self.rows.num_rows)
 
     @cached_property
-    def failed(self) -> int:
-        return sum(status != "analyzed" for status in self.rows["status"].to_pylist())
+    def invalid(self) -> int:
+        """How many rows are invalid; no other is without an answer."""
+        return self.rows["status"].to_pylist().count("invalid")
 
 
 #: one whose rows are all kept, and one that selects some; a speed of 0 is invalid
@@ -241,6 +242,7 @@ def _wrong_state(said: dict[str, Any], sweep: Sweep) -> str:
         return f"a sweep of {said['total']} rows"
     if said["repaired"] or said["state"] == "failed":
         return f"a sweep that is {said['state']}, with {said['repaired']} damaged files: {said['message']}"
-    if said["state"] == "done" and (said["done"], said["failed"]) != (said["total"], sweep.failed):
-        return f"done, with {said['done']} rows, of which {said['failed']} failed"
+    counted = said["done"], said["failed"], said["invalid"]
+    if said["state"] == "done" and counted != (said["total"], 0, sweep.invalid):
+        return f"done, with {said['done']} rows, of which {said['failed']} failed and {said['invalid']} are invalid"
     return ""
