@@ -29,6 +29,7 @@ class Example(Model):
     description: str = Field(
         description="what the machine is, and which data are assumed", examples=["Horizontal opposed compressor."]
     )
+    gas: bool = Field(description="whether its rows have cylinders, and with them gas data", examples=[True])
     links: ExampleLinks = Field(description="where to go from here", examples=[{"self": "/v1/examples/2d12"}])
 
 
@@ -80,6 +81,7 @@ def _describe(name: str, root_path: str) -> Example:
         name=name,
         title=machine.get("name") or name,
         description=machine.get("description") or "",
+        gas=any({"cylinder", "cylinders"} & row.keys() for each in machine.get("throws", ()) for row in each["rows"]),
         links=ExampleLinks.model_validate(
             {"self": f"{root_path}/v1/examples/{name}", "optimize": f"{root_path}/v1/optimize"}
         ),

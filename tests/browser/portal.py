@@ -76,7 +76,7 @@ class Portal:
 
     def drawn(self, run: int) -> None:
         """Wait for everything that a run draws."""
-        self.page.wait_for_selector(f"#results[data-drawn='{run}']", timeout=40_000)
+        self.page.wait_for_selector(f"#results[data-drawn='{run}']")
 
     def runs(self) -> int:
         return int(self.page.locator("#results").get_attribute("data-drawn") or 0)
@@ -84,7 +84,7 @@ class Portal:
     def optimise(self) -> None:
         old = self.runs()
         self.page.click("#optimise")
-        self.page.wait_for_selector(f"#results[data-drawn]:not([data-drawn='{old}'])", timeout=40_000)
+        self.page.wait_for_selector(f"#results[data-drawn]:not([data-drawn='{old}'])")
 
     def panel(self, name: str) -> Locator:
         return self.page.locator(f"#panel-{name}")
@@ -92,7 +92,7 @@ class Portal:
     def open_panel(self, name: str) -> Locator:
         panel = self.panel(name)
         panel.locator("> summary").click()
-        self.page.wait_for_selector(f"#panel-{name}[data-drawn]", timeout=40_000)
+        self.page.wait_for_selector(f"#panel-{name}[data-drawn]")
         return panel
 
     def unfold(self, *pointers: str) -> None:
@@ -104,6 +104,17 @@ class Portal:
 
     def input(self, pointer: str) -> Locator:
         return self.page.locator(f"#form .field[data-pointer='{pointer}']").locator("input, select, textarea")
+
+    def paste(self, selector: str, text: str) -> None:
+        """As the browser does on Ctrl+V with the caret at an element."""
+        self.page.locator(selector).first.evaluate(
+            """(node, text) => {
+              const clipboardData = new DataTransfer();
+              clipboardData.setData("text/plain", text);
+              node.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
+            }""",
+            text,
+        )
 
     def bodies(self, path: str) -> list[Any]:
         """What was posted to a path."""

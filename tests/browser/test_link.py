@@ -31,12 +31,13 @@ def test_examples_have_short_links(portal: Portal) -> None:
     portal.page.wait_for_url("**#example=w60*")
 
 
-def test_a_broken_link_opens_the_first_example(portal: Portal) -> None:
+def test_a_broken_link_says_so_and_begins_anew(portal: Portal) -> None:
     for fragment in ("#r=%%%", "#r=AAAA"):
         portal.page.goto("about:blank")
         portal.page.goto(f"{portal.url}/{fragment}")
-        portal.drawn(1)
-        assert portal.page.locator("#example").input_value() == "2d12"
+        portal.page.get_by_text("The machine in this link cannot be read.").wait_for()
+        assert portal.page.locator("#example").input_value() == ""
+        assert portal.page.locator("#form .grid-throw tbody tr").count() == 0
 
 
 def _code(portal: Portal, panel: str, language: str) -> str:

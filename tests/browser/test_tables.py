@@ -17,15 +17,7 @@ FOUR = """Name\tPosition (mm)\tcrank radius, mm\tangle\trotating mass [kg]
 
 
 def _paste(portal: Portal, grid: str, text: str, within: str = ".wide") -> None:
-    """As the browser does on Ctrl+V."""
-    portal.page.locator(f"#form .grid-{grid} {within}").first.evaluate(
-        """(node, text) => {
-          const clipboardData = new DataTransfer();
-          clipboardData.setData("text/plain", text);
-          node.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
-        }""",
-        text,
-    )
+    portal.paste(f"#form .grid-{grid} {within}", text)
 
 
 def _machine(portal: Portal) -> Any:

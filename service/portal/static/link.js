@@ -32,7 +32,7 @@ export async function unpack(text) {
 // what panels remember: the chosen point of the front, the last sweep, the parts that were weighed
 const KEPT = ["point", "sweep", "match"];
 
-// {example, request, open, kept}: an example stands for its request as long as nobody has edited it
+// {example, request, open, kept}: an example stands for its request as long as nobody has edited it; "" is the empty machine
 export async function readLink(fragment) {
   const given = new URLSearchParams(fragment.replace(/^#/, ""));
   const request = given.has("r") ? await unpack(given.get("r")) : null;
@@ -43,7 +43,7 @@ export async function readLink(fragment) {
 export async function writeLink({ example, request, open, kept }) {
   const link = new URLSearchParams();
   if (example) link.set("example", example);
-  else link.set("r", await pack(request));
+  else if (example === null) link.set("r", await pack(request));
   link.set("open", open.join(","));
   for (const [name, value] of Object.entries(kept)) link.set(name, value);
   return `#${link}`.replaceAll("%2C", ",");

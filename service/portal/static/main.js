@@ -1,11 +1,12 @@
 // One page: choose or paste a machine, edit it, optimise, look.
 
 import { get } from "./api.js";
+import { choices } from "./beginning.js";
 import { byId } from "./dom.js";
 import { Embedding } from "./embed.js";
 import { fileName, saveJson } from "./files.js";
 import { Form } from "./form/form.js";
-import { listExamples, Opening } from "./opening.js";
+import { Opening } from "./opening.js";
 import { accuracy } from "./panels/accuracy.js";
 import { counterweights } from "./panels/counterweights.js";
 import { cranks } from "./panels/cranks.js";
@@ -33,6 +34,7 @@ const MODEL = "OptimizeRequest";
 const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, match, sweep];
 
 const schema = get("openapi.json").then((document) => new Schema(document));
+const examples = get("v1/examples");
 /** @type {any} made when the schema is here */
 let form = null;
 
@@ -50,10 +52,10 @@ const outputs = (of) => ({ machine: given }) => {
 };
 
 const run = new Run({
-  work, panels, embedding, schema, sketch, form: () => form, outputs: { all: outputs(PANELS), first: outputs([hodographs, orders]) },
+  work, panels, embedding, schema, sketch, examples, form: () => form, outputs: { all: outputs(PANELS), first: outputs([hodographs, orders]) },
   context: { schema, model: MODEL, keep, adopt: (other) => take(other, null) },
 });
-const opening = new Opening({ take, complain: (error) => run.complain(error), open: (ids) => panels.open(ids), fresh: () => run.count === 0 });
+const opening = new Opening({ take, complain: (error) => run.complain(error), open: (ids) => panels.open(ids), fresh: () => run.count === 0, work, form: () => form });
 
 function keep(name, value) {
   work.kept[name] = value;
@@ -90,13 +92,13 @@ function go(which, why) {
 const undo = () => go("undo", "Undone: press Optimise.");
 const redo = () => go("redo", "Done again: press Optimise.");
 
-// `push`: Back leads to what was there before; `ask`: it is whole, and can be optimised
-async function take(request, example, kept = {}, { push = true, ask = true } = {}) {
+// `push`: Back leads to what was there before
+async function take(request, example, kept = {}, { push = true } = {}) {
   if (push && work.unkept && work.request) await work.keep();
   work.begin(request, example, kept);
   tools();
   work.keep({ push: push && run.count > 0 && parent === self });
-  const ran = ask ? run.ask() : run.begin();
+  const ran = request.machine?.throws?.length === 0 ? run.begin() : run.ask();
   await schema.then((known) => {
     form ??= new Form(byId("form"), known, MODEL, edited);
     form.show(work.request);
@@ -129,11 +131,12 @@ function listen() {
     event.target.value = "";
   });
   workbooks(() => work.example);
-  byId("new").addEventListener("click", () => starter((request) => take(request, null, {}, { ask: request.machine.throws.length > 0 })));
+  byId("new").addEventListener("click", () => starter((request, example = null) => take(request, example)));
   byId("undo").addEventListener("click", undo);
   byId("redo").addEventListener("click", redo);
   byId("save").addEventListener("click", save);
   document.addEventListener("keydown", keys);
+  document.addEventListener("paste", (event) => opening.pasted(event));
   addEventListener("beforeunload", (event) => work.unsaved && parent === self && event.preventDefault());
   addEventListener("hashchange", (event) => {
     work.leave();
@@ -144,7 +147,10 @@ function listen() {
 
 theme(byId("theme"));
 listen();
-listExamples(null).then(tools, (error) => run.complain(error));
+examples.then((found) => {
+  byId("example").replaceChildren(...choices(found.examples));
+  tools();
+}, (error) => run.complain(error));
 // while the first answer is computed, and not in its way
 loadPlots().catch(() => null);
 opening.link(location.hash);

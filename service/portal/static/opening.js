@@ -2,13 +2,13 @@
 
 import { get } from "./api.js";
 import { byId, h } from "./dom.js";
+import { Sheet } from "./grid/sheet.js";
 import { readLink } from "./link.js";
 import { forget, last, ofTab } from "./session.js";
-
-const FIRST = "2d12";
+import { blank } from "./starter.js";
 
 export class Opening {
-  /** @param {any} page {take, complain, open, fresh} */
+  /** @param {any} page {take, complain, open, fresh, work, form} */
   constructor(page) {
     this.page = page;
   }
@@ -37,17 +37,45 @@ export class Opening {
 
   async link(fragment) {
     const { take, open, fresh } = this.page;
-    const link = await readLink(fragment).catch(() => null);
+    /** @type {any} */
+    const link = await readLink(fragment).catch(() => ({ broken: true }));
     const how = { push: false };
-    if (link?.open) open(link.open);
+    if (link.open) open(link.open);
     // what was typed after the link was last written
     const typed = fresh() ? ofTab() : null;
-    if (typed) await take(typed.request, typed.example, link?.kept, how);
-    else if (link?.request && typeof link.request === "object") await take(link.request, null, link.kept, how);
+    if (typed) await take(typed.request, typed.example, link.kept, how);
+    else if (link.request && typeof link.request === "object") await take(link.request, null, link.kept, how);
     else {
       if (fresh()) this.offer(last());
-      await this.example(link?.example ?? FIRST, link?.kept, how);
+      // nobody begins with a machine that he has not chosen
+      if (link.example) await this.example(link.example, link.kept, how);
+      else await this.blank(how);
+      if (link.broken) byId("trouble").textContent = "The machine in this link cannot be read.";
     }
+  }
+
+  blank(how = {}) {
+    return this.page.take(blank(), "", {}, how);
+  }
+
+  // Tables from a spreadsheet. Throws are a machine of their own, unless there is none yet; all else goes into what is there.
+  async sheet(text) {
+    const { work, form } = this.page;
+    if (!work.request || work.request.machine?.kind === "scroll") await this.blank();
+    if (work.request.machine?.throws?.length && new Sheet(form(), text).has("throw")) await this.blank();
+    byId("progress").textContent = `${new Sheet(form(), text).fill()} Press Optimise.`;
+  }
+
+  // what is pasted where nobody types: a machine as text, or tables; in a field, tables alone
+  pasted(event) {
+    const text = event.clipboardData?.getData("text/plain") ?? "";
+    if (event.defaultPrevented || event.target.closest("textarea, #results input")) return;
+    const typing = event.target.matches("input[type=text]");
+    const machine = !typing && text.trimStart().startsWith("{");
+    if (!machine && !Sheet.like(text)) return;
+    event.preventDefault();
+    document.querySelector("dialog.starter")?.remove();
+    if (machine) this.text(text); else this.sheet(text);
   }
 
   // what was left unfinished in another tab, or before the browser was closed
@@ -63,12 +91,4 @@ export class Opening {
       h("button", { type: "button", class: "small", click: done(() => this.page.take(found.request, null)) }, "Go on with it"), " ",
       h("button", { type: "button", class: "small", click: done(forget) }, "Forget it"));
   }
-}
-
-/** @param {string | null} chosen */
-export async function listExamples(chosen) {
-  const { examples } = await get("v1/examples");
-  byId("example").replaceChildren(h("option", { value: "" }, "(your own machine)"),
-    ...examples.map(({ name, title, description }) => h("option", { value: name, title: description }, title === name ? name : `${name}: ${title}`)));
-  byId("example").value = chosen ?? "";
 }

@@ -2,6 +2,7 @@
 
 import { showAnswer } from "./answer.js";
 import { post, Problem } from "./api.js";
+import { beginning } from "./beginning.js";
 import { byId, h } from "./dom.js";
 
 const STEP = { step_deg: 2 };
@@ -11,7 +12,7 @@ export class Run {
   count = 0;
   #running = new AbortController();
 
-  /** @param {any} page {work, panels, embedding, schema, form, outputs, sketch, context} */
+  /** @param {any} page {work, panels, embedding, schema, form, outputs, sketch, examples, context} */
   constructor(page) {
     this.page = page;
   }
@@ -24,13 +25,16 @@ export class Run {
   }
 
   // a machine of which there is nothing to show yet
-  begin() {
-    this.stop();
+  async begin() {
+    const number = this.stop();
     byId("problem").replaceChildren();
     byId("trouble").textContent = "";
     byId("answer").replaceChildren();
-    byId("results").classList.add("stale", "empty");
+    byId("results").classList.add("empty");
+    byId("results").removeAttribute("aria-busy");
     byId("progress").textContent = "A new machine: type it, then press Optimise.";
+    const { examples } = await this.page.examples.catch(() => ({ examples: [] }));
+    if (number === this.count) byId("answer").prepend(beginning(examples, this.page.context.adopt));
   }
 
   async ask() {

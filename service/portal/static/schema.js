@@ -52,14 +52,18 @@ export class Schema {
     return { ...about, kind: "text", longest: given[0]?.maxLength };
   }
 
-  // the names that an object of a request may have, by its place: parts of a pointer
-  namesAt(description, value, parts) {
+  // what stands at a place of a request (parts of a pointer), null where nothing may
+  at(description, value, parts) {
     const [first, ...rest] = parts;
     const shape = description.kind === "union" ? description.options.get(value?.[description.tag]) ?? [...description.options.values()][0]
       : description.object ?? description;
-    if (first === undefined) return Object.keys(shape.properties ?? {});
-    if (shape.kind === "list") return this.namesAt(shape.items, value?.[first], rest);
-    return shape.properties?.[first] ? this.namesAt(this.describe(shape.properties[first]), value?.[first], rest) : [];
+    if (first === undefined) return shape;
+    if (shape.kind === "list") return this.at(shape.items, value?.[first], rest);
+    return shape.properties?.[first] ? this.at(this.describe(shape.properties[first]), value?.[first], rest) : null;
+  }
+
+  namesAt(description, value, parts) {
+    return Object.keys(this.at(description, value, parts)?.properties ?? {});
   }
 
   object(node) {

@@ -7,7 +7,7 @@ const LAST = "counterweight-last";
 export function store(now) {
   const text = JSON.stringify({ ...now, hash: location.hash, at: Date.now() });
   // a browser may keep nothing, or have no room: the link and the file remain
-  for (const [place, name] of /** @type {[Storage, string][]} */ ([[sessionStorage, TAB], ...(now.example ? [] : [[localStorage, LAST]])])) {
+  for (const [place, name] of /** @type {[Storage, string][]} */ ([[sessionStorage, TAB], ...(now.example !== null ? [] : [[localStorage, LAST]])])) {
     try {
       place.setItem(name, text);
     } catch {

@@ -40,7 +40,7 @@ const ENVELOPE = [["inner", "Hub radius", "m"], ["outer", "Radius that is free",
 
 export const blank = () => ({ machine: { kind: "reciprocating", throws: [], webs: [] } });
 
-// Opens the questions; `begin` gets the request.
+// Opens the questions; `begin` gets the request, and "" with the empty one.
 export function starter(begin) {
   const given = {};
   const ask = (question) => {
@@ -68,7 +68,7 @@ export function starter(begin) {
     h("form", { method: "dialog", submit: (event) => {
       const answers = Object.fromEntries(Object.entries(given).map(([name, input]) => [name, input.closest("[hidden]") ? "" : input.value]));
       const { request, wrong, doubts } = made(chosen(), answers, rule.value, plates.checked);
-      if (event.submitter?.value === "blank") return begin(blank());
+      if (event.submitter?.value === "blank") return begin(blank(), "");
       if (!wrong.length && !doubts.length) return begin(request);
       event.preventDefault();
       const titled = (name) => box.querySelector(`label[for=start-${name}]`).textContent;
@@ -77,7 +77,7 @@ export function starter(begin) {
       given[[...wrong, ...doubts.map(({ name }) => name)][0]].focus();
       return undefined;
     } },
-    h("h2", { id: "starter-title" }, "A machine of your own"), shapes, questions,
+    h("h2", { id: "starter-title" }, "A machine of your own"), h("p", { class: "about" }, "From a few questions, or paste its tables here."), shapes, questions,
     h("div", { class: "field" }, h("label", { for: "start-rule" }, "Webs for counterweights"), rule), limits, error,
     h("div", { class: "buttons" }, h("button", { class: "primary", value: "begin" }, "Begin"),
       h("button", { value: "blank", formnovalidate: true }, "Begin with an empty machine"),

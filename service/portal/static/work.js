@@ -10,7 +10,7 @@ const LATER_MS = 400;
 export class Work {
   /** @type {any} */
   request = null;
-  /** @type {string | null} its name, as long as nobody has changed it */
+  /** @type {string | null} its name, as long as nobody has changed it; "" is the empty machine */
   example = null;
   /** @type {{ [name: string]: any }} what panels remember */
   kept = {};

@@ -1,6 +1,6 @@
 // What is wrong with a request, said at its fields.
 
-import { parent, split } from "../pointer.js";
+import { split } from "../pointer.js";
 import { nearest } from "../words.js";
 
 export class Blame {
@@ -25,7 +25,7 @@ export class Blame {
     let first = null;
     for (const { pointer, message: said } of errors) {
       const message = this.meant(pointer, said);
-      const place = this.place(pointer);
+      const place = this.form.opened(pointer);
       if (!place) {
         homeless.push({ pointer, message });
         continue;
@@ -49,20 +49,5 @@ export class Blame {
     const parts = split(pointer);
     const near = nearest(parts.at(-1), this.form.schema.namesAt(this.form.root, this.form.request, parts.slice(0, -1)));
     return near ? `${message}; did you mean ${near}?` : message;
-  }
-
-  // the part of the form at a pointer, everything around it opened
-  place(pointer) {
-    if (!pointer) return null;
-    const around = this.place(parent(pointer));
-    const found = this.form.container.querySelector(`[data-pointer="${CSS.escape(pointer)}"]`);
-    if (!found) return around;
-    for (let node = found; node !== this.form.container; node = node.parentElement) {
-      if (node.tagName === "DETAILS") {
-        node.open = true;
-        node.build?.();
-      }
-    }
-    return found;
   }
 }

@@ -1,7 +1,7 @@
 // The form of a request: what is typed goes into the request, and is told; where more than a value changes it is drawn anew.
 
 import { nameOf } from "../format.js";
-import { get, put } from "../pointer.js";
+import { get, parent, put } from "../pointer.js";
 import { Blame } from "./blame.js";
 import { Parts } from "./parts.js";
 
@@ -86,6 +86,25 @@ export class Form {
     const details = this.group(item);
     if (!details?.dataset.heading) return;
     details.firstElementChild.textContent = `${details.dataset.heading} ${nameOf(get(this.request, item), Number(item.split("/").at(-1)))}`;
+  }
+
+  // the part of the form at a pointer, everything around it opened; what is not there yet is what is around it
+  opened(pointer) {
+    if (!pointer) return null;
+    const around = this.opened(parent(pointer));
+    const found = this.container.querySelector(`[data-pointer="${CSS.escape(pointer)}"]`);
+    if (!found) return around;
+    for (let node = found; node !== this.container; node = node.parentElement) {
+      if (node.tagName === "DETAILS") {
+        node.open = true;
+        node.build?.();
+      }
+    }
+    return found;
+  }
+
+  gridsOf(list) {
+    return [...new Set(this.grids.values())].filter((grid) => grid.source.pointer === list);
   }
 
   group(pointer) {

@@ -4,9 +4,10 @@ import { h } from "../dom.js";
 import { label, nameOf } from "../format.js";
 import { get, join } from "../pointer.js";
 import { meant, quantity, read } from "../quantity.js";
-import { columnsOf } from "./columns.js";
+import { columnsOf, tableAt } from "./columns.js";
 import { copied } from "./copied.js";
-import { placed, withUnit } from "./paste.js";
+import { knownHeads, placed, withUnit } from "./paste.js";
+import { blankOf } from "./sources.js";
 
 export class Grid {
   constructor(form, table, source, shown) {
@@ -16,6 +17,7 @@ export class Grid {
     this.shown = shown;
     this.current = 0;
     this.columns = columnsOf(form.schema, source.items, table, shown);
+    this.hidden = columnsOf(form.schema, source.items, table, new Set(Object.keys(table.groups))).filter(({ path }) => !this.columns.some((one) => one.path === path));
     this.said = h("div", { class: "said", role: "status" });
     this.body = h("tbody", {}, source.entries().map((entry, row) => this.line(entry, row)));
     this.element = h("div", { class: `grid grid-${table.item}` },
@@ -82,7 +84,7 @@ export class Grid {
     if (value === undefined && (before === null || before === undefined)) return false;
     this.form.put(at, value);
     const part = column.path.split("/")[0];
-    if (this.columns.every(({ path, kind }) => !path.startsWith(`${part}/`) || kind === "choice" || get(this.form.request, below(item, path)) === undefined)) this.form.put(around, undefined);
+    if ([...this.columns, ...this.hidden].every(({ path, kind }) => !path.startsWith(`${part}/`) || kind === "choice" || get(this.form.request, below(item, path)) === undefined)) this.form.put(around, undefined);
     else if ((before === null || before === undefined) && part === "envelope") {
       // radius and mass follow from what is cut
       if (column.kind !== "choice") this.form.put(join(around, "shape"), "segment");
@@ -188,8 +190,8 @@ export class Grid {
   pasted(event) {
     const text = event.clipboardData?.getData("text/plain") ?? "";
     const cell = event.target.closest("td");
-    // one value goes where the caret is
-    if (!/[\t\n]/.test(text.trim()) && cell) return;
+    // one value goes where the caret is; several tables are no table
+    if ((!/[\t\n]/.test(text.trim()) && cell) || /\n[\t; \r]*\n\s*\S/.test(text)) return;
     event.preventDefault();
     const first = this.source.owners ? 2 : 1;
     const start = cell ? [...cell.parentElement.children].indexOf(cell) - first : this.source.owners ? -1 : 0;
@@ -197,24 +199,43 @@ export class Grid {
   }
 
   fill(text, row, start, accepted) {
-    const owner = { path: "throw", name: "throw", head: "throw", kind: "owner" };
-    const columns = this.source.owners ? [owner, ...this.columns] : this.columns;
+    const columns = this.pasteable();
     const { rows, places, unknown } = placed(text, columns, start + (this.source.owners ? 1 : 0), accepted);
     rows.forEach((cells, index) => {
       while (this.source.entries().length <= row + index) this.source.add();
       const before = this.source.entries()[row + index];
-      const to = places.findIndex((place) => columns[place?.index] === owner);
+      const to = places.findIndex((place) => columns[place?.index]?.kind === "owner");
       if (to >= 0) this.give(before, cells[to]);
       // a row that goes to another throw keeps what it is, not its number
       const { pointer } = this.source.entries().find((one) => one.item === before.item) ?? before;
       cells.forEach((cell, at) => {
         const column = columns[places[at]?.index];
-        if (column && column !== owner) this.put(below(pointer, column.path), column, withUnit(cell, places[at].unit, column.unit));
+        if (!column || column.kind === "owner") return;
+        if (column.row && !get(this.form.request, `${pointer}/rows`)?.length) this.form.put(`${pointer}/rows`, [blankOf(this.form.schema, column.row)]);
+        this.put(below(pointer, column.path), column, withUnit(cell, places[at].unit, column.unit));
       });
     });
     const fresh = this.form.refresh().get(this.source.pointer + this.table.item);
     fresh?.unknown(unknown, (more) => fresh.fill(text, row, start, { ...accepted, ...more }));
     fresh?.mark(row);
+    return rows.length;
+  }
+
+  // Columns that a paste may fill: an owner, those that are seen, those that are not, and those of the one row that
+  // a throw has in most machines.
+  pasteable() {
+    const { form: { schema }, source } = this;
+    const row = source.items.properties.rows ? schema.describe(source.items.properties.rows).items : null;
+    const rows = row ? columnsOf(schema, row, tableAt(`${source.pointer}/0/rows`), new Set()).filter(({ path }) => path !== "name") : [];
+    return [...(source.owners ? [{ path: "throw", name: "throw", head: "throw", kind: "owner" }] : []), ...this.columns, ...this.hidden,
+      ...rows.map((column) => ({ ...column, path: `rows/0/${column.path}`, row }))];
+  }
+
+  // how many of some heads are columns here; those of rows count beside those of throws
+  heads(cells) {
+    const all = this.pasteable();
+    const own = knownHeads(cells, all.filter((column) => !column.row));
+    return own > 1 ? knownHeads(cells, all) : own;
   }
 
   give(entry, name) {

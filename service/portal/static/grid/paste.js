@@ -9,15 +9,24 @@ export function cellsOf(text) {
   return lines.map((line) => line.split(mark).map((cell) => cell.trim()));
 }
 
-const numeric = (text) => /^[+\-\u2212]?[\d.,]/.test(text);
+export const numeric = (text) => /^[+\-\u2212]?[\d.,]/.test(text);
+
+// [word, unit] of a head such as "Position (mm)"
+export function headOf(head) {
+  const [, word, unit] = /^(.*?)(?:\s*[([,]\s*([^)\]]*)[)\]]?)?$/.exec(head) ?? [];
+  return [word?.trim() ?? "", unit?.trim() ?? ""];
+}
 
 // a head is its column's path, its last name, or how it is shown, with or without a unit
-function column(head, columns, accepted) {
-  const [, word, , unit] = /^(.*?)(\s*[([,]\s*([^)\]]*)[)\]]?)?$/.exec(head) ?? [];
-  const plain = (accepted[head] ?? word ?? "").trim().toLowerCase();
+function column(head, columns, accepted = {}) {
+  const [word, unit] = headOf(head);
+  const plain = (accepted[head] ?? word).toLowerCase();
   const index = columns.findIndex(({ path, name, head: shown }) => [path, name, shown, shown.replace(/ /g, "_")].some((one) => one.toLowerCase() === plain));
-  return { index, unit: unit?.trim() ?? "" };
+  return { index, unit };
 }
+
+// how many of some heads are known
+export const knownHeads = (heads, columns) => heads.filter((head) => head && column(head, columns).index >= 0).length;
 
 /**
  * What of a pasted table goes where.

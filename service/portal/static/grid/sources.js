@@ -7,6 +7,12 @@ import { another } from "../schema.js";
 // a machine that was pasted may hold anything
 const listed = (request, pointer) => [get(request, pointer) ?? []].flat();
 
+// with nothing that anybody has not typed: what must be given as nothing is no limit
+export function blankOf(schema, { properties, required }) {
+  const empty = Object.keys(properties).filter((name) => required.has(name) && schema.describe(properties[name]).nullable);
+  return { ..."name" in properties ? { name: "1" } : {}, ...Object.fromEntries(empty.filter((name) => name.startsWith("max_")).map((name) => [name, null])) };
+}
+
 export class ListSource {
   constructor(form, pointer, description) {
     this.form = form;
@@ -18,11 +24,8 @@ export class ListSource {
     return listed(this.form.request, this.pointer).map((item, index) => ({ pointer: join(this.pointer, index), list: this.pointer, index, item }));
   }
 
-  // with nothing that anybody has not typed: what must be given as nothing is no limit
   blank() {
-    const { properties, required } = this.items;
-    const empty = Object.keys(properties).filter((name) => required.has(name) && this.form.schema.describe(properties[name]).nullable);
-    return { ..."name" in properties ? { name: "1" } : {}, ...Object.fromEntries(empty.filter((name) => name.startsWith("max_")).map((name) => [name, null])) };
+    return blankOf(this.form.schema, this.items);
   }
 
   // like `from`, or like the last one; the first one is blank

@@ -1,0 +1,77 @@
+// A sheet as it was copied: tables with their heads one below the other, an empty line between them, and single values
+// of the machine beside their names.
+
+import { read } from "../quantity.js";
+import { nearest } from "../words.js";
+import { cellsOf, headOf, numeric, withUnit } from "./paste.js";
+
+const LISTS = ["/machine/throws", "/machine/webs"];
+const FEWEST_HEADS = 2;
+
+export class Sheet {
+  // whether a text is tables at all
+  static like = (text) => /[\t;]/.test(text) && text.trim().includes("\n");
+
+  constructor(form, text) {
+    this.form = form;
+    for (const list of LISTS) form.opened(list);
+    /** @type {{ grid: any, text: string }[]} */
+    this.tables = [];
+    /** @type {string[][]} */
+    this.values = [];
+    for (const block of blocksOf(text)) this.sort(block);
+  }
+
+  // values first; the table whose heads it has takes the rest
+  sort(block) {
+    const lines = block.split("\n");
+    const cells = cellsOf(block);
+    const first = cells.findIndex((line) => !named(line));
+    this.values.push(...cells.slice(0, first < 0 ? undefined : first));
+    if (first < 0) return;
+    const grids = LISTS.flatMap((list) => this.form.gridsOf(list));
+    // a line of one word above the heads is a title
+    const start = cells[first].filter(Boolean).length === 1 && lines.length > first + 1 ? first + 1 : first;
+    const known = grids.map((grid) => ({ grid, heads: grid.heads(cells[start]) })).sort((one, other) => other.heads - one.heads)[0];
+    if (known?.heads >= FEWEST_HEADS) this.tables.push({ grid: known.grid, text: lines.slice(start).join("\n") });
+    else this.values.push(...cells.slice(start));
+  }
+
+  has(item) {
+    return this.tables.some(({ grid }) => grid.table.item === item);
+  }
+
+  // what was done, in words
+  fill() {
+    const unknown = this.values.filter((line) => !this.value(line)).map(([name]) => name);
+    const order = ["throw", "row", "web"];
+    const done = [...this.tables].sort((one, other) => order.indexOf(one.grid.table.item) - order.indexOf(other.grid.table.item)).map(({ grid, text }) => {
+      // the one that stands in its place by now
+      const now = this.form.gridsOf(grid.source.pointer).find((one) => one.table === grid.table);
+      const count = now.fill(text, 0, 0, {});
+      return `${count} ${grid.table.item}${count === 1 ? "" : "s"}`;
+    });
+    if (this.values.length) this.form.refresh();
+    return `Pasted: ${[...done, ...this.values.filter(([name]) => !unknown.includes(name)).map(([name]) => name)].join(", ") || "nothing"}.`
+      + `${unknown.length ? ` Not understood: ${unknown.join(", ")}.` : ""}`;
+  }
+
+  // a number of the machine under its name; whether it has one
+  /** @param {string[]} line */
+  value(line) {
+    const { form } = this;
+    const [name, text = ""] = line;
+    const [word, unit] = headOf(name);
+    const found = nearest(word, form.schema.namesAt(form.root, form.request, ["machine"]));
+    const description = found && form.schema.at(form.root, form.request, ["machine", found]);
+    if (description?.kind !== "number") return false;
+    form.put(`/machine/${found}`, read(withUnit(text, unit, description.unit), description.unit));
+    return true;
+  }
+}
+
+const named = ([name, value, ...rest]) => name && !numeric(name) && value && numeric(value) && !rest.some(Boolean);
+
+function blocksOf(text) {
+  return text.replace(/\r/g, "").split(/\n(?:[\t; ]*\n)+/).map((block) => block.replace(/^\n+|\n+$/g, "")).filter((block) => block.trim());
+}
