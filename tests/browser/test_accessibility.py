@@ -1,13 +1,14 @@
 """axe-core finds nothing serious, in light and dark, wide and narrow; and what it cannot see."""
 
-from typing import Any
+from typing import Any, Literal
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 
-from tests.browser.portal import Look, Portal
+from tests.browser.portal import Look, Portal, ask
 
 SERIOUS = ("serious", "critical")
+SCHEMES: tuple[Literal["light", "dark"], ...] = ("light", "dark")
 PANELS = ("counterweights", "hodographs", "orders", "pareto", "torque", "main-bearings", "pin-loads", "sweep")
 
 
@@ -23,13 +24,31 @@ def test_axe_finds_nothing_serious(portal: Portal, example: str, options: Look) 
     portal.unfold("/machine", "/machine/webs", "/machine/webs/0")
     portal.page.locator("#paste > summary").click()
     portal.screenshot(f"{example}-{options.scheme}-{options.width}")
+    assert _serious(portal) == []
+
+
+def _serious(portal: Portal) -> list[Any]:
     found = Axe().run(portal.page).response["violations"]
-    serious = [
-        (one["id"], one["help"], [node["html"][:160] for node in one["nodes"][:3]])
-        for one in found
-        if one["impact"] in SERIOUS
-    ]
-    assert serious == []
+    return [(one["id"], [node["html"][:160] for node in one["nodes"][:3]]) for one in found if one["impact"] in SERIOUS]
+
+
+@pytest.mark.parametrize("options", [Look()])
+@pytest.mark.parametrize("which", ["some", pytest.param("all", marks=pytest.mark.nightly)])
+def test_examples_and_the_beginning_in_both_colours(portal: Portal, url: str, which: str) -> None:
+    portal.page.goto(f"{url}/")
+    portal.page.get_by_role("heading", name="Begin with your machine").wait_for()
+    names = [one["name"] for one in ask(url, "/v1/examples")["examples"]]
+    found = {}
+    for name in ("", *(names if which == "all" else ("six-columns", "single-balance-shaft"))):
+        if name:
+            portal.page.select_option("#example", name)
+            portal.page.wait_for_url(f"**#example={name}&*")
+            portal.page.wait_for_selector("#results:not([aria-busy])")
+            portal.page.wait_for_selector("#results[data-drawn]")
+        for scheme in SCHEMES:
+            portal.page.emulate_media(color_scheme=scheme)
+            found[name, scheme] = _serious(portal)
+    assert {where: what for where, what in found.items() if what} == {}
 
 
 @pytest.mark.parametrize("options", [Look()])

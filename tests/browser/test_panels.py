@@ -11,6 +11,7 @@ ALWAYS = (
     "what-if",
     "versions",
     "hodographs",
+    "turning",
     "over-angle",
     "orders",
     "pareto",
@@ -21,9 +22,9 @@ ALWAYS = (
 )
 DRIVEN = ("torque", "rod-loads", "flywheel", "main-bearings")
 MACHINES = {
-    "2d12": (*ALWAYS, "cranks", "picture-indicator", *DRIVEN),
+    "2d12": (*ALWAYS, "cranks", "match", "picture-indicator", "picture-bearings", *DRIVEN),
     # by inertia alone
-    "v8-cross-plane": (*ALWAYS, "cranks", "torque", "rod-loads"),
+    "v8-cross-plane": (*ALWAYS, "cranks", "match", "torque", "rod-loads"),
     "scroll-three-pins": (*ALWAYS, "pin-loads"),
 }
 #: plots of each panel; the others hold tables and forms
@@ -201,3 +202,56 @@ def test_an_engine_is_drawn_over_both_turns(portal: Portal) -> None:
     marks = portal.panel("torque").locator(".xtick text").all_text_contents()
     # analytic: six equal parts of two turns
     assert [mark.strip() for mark in marks] == ["0", "120", "240", "360", "480", "600", "720"]
+
+
+def test_any_two_responses_are_traded(portal: Portal, url: str) -> None:
+    portal.open("v60", ("pareto",))
+    panel = portal.panel("pareto")
+    # without bearings there is nothing to trade of them
+    names = [one.get_attribute("value") for one in panel.locator("#trade-x option").all()]
+    assert {"force", "moment", "mass"} <= set(names)
+    assert not {"bearings", "bending"} & set(names)
+    panel.locator("#trade-y").select_option("mass")
+    panel.locator("[role=img][aria-label*='total mass, kg']").wait_for()
+    body = portal.bodies("/v1/pareto")[-1]
+    assert body["responses"] == ["force", "mass"]
+    points = ask(url, "/v1/pareto", body)["trades"][0]["points"]
+    slider = panel.locator("#pareto-point")
+    slider.focus()
+    slider.press("Home")
+    _shows(panel, points[0], 1, len(points))
+    chosen = cells(panel.locator(".picked table").first)[0]
+    values = [float(text.replace(",", "")) for text in chosen[:2]]
+    assert values == pytest.approx(points[0]["values"], rel=1e-4, abs=1e-4)
+    # chosen twice: they change places; and a link keeps it
+    panel.locator("#trade-x").select_option("mass")
+    panel.get_by_text("Point, from least mass to least force").wait_for()
+    portal.page.wait_for_url("**trade=mass,force*")
+
+
+def test_the_crank_turns_with_its_force_and_moment(portal: Portal, url: str) -> None:
+    portal.open("v60", ("turning",))
+    panel = portal.panel("turning")
+    panel.locator("#turning-angle").fill("45")
+    assert panel.locator("output").inner_text() == "90°"
+    # analytic: a clockwise shaft has turned by a right angle, which is positive where y points down
+    assert (panel.locator("svg .throw").first.get_attribute("transform") or "").startswith("rotate(90 ")
+    request = portal.bodies("/v1/optimize")[0]
+    after = ask(url, "/v1/optimize", request)["hodograph"]["after"]
+    size = (after["force_x_N"][45] ** 2 + after["force_y_N"][45] ** 2) ** 0.5
+    words = panel.locator("figcaption").nth(1).inner_text()
+    said = words.rsplit("after ", 1)[1].removesuffix(" N").replace(",", "")
+    assert float(said) == pytest.approx(size, rel=1e-3, abs=1e-3)
+    panel.get_by_role("button", name="Turn").click()
+    stop = panel.get_by_role("button", name="Stop")
+    assert stop.get_attribute("aria-pressed") == "true"
+    stop.click()
+    panel.get_by_role("button", name="Turn").wait_for()
+
+
+def test_who_asks_for_less_motion_turns_by_hand(portal: Portal) -> None:
+    portal.page.emulate_media(reduced_motion="reduce")
+    portal.open("v60", ("turning",))
+    panel = portal.panel("turning")
+    panel.get_by_role("button", name="Turn by 30°").click()
+    assert panel.locator("output").inner_text() == "30°"

@@ -43,6 +43,13 @@ def test_no_column_is_cut_off_on_a_phone(portal: Portal) -> None:
         "all => all.filter((one) => one.scrollWidth > one.clientWidth + 1).map((one) => one.ariaLabel)"
     )
     assert cut == []
+    # what is typed into stands in labelled cards, as wide as the page
+    portal.unfold("/machine", "/machine/throws", "/machine/webs")
+    typed = portal.page.locator("#form .grid .wide")
+    assert typed.evaluate_all("all => all.filter((one) => one.scrollWidth > one.clientWidth + 1).length") == 0
+    cell = typed.first.locator("td").nth(1)
+    assert cell.evaluate("one => getComputedStyle(one, '::before').content") == '"position, m"'
+    assert (cell.locator("input").bounding_box() or {})["width"] > 120
     # heads stand beside their figures
     first = portal.page.locator("#answer table.cards td").first
     assert first.evaluate("one => getComputedStyle(one, '::before').content") == '"mass, kg"'

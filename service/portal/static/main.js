@@ -15,9 +15,10 @@ import { hodographs, orders, overAngle } from "./panels/first_order.js";
 import { match } from "./panels/match.js";
 import { missing, offered, Panels } from "./panels/panels.js";
 import { pareto } from "./panels/pareto.js";
-import { indicator, orderHodographs, stageScheme } from "./panels/pictures.js";
+import { bearingCurves, indicator, orderHodographs, stageScheme } from "./panels/pictures.js";
 import { pins } from "./panels/pins.js";
 import { sweep } from "./panels/sweep.js";
+import { turning } from "./panels/turning.js";
 import { versions } from "./panels/versions.js";
 import { whatIf } from "./panels/what_if.js";
 import { load as loadPlots } from "./plots.js";
@@ -31,7 +32,7 @@ import { workbooks } from "./workbook.js";
 
 const MODEL = "OptimizeRequest";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
-const PANELS = [counterweights, whatIf, versions, cranks, hodographs, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, pins, match, sweep];
+const PANELS = [counterweights, whatIf, versions, cranks, hodographs, turning, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, bearingCurves, pins, match, sweep];
 
 const schema = get("openapi.json").then((document) => new Schema(document));
 const examples = get("v1/examples");

@@ -62,6 +62,12 @@ export class Schema {
     return shape.properties?.[first] ? this.at(this.describe(shape.properties[first]), value?.[first], rest) : null;
   }
 
+  // what a list of names may hold
+  options(model, name) {
+    const list = this.alternatives(this.known[model].properties[name]).find((one) => one.type === "array");
+    return this.deref(list.items).enum;
+  }
+
   namesAt(description, value, parts) {
     return Object.keys(this.at(description, value, parts)?.properties ?? {});
   }

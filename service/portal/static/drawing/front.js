@@ -9,7 +9,8 @@ import { arc, circle, degrees, line, metres, points, polar, radians, radiiOf, re
 const MIDDLE = [WIDTH / 2, WIDTH / 2];
 const MOST_NAMES = 16;
 
-export function front(machine, counterweights) {
+// names stand where things are at angle 0
+export function front(machine, counterweights, { named = true } = {}) {
   const reach = Math.max(...radiiOf(machine), 1e-12);
   const scale = (0.36 * WIDTH) / reach;
   const fitted = carried(counterweights);
@@ -25,7 +26,7 @@ export function front(machine, counterweights) {
   machine.kind === "scroll" ? scroll(machine, scale) : cranks(machine, scale),
   circle(MIDDLE, 5, { class: "shaft" }),
   sense(MIDDLE, 0.47 * WIDTH, machine.rotation),
-  labels([...cranksNamed(machine, scale), ...websNamed(fitted, scale)], [WIDTH, WIDTH]));
+  named ? labels([...cranksNamed(machine, scale), ...websNamed(fitted, scale)], [WIDTH, WIDTH]) : null);
 }
 
 function axes() {

@@ -38,7 +38,7 @@ export class Grid {
   line(entry, row) {
     const cells = this.columns.map((column) => this.cell(column, entry, row));
     return h("tr", { focusin: () => this.mark(row), keydown: (event) => this.key(event, row) }, h("th", { scope: "row" }, String(row + 1)),
-      this.source.owners ? h("td", { class: "cell" }, this.owner(entry, row)) : null, cells);
+      this.source.owners ? h("td", { class: "cell", "data-head": "throw" }, this.owner(entry, row)) : null, cells);
   }
 
   owner(entry, row) {
@@ -60,7 +60,7 @@ export class Grid {
       : h("input", { ...attributes, type: "text", autocomplete: "off", spellcheck: "false", class: column.kind, placeholder: placeholder(column),
         input: () => this.typed(at, column, input.value) });
     input.value = value === null || value === undefined ? "" : String(value);
-    return h("td", { class: `field cell is-${column.kind}`, dataset: { pointer: at } }, input, h("p", { class: "error", id: `error-${at}` }));
+    return h("td", { class: `field cell is-${column.kind}`, dataset: { pointer: at, head: `${column.head}${column.unit ? `, ${column.unit}` : ""}` } }, input, h("p", { class: "error", id: `error-${at}` }));
   }
 
   typed(at, column, text) {

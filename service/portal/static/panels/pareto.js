@@ -1,27 +1,42 @@
-// The trade-off between force and moment: every point is a set of counterweights.
+// The trade-off of any two responses: every point is a set of counterweights.
 
 import { h, table } from "../dom.js";
 import { front } from "../drawing/front.js";
 import { figure, number, share } from "../format.js";
 import { colours, plot } from "../plots.js";
 import { counterweightTable } from "./counterweights.js";
+import { missing } from "./panels.js";
 
 const POINTS = 21;
+// over the whole turn a point takes several programs
+const POINTS_OVER_THE_TURN = 11;
+const USUAL = ["force", "moment"];
+const WORDS = { force: "peak force", moment: "peak moment", bearings: "largest bearing load", bending: "largest bending moment", mass: "total mass", roll: "roll moment" };
+const NEEDS = { bearings: ["rods", "bearings"], bending: ["rods", "bearings"], roll: ["rods"] };
 const WHY = {
-  reached_together: "Force and moment are smallest at the same counterweights: there is nothing to trade.",
+  reached_together: "Both are smallest at the same counterweights: there is nothing to trade.",
   resolution: "Points that rounding could not tell apart were left out.",
   undecided: "The ceilings are on the very boundary of what can be reached.",
 };
 
 export const pareto = {
-  id: "pareto", title: "Trade-off of force, moment and mass",
-  about: "Points that no other counterweights beat in both peaks. Choose one to see its counterweights.",
-  async draw(body, { request, ask, keep, kept }) {
+  id: "pareto", title: "Trade-off of any two responses",
+  about: "Points that no other counterweights beat in both. Choose one to see its counterweights.",
+  async draw(body, context) {
+    const { request, ask, keep, kept } = context;
+    const names = (await context.schema).options("ParetoRequest", "responses").filter((name) => !missing({ needs: NEEDS[name] }, request.machine).length);
+    const asked = kept.trade?.split(",") ?? USUAL;
+    const pair = new Set(asked).size === 2 && asked.every((name) => names.includes(name)) ? asked : USUAL;
+    const choice = axes(names, pair, (chosen) => {
+      delete kept.point;
+      keep("trade", chosen.join(","));
+      return pareto.draw(body, context);
+    });
+    body.replaceChildren(choice);
     const { angles: _angles, fidelity: _fidelity, ...rest } = request;
-    const answer = await ask("v1/pareto", { ...rest, points: POINTS });
-    const [found] = answer.fronts;
+    const found = await frontOf(pair, rest, ask);
     if (!found.points.length) {
-      body.replaceChildren(h("p", {}, "No counterweights satisfy the ceilings: there is no front."));
+      body.append(h("p", {}, "No counterweights satisfy the ceilings: there is no front."));
       return;
     }
     const node = h("div");
@@ -29,51 +44,72 @@ export const pareto = {
     const slider = h("input", { id: "pareto-point", type: "range", min: 0, max: found.points.length - 1, step: 1,
       input: () => pick(Number(slider.value)) });
     let chosen = 0;
-    const draw = () => plot(node, () => picture(found, answer, chosen, (point) => point.data.meta === "front" && pick(point.pointIndex)));
+    const draw = () => plot(node, () => picture(found, chosen, (point) => point.data.meta === "front" && pick(point.pointIndex)));
     const choose = (index) => {
       chosen = index;
       slider.value = index;
-      show(picked, request.machine, found.points[index], index, found.points.length);
+      show(picked, request.machine, found, index);
       return draw();
     };
     const pick = (index) => {
       keep("point", index + 1);
       return choose(index);
     };
-    body.replaceChildren(...[node,
-      h("div", { class: "slide" }, h("label", { for: "pareto-point" }, "Point, from least force to least moment"), slider),
+    body.replaceChildren(...[choice, node,
+      h("div", { class: "slide" }, h("label", { for: "pareto-point" }, `Point, from least ${pair[0]} to least ${pair[1]}`), slider),
       found.reason ? h("p", { class: "about" }, WHY[found.reason]) : null, picked].filter(Boolean));
     const before = Number(kept.point) - 1;
     await choose(found.points[before] ? before : found.knee ?? 0);
   },
 };
 
-function picture(found, answer, chosen, click) {
+// which is traded for which; the one that is chosen twice makes the other give way
+function axes(names, [x, y], chosen) {
+  const select = (id, title, value, other, order) => h("div", { class: "choose" }, h("label", { for: id }, title),
+    h("select", { id, change: (event) => chosen(order(event.target.value, event.target.value === other ? value : other)) },
+      names.map((name) => h("option", { value: name, selected: name === value }, WORDS[name] ?? name))));
+  return h("div", { class: "controls" }, select("trade-x", "Trade", x, y, (mine, other) => [mine, other]), select("trade-y", "for", y, x, (mine, other) => [other, mine]));
+}
+
+// {points: [{values, total_mass_kg, counterweights, gap}], titles, bare, reason, knee}
+async function frontOf(pair, request, ask) {
+  if (pair.every((name, index) => name === USUAL[index])) {
+    const answer = await ask("v1/pareto", { ...request, points: POINTS });
+    const [found] = answer.fronts;
+    const bare = answer.without_counterweights;
+    return { ...found, titles: ["peak force, N", "peak moment, N m"], bare: [bare.force.peak_N, bare.moment.peak_Nm],
+      points: found.points.map((one) => ({ ...one, values: [one.force_peak_N, one.moment_peak_Nm] })) };
+  }
+  const [found] = (await ask("v1/pareto", { ...request, points: POINTS_OVER_THE_TURN, responses: pair })).trades;
+  return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
+}
+
+function picture({ points, titles, bare }, chosen, click) {
   const { before, after, mark } = colours();
-  const of = (name) => found.points.map((point) => point[name]);
-  const bare = answer.without_counterweights;
-  const here = found.points[chosen];
+  const here = points[chosen].values;
+  const of = (axis) => points.map(({ values }) => values[axis]);
   return {
     click,
     traces: [
-      { x: of("force_peak_N"), y: of("moment_peak_Nm"), mode: "lines+markers", name: "front", meta: "front", line: { color: after },
-        marker: { size: 9, color: after }, customdata: of("total_mass_kg"),
-        hovertemplate: "%{x:.5~s} N, %{y:.5~s} N m, %{customdata:.5~s} kg<extra></extra>" },
-      { x: [here.force_peak_N], y: [here.moment_peak_Nm], mode: "markers", name: "chosen", hoverinfo: "skip",
+      { x: of(0), y: of(1), mode: "lines+markers", name: "front", meta: "front", line: { color: after },
+        marker: { size: 9, color: after }, customdata: points.map((point) => point.total_mass_kg),
+        hovertemplate: "%{x:.5~s}, %{y:.5~s}, %{customdata:.5~s} kg<extra></extra>" },
+      { x: [here[0]], y: [here[1]], mode: "markers", name: "chosen", hoverinfo: "skip",
         marker: { size: 17, symbol: "circle-open", color: mark, line: { width: 3 } } },
-      { x: [bare.force.peak_N], y: [bare.moment.peak_Nm], mode: "markers", name: "without counterweights",
+      { x: [bare[0]], y: [bare[1]], mode: "markers", name: "without counterweights",
         marker: { size: 10, symbol: "x", color: before }, visible: "legendonly" },
     ],
-    layout: { height: 340, xaxis: { title: "peak force, N" }, yaxis: { title: "peak moment, N m" } },
-    label: `Front of ${found.points.length} points; chosen: ${figure(here.force_peak_N)} N and ${figure(here.moment_peak_Nm)} N m.`,
+    layout: { height: 340, xaxis: { title: titles[0] }, yaxis: { title: titles[1] } },
+    label: `Front of ${points.length} points; chosen: ${titles.map((title, axis) => `${title} ${figure(here[axis])}`).join(" and ")}.`,
   };
 }
 
-function show(place, machine, point, index, count) {
+function show(place, machine, { points, titles }, index) {
+  const point = points[index];
   place.replaceChildren(
-    h("h3", {}, `Point ${index + 1} of ${count}`),
-    table("The chosen point", ["peak force, N", "peak moment, N m", "total mass, kg", "proved to within"],
-      [[figure(point.force_peak_N), number(point.moment_peak_Nm), number(point.total_mass_kg),
-        { number: true, text: point.certificate.relative_gap === null ? "none" : share(point.certificate.relative_gap) }]]),
+    h("h3", {}, `Point ${index + 1} of ${points.length}`),
+    table("The chosen point", [...titles, "all counterweights, kg", "proved to within"],
+      [[figure(point.values[0]), number(point.values[1]), number(point.total_mass_kg),
+        { number: true, text: point.certificate.relative_gap === null ? "none" : share(Math.max(0, point.certificate.relative_gap)) }]]),
     h("div", { class: "beside" }, front(machine, point.counterweights), counterweightTable(point.counterweights)));
 }

@@ -13,4 +13,5 @@ const picture = (name, panel) => ({
 
 export const stageScheme = picture("stages", { title: "Balancing stages", needs: ["rods"] });
 export const orderHodographs = picture("orders", { title: "Hodographs of every order", needs: ["rods"] });
+export const bearingCurves = picture("bearings", { title: "Curves of all bearings, with their smallest circles", kind: "reciprocating", needs: ["rods", "bearings"] });
 export const indicator = picture("indicator", { title: "Indicator diagrams", kind: "reciprocating", needs: ["rods", "cylinders"] });

@@ -5,8 +5,7 @@ import { PinPicture } from "../drawing/pins.js";
 import { figure, number } from "../format.js";
 import { line, overTurn, plot, series } from "../plots.js";
 import { scene } from "./dynamics.js";
-
-const SECONDS_A_TURN = 6;
+import { turner } from "./turner.js";
 
 export const pins = {
   id: "pin-loads", output: "pin_loads", title: "Pin loads", kind: "scroll", needs: ["pins"],
@@ -33,39 +32,6 @@ export const pins = {
 
 function animated(machine, found) {
   const picture = new PinPicture(machine, found);
-  const count = found.angle_deg.length;
-  const angle = h("input", { id: "pin-angle", type: "range", min: 0, max: count - 1, step: 1, value: 0,
-    input: () => { stop(); show(Number(angle.value)); } });
-  const shown = h("output", { for: "pin-angle" });
-  const button = h("button", { type: "button", "aria-pressed": "false", click: () => (running ? stop() : start()) }, "Turn");
-  let running = null;
-  const show = (step) => {
-    picture.at(step);
-    angle.value = step;
-    shown.textContent = `${figure(found.angle_deg[step])}°`;
-  };
-  const stop = () => {
-    cancelAnimationFrame(running);
-    running = null;
-    button.setAttribute("aria-pressed", "false");
-    button.textContent = "Turn";
-  };
-  const start = () => {
-    const from = Number(angle.value);
-    let began = null;
-    const step = (now) => {
-      // a panel that is closed or drawn again needs no frames
-      if (!picture.element.isConnected || !picture.element.checkVisibility()) return stop();
-      began ??= now;
-      show(Math.floor(from + (count * (now - began)) / (1000 * SECONDS_A_TURN)) % count);
-      running = requestAnimationFrame(step);
-      return undefined;
-    };
-    button.setAttribute("aria-pressed", "true");
-    button.textContent = "Stop";
-    running = requestAnimationFrame(step);
-  };
-  show(0);
-  return h("div", { class: "animated" }, picture.element,
-    h("div", { class: "slide" }, button, h("label", { for: "pin-angle" }, "Shaft angle"), angle, shown));
+  const seen = () => picture.element.isConnected && picture.element.checkVisibility();
+  return h("div", { class: "animated" }, picture.element, turner("pin-angle", found.angle_deg, (step) => picture.at(step), seen));
 }
