@@ -105,6 +105,14 @@ def test_rows_are_the_single_answers(task: str, design: str) -> None:
     assert seen >= {"invalid", "optimal" if task == "optimize" else "analyzed"}
 
 
+def test_a_pressure_may_vary_alone() -> None:
+    path = "/machine/throws/0/rows/0/cylinder/pressure/head/pressure_Pa/5"
+    request = sweep(ANALYZED["indicated pressures"], {"path": path, "values": [9e5, 11e5, 13e5]}, task="analyze")
+    rows = table(request).to_pylist()
+    assert {assert_row_is_the_single_answer(request, row) for row in rows} == {"analyzed"}
+    assert len({row["mean_torque_Nm"] for row in rows}) == 3
+
+
 @pytest.mark.parametrize("seed", range(60))
 def test_columns_of_every_output_are_the_single_answers(seed: int) -> None:
     # property: to rounding, for as they stand machines bring no solver between

@@ -87,7 +87,8 @@ def row_series(rows, places, reading, order):  # type: ignore[no-untyped-def]
     bounded, vector = places.half.size > 0, reading in (ON_SHAFT, ON_FRAME)
     designs, count = rows.motion.shape[:2]
     some, angles = places.centre.shape
-    number = max(designs, some)
+    # the pressures may differ between designs that have all else in common
+    number = max(designs, some, places.pressure.shape[1])
     middle = np.empty((2 if vector else 1, order + 1, number, count, angles))
     radius = np.empty((order + 1 if bounded else 0, number, count, angles))
     series = Series(np.zeros((_FUNCTIONS, order + 1)), np.zeros((_FUNCTIONS, order + 1)), bounded)
