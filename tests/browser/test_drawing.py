@@ -30,6 +30,17 @@ def test_no_name_is_hidden(portal: Portal, example: str) -> None:
         assert (pairs, below) == ([], [])
 
 
+def test_names_stand_clear_of_their_counterweights(portal: Portal) -> None:
+    portal.open("2d12")
+    boxes = """(all) => all.map((one) => one.getBoundingClientRect())
+      .map((box) => [box.left, box.top, box.right, box.bottom])"""
+    names = portal.page.locator("#drawings .front text.name.web").evaluate_all(boxes)
+    shapes = portal.page.locator("#drawings .front .counterweight circle").evaluate_all(boxes)
+    assert (len(names), len(shapes)) == (2, 4)
+    for left, top, right, bottom in names:
+        assert all(right < one[0] or left > one[2] or bottom < one[1] or top > one[3] for one in shapes)
+
+
 def _module(portal: Portal, name: str, call: str, given: Any) -> Any:
     address = f"{portal.url}/portal/{release()}/{name}"
     return portal.page.evaluate(

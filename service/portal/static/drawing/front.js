@@ -14,6 +14,7 @@ export function front(machine, counterweights, { named = true } = {}) {
   const reach = Math.max(...radiiOf(machine), 1e-12);
   const scale = (0.36 * WIDTH) / reach;
   const fitted = carried(counterweights);
+  const webs = new Map((machine.webs ?? []).map((web) => [web.name, web]));
   const names = fitted.map((one) => `${one.web} ${figure(one.mass_kg, 3)} kg at ${figure(one.angle_deg, 4)}°`);
   return s("svg", {
     viewBox: `0 0 ${WIDTH} ${WIDTH}`, class: `drawing front${(machine.throws?.length ?? 0) > MOST_NAMES ? " many" : ""}`, role: "img",
@@ -22,11 +23,11 @@ export function front(machine, counterweights, { named = true } = {}) {
   axes(),
   (machine.throws ?? []).flatMap((each) => rows(each)),
   (machine.webs ?? []).map((web) => allowed(web, scale)),
-  shapes(machine, fitted, scale),
+  shapes(webs, fitted, scale),
   machine.kind === "scroll" ? scroll(machine, scale) : cranks(machine, scale),
   circle(MIDDLE, 5, { class: "shaft" }),
   sense(MIDDLE, 0.47 * WIDTH, machine.rotation),
-  named ? labels([...cranksNamed(machine, scale), ...websNamed(fitted, scale)], [WIDTH, WIDTH]) : null);
+  named ? labels([...cranksNamed(machine, scale), ...websNamed(webs, fitted, scale)], [WIDTH, WIDTH]) : null);
 }
 
 function axes() {
@@ -54,25 +55,31 @@ function allowed(web, scale) {
 }
 
 // true to shape where the shape is known; else a disc about the centre of mass. The largest lie below the smaller.
-function shapes(machine, fitted, scale) {
-  const webs = new Map((machine.webs ?? []).map((web) => [web.name, web]));
+function shapes(webs, fitted, scale) {
   return [...fitted].sort((one, other) => other.mass_kg - one.mass_kg).map((one) => {
-    const known = outline(one, webs.get(one.web) ?? {});
     const title = s("title", {}, `${one.web}: ${figure(one.mass_kg)} kg at ${figure(one.angle_deg)}°, radius ${figure(one.radius_m)} m`);
+    const known = placed(one, webs, scale);
     const attributes = { class: `counterweight${one.fixed ? " fixed" : ""}${known ? "" : " unknown"}` };
-    if (!known) return s("g", attributes, circle(polar(MIDDLE, scale * one.radius_m, one.angle_deg), Math.max(3, scale * disc(one, fitted)), {}), title);
-    const direction = radians(one.angle_deg);
-    const placed = known.map(([along, across]) => [
-      MIDDLE[0] + scale * (along * Math.cos(direction) - across * Math.sin(direction)),
-      MIDDLE[1] - scale * (along * Math.sin(direction) + across * Math.cos(direction))]);
-    return s("g", attributes, s("polygon", { points: points(placed) }), title);
+    const drawn = known ? s("polygon", { points: points(known) }) : circle(centre(one, scale), round(one, fitted, scale), {});
+    return s("g", attributes, drawn, title);
   });
+}
+
+const centre = (one, scale) => polar(MIDDLE, scale * one.radius_m, one.angle_deg);
+const round = (one, fitted, scale) => Math.max(3, scale * disc(one, fitted));
+
+function placed(one, webs, scale) {
+  const direction = radians(one.angle_deg);
+  const known = outline(one, webs.get(one.web) ?? {});
+  return known && known.map(([along, across]) => [
+    MIDDLE[0] + scale * (along * Math.cos(direction) - across * Math.sin(direction)),
+    MIDDLE[1] - scale * (along * Math.sin(direction) + across * Math.cos(direction))]);
 }
 
 const together = (names, many) => (names.length > 4 ? `${names.length} ${many}` : names.join(", "));
 
-// those in the same place have one label
-function websNamed(fitted, scale) {
+// those in the same place have one label: beyond the shape; above it where that is beside it, for there run the axes of rows
+function websNamed(webs, fitted, scale) {
   const places = new Map();
   for (const one of fitted) {
     const place = `${Math.round(one.angle_deg)} ${one.radius_m.toPrecision(2)}`;
@@ -81,10 +88,18 @@ function websNamed(fitted, scale) {
   return places.size > MOST_NAMES ? [] : [...places.values()].map((group) => {
     const [first] = group;
     const content = together(group.map((one) => one.web), "webs");
+    if (Math.abs(Math.cos(radians(first.angle_deg))) > Math.SQRT1_2) {
+      return { x: centre(first, scale)[0], y: Math.min(...group.map((one) => top(one, webs, fitted, scale))) - 10, content, class: "web" };
+    }
     const [x, y] = polar(MIDDLE, scale * (first.shape?.outer_radius_m ?? first.radius_m + disc(first, fitted)) + 14, first.angle_deg);
     // beside a shape the name begins where the shape ends
     return { x: x + 3.5 * content.length * Math.cos(radians(first.angle_deg)), y, content, class: "web" };
   });
+}
+
+function top(one, webs, fitted, scale) {
+  const known = placed(one, webs, scale);
+  return known ? Math.min(...known.map(([, y]) => y)) : centre(one, scale)[1] - round(one, fitted, scale);
 }
 
 function placesOf(machine) {
@@ -108,7 +123,8 @@ function cranksNamed(machine, scale) {
   const places = placesOf(machine);
   return places.length > MOST_NAMES ? [] : places.map(({ each, names }) => {
     const [x, y] = polar(MIDDLE, scale * metres(each.crank_radius_m), each.crank_angle_deg);
-    return { x, y: y - 17, content: together(names, "throws") };
+    // never on the crank itself
+    return { x, y: y > MIDDLE[1] + 1 ? y + 17 : y - 17, content: together(names, "throws") };
   });
 }
 
