@@ -1,4 +1,4 @@
-"""Ways to solve a sweep side by side, on one core: cvxpy, cvxpy with parameters, clarabel itself, and ours.
+"""Ways to solve a sweep side by side, on one core: cvxpy, cvxpy with parameters, clarabel, moreau in batches, and ours.
 
 ``python -m tests.benchmarks.sweep``; part of `make bench`. The methods take turns, so that a slow moment of the
 machine meets them all, and what counts is CPU time, as others may use it too. The others get the formulated program of
@@ -29,9 +29,9 @@ from schemas.sweep import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks import sweep_time
 from tests.benchmarks.sweep_case import Program, programs, sweep
-from tests.benchmarks.sweep_rivals import Direct, Gaps, Parametrised, Stages, gaps, rebuilt
+from tests.benchmarks.sweep_rivals import Batch, Direct, Gaps, Parametrised, Stages, gaps, rebuilt
 
-OURS = "(d) ours, axes to Parquet"
+OURS = "(e) ours, axes to Parquet"
 
 
 @dataclass
@@ -57,20 +57,22 @@ def our_rows(request: SweepRequest) -> bytes:
     return KINDS["sweep"].compute(request.model_dump_json().encode(), 0, request.total, lambda: None).content
 
 
-def compare(request: SweepRequest, designs: tuple[int, int, int], turns: int) -> tuple[dict[str, Rate], pa.Table]:
+def compare(request: SweepRequest, designs: tuple[int, int, int, int], turns: int) -> tuple[dict[str, Rate], pa.Table]:
     """Rates of all methods, and the rows of ours.
 
     Parameters
     ----------
-    designs : number of designs in a turn of (a), (b) and (c), spread over the sweep; (d) takes all.
+    designs : number of designs in a turn of (a) to (d), spread over the sweep; for (d) one batch; (e) takes all.
     """
     chosen = programs(request, np.linspace(0, request.total - 1, max(designs), dtype=int))
     parametrised, direct = Parametrised(chosen[0]), Direct(chosen[0])
     prepared = [direct.prepare(program) for program in chosen]
-    methods: dict[str, Callable[[int], Stages]] = {
-        "(a) cvxpy, rebuilt for each design": lambda i: rebuilt(chosen[i]),
-        "(b) cvxpy, compiled once (DPP)": lambda i: parametrised(chosen[i]),
-        "(c) clarabel, prepared matrices": lambda i: direct.solve(chosen[i], prepared[i]),
+    batch = Batch([chosen[i] for i in _picks(len(chosen), designs[3])])
+    methods: dict[str, Callable[[list[int]], list[Stages]]] = {
+        "(a) cvxpy, rebuilt for each design": lambda picks: [rebuilt(chosen[i]) for i in picks],
+        "(b) cvxpy, compiled once (DPP)": lambda picks: [parametrised(chosen[i]) for i in picks],
+        "(c) clarabel, prepared matrices": lambda picks: [direct.solve(chosen[i], prepared[i]) for i in picks],
+        "(d) moreau, stacked matrices": lambda _: batch.solve(),
     }
     rates = {name: Rate(count) for name, count in zip(methods, designs, strict=True)}
     rates[OURS] = Rate(request.total)
@@ -81,7 +83,7 @@ def compare(request: SweepRequest, designs: tuple[int, int, int], turns: int) ->
         for name, method in methods.items():
             rate, picks = rates[name], _picks(len(chosen), rates[name].designs)
             began = time.process_time()
-            found = [method(i) for i in picks]
+            found = method(picks)
             _count(rate, time.process_time() - began, warm=turn > 0)
             rate.worst = _worst(rate.worst, [chosen[i] for i in picks], found)
         began = time.process_time()
@@ -149,7 +151,7 @@ def main() -> None:
     console = Console(width=120)
     console.print(f"on core {pin()}")
     request = sweep(asked.designs)
-    show(console, request, *compare(request, (20, 100, 1000), asked.turns))
+    show(console, request, *compare(request, (20, 100, 1000, 2000), asked.turns))
     sweep_time.show(console, request)
 
 

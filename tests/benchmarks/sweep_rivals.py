@@ -4,11 +4,12 @@ Stage 1: minimise the sum of t_j subject to |constant_j + influence_j p| <= t_j,
 Stage 2: minimise mass @ f subject to the same with |p_k| <= f_k <= 1 and the sum of t_j at most the target.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any, NamedTuple
 
 import clarabel
 import cvxpy as cp
+import moreau
 import numpy as np
 from scipy import sparse
 
@@ -193,3 +194,50 @@ class Direct:
         duals = [np.array(found.z[-3 * terms :]).reshape(-1, 3)[:, 1:] for found in (smallest, lightest)]
         places = [np.array(found.x[: 2 * webs]).reshape(-1, 2) for found in (smallest, lightest)]
         return Stages(*places, *map(_vectors, duals), lightest.z[webs])
+
+
+class Batch:
+    """(d) moreau, the designs of a batch solved together: the same matrices, stacked beforehand."""
+
+    def __init__(self, programs: Sequence[Program]) -> None:
+        self._programs = programs
+        self._terms, self._webs = programs[0].influence.shape
+        direct = Direct(programs[0])
+        stages = [
+            [matrix.tocsr() for matrix in matrices]
+            for matrices in zip(*(direct._matrices(program) for program in programs), strict=True)
+        ]
+        self._values = [np.stack([matrix.data for matrix in matrices]) for matrices in stages]
+        prepared = [direct.prepare(program) for program in programs]
+        first_cost = np.concatenate([np.zeros(2 * self._webs), np.ones(self._terms)])
+        self._costs = np.tile(first_cost, (len(programs), 1)), np.stack([one.mass for one in prepared])
+        self._sides = [np.stack(sides) for sides in zip(*(one.sides for one in prepared), strict=True)]
+        planes = [3] * (self._webs + self._terms)
+        cones = moreau.Cones(so_cone_dims=planes), moreau.Cones(num_nonneg_cones=self._webs + 1, so_cone_dims=planes)
+        self._solvers = [self._compiled(matrices[0], cone) for matrices, cone in zip(stages, cones, strict=True)]
+
+    def _compiled(self, matrix: sparse.csr_matrix, cones: moreau.Cones) -> moreau.CompiledSolver:
+        rows, columns = matrix.shape
+        settings = moreau.Settings(solver="ipm", device="cpu", batch_size=len(self._programs))
+        quadratic, linear = np.zeros(columns + 1, dtype=int), (matrix.indptr, matrix.indices)
+        return moreau.CompiledSolver(columns, rows, quadratic, np.zeros(0, dtype=int), *linear, cones, settings)
+
+    def _stage(self, stage: int) -> Any:
+        solver = self._solvers[stage]
+        solver.setup(np.zeros((len(self._programs), 0)), self._values[stage])
+        return solver.solve(self._costs[stage], self._sides[stage])
+
+    def solve(self) -> list[Stages]:
+        """Both stages of all designs."""
+        smallest = self._stage(0)
+        values = self._solvers[0].info.obj_val
+        pairs = zip(values, self._programs, strict=True)
+        self._sides[1][:, self._webs] = [target(value, program) for value, program in pairs]
+        lightest = self._stage(1)
+        duals = [found.z[:, -3 * self._terms :].reshape(-1, self._terms, 3)[..., 1:] for found in (smallest, lightest)]
+        places = [found.x[:, : 2 * self._webs].reshape(-1, self._webs, 2) for found in (smallest, lightest)]
+        prices = lightest.z[:, self._webs]
+        return [
+            Stages(p, p2, _vectors(terms), _vectors(terms2), price)
+            for p, p2, terms, terms2, price in zip(*places, *duals, prices, strict=True)
+        ]

@@ -8,7 +8,7 @@ from tests.benchmarks import sweep_memory, sweep_scaling, sweep_time
 from tests.benchmarks.operations import Counted, operations_per_program
 from tests.benchmarks.sweep import OURS, at_limits, compare
 from tests.benchmarks.sweep_case import programs, sweep
-from tests.benchmarks.sweep_rivals import Direct, Parametrised, gaps, rebuilt
+from tests.benchmarks.sweep_rivals import Batch, Direct, Parametrised, gaps, rebuilt
 
 
 @pytest.fixture(scope="module")
@@ -17,8 +17,8 @@ def request_() -> SweepRequest:
 
 
 def test_every_method_certifies_both_stages(request_: SweepRequest) -> None:
-    rates, rows = compare(request_, (2, 3, 5), turns=1)
-    assert len(rates) == 4
+    rates, rows = compare(request_, (2, 3, 5, 6), turns=1)
+    assert len(rates) == 5
     for rate in rates.values():
         # the asked gap; of the mass what calls an answer inaccurate (optimizer.optimize.MASS_GAP)
         assert rate.worst.objective <= 1e-6
@@ -30,12 +30,14 @@ def test_every_method_certifies_both_stages(request_: SweepRequest) -> None:
 
 
 def test_the_methods_find_the_same_mass(request_: SweepRequest) -> None:
-    # independent: three formulations, two modelling layers
-    for program in programs(request_, (0, 17, 39)):
+    # independent: three formulations, two modelling layers, two solvers
+    chosen = programs(request_, (0, 17, 39))
+    for program, of_batch in zip(chosen, Batch(chosen).solve(), strict=True):
         direct = Direct(program)
-        found = [rebuilt(program), Parametrised(program)(program), direct.solve(program, direct.prepare(program))]
+        alone = direct.solve(program, direct.prepare(program))
+        found = [rebuilt(program), Parametrised(program)(program), alone, of_batch]
         masses = [float(program.statement.mass(program.unbalance(stages.lightest))) for stages in found]
-        assert masses == pytest.approx([masses[0]] * 3, rel=1e-5)
+        assert masses == pytest.approx([masses[0]] * 4, rel=1e-5)
         assert max(gaps(program, stages).objective for stages in found) <= 1e-6
 
 
