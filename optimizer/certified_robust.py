@@ -1,6 +1,6 @@
 """Certified counterweights in the worst case of one request, and what the worst case costs."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +12,7 @@ from optimizer.formulate import RESPONSES
 from optimizer.goals import Goals, bearing_responses, goals
 from optimizer.mechanics.shaft_curves import shaking
 from optimizer.program.cut import Quantity, reached
-from optimizer.program.cuts import Unkept, over_turn
+from optimizer.program.cuts import Found, Unkept, over_turn
 from optimizer.robust import Machine, Measure, Robust
 from optimizer.scene import Prepared
 from schemas.answers import Certificate
@@ -20,8 +20,9 @@ from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.robust import PriceOfRobustness, WorstCase
 
-#: width of brackets of what is shown, relative
-_CLOSE = 1e-10
+#: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
+_CLOSE, _ABOUT = 1e-10, 1e-2
+_NO_PRICE = " The time limit left the nominal optimum in price_of_robustness open."
 
 
 def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
@@ -40,8 +41,9 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn
     u, certificate = told.chosen, told.fields["certificate"]
     assert u is not None
     assert isinstance(certificate, Certificate)
-    worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": _price(robust, u)}
-    return replace(told, fields={**told.fields, **worst})
+    price, late = _price(robust, u)
+    worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": price}
+    return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
 
 
 def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
@@ -61,7 +63,7 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
         for response in range(len(RESPONSES))
     )
     bearings = robust.machines if robust.request.objective.of_the_shaft else []
-    loads = [_peak(robust, machine, each, u) for machine in bearings for each in _bearing_responses(machine)]
+    loads = [_peak(robust, machine, list(_bearing_responses(machine)), u) for machine in bearings]
     return WorstCase(
         force_peak_N=force,
         moment_peak_Nm=moment,
@@ -73,16 +75,25 @@ def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
 def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> float:
     """A peak on the frame: of the first order, or of all where these count."""
     if robust.request.objective.orders == "all":
-        return _peak(robust, machine, shaking(machine.turn, machine.scene.laden)[response], u)
+        return _peak(robust, machine, [shaking(machine.turn, machine.scene.laden)[response]], u)
     measure = Measure(response, 1.0, 1.0)
     off = robust.scatter.of(machine.nominal[response].influence, u)
     return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared
 
 
-def _peak(robust: Robust, machine: Machine, response: TurnResponse, u: Complex) -> float:
-    quantity = Quantity(response, "peak", machine.scenario, machine.share if machine.scatters else 0.0)
-    (found,) = reached([quantity], u, np.full(1, _CLOSE), [False], robust.scatter)
-    return found.upper * machine.scene.omega_squared
+def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u: Complex) -> float:
+    """The largest of the peaks of several responses: closely of those alone that may have it."""
+    masses = machine.share if machine.scatters else 0.0
+    quantities = [Quantity(each, "peak", machine.scenario, masses) for each in responses]
+    most = np.inf
+    for width in (_ABOUT, _CLOSE):
+        no = [False] * len(quantities)
+        found = reached(quantities, u, np.full(len(quantities), width), no, robust.scatter)
+        least = max(each.lower for each in found)
+        # a narrow bracket that is not reached may be wider than one that was
+        most = min(most, max(each.upper for each in found))
+        quantities = [quantity for quantity, each in zip(quantities, found, strict=True) if each.upper >= least]
+    return float(most) * machine.scene.omega_squared
 
 
 def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
@@ -91,17 +102,23 @@ def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
     yield from bearing_responses(made, machine.request.fidelity, scene.laden, machine.turn)
 
 
-def _price(robust: Robust, u: Complex) -> PriceOfRobustness:
-    """What the worst case costs nominally, and the nominal optimum in the worst case."""
+def _price(robust: Robust, u: Complex) -> tuple[PriceOfRobustness, bool]:
+    """What the worst case costs nominally, and the nominal optimum in the worst case; whether the limit of time, of
+    which the search has what is left, leaves that open."""
     nominal, square = _nominal(robust), robust.scene.omega_squared
     asked, program = robust.request, nominal.program
-    found = over_turn(program, asked.accuracy.relative_gap, asked.objective.least_mass, nominal.allowances)
-    best = None if isinstance(found, Unkept) else found.point.unbalance
-    return PriceOfRobustness(
+    best, left = None, robust.left_s
+    late = left == 0.0
+    if not late:
+        found = over_turn(program, asked.accuracy.relative_gap, asked.objective.least_mass, nominal.allowances, left)
+        late = isinstance(found, Found) and found.timed_out
+        best = found.point.unbalance if isinstance(found, Found) and not late else None
+    price = PriceOfRobustness(
         nominal=float(program.values(u, _CLOSE).goals[-1]) * square,
         nominal_optimum=None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
         nominal_optimum_worst_case=None if best is None else _objective(robust, best),
     )
+    return price, late
 
 
 def _nominal(robust: Robust) -> Goals:

@@ -129,9 +129,15 @@ class Robust:
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
         self.machines = list(_scenarios(request, share)) or [Machine(request, scene, None, 1.0, share)]
         self._measures = list(dict.fromkeys(_measures(request)))
+        self._until = time.thread_time() + request.accuracy.time_limit_s
         #: signs of the changes of masses that are known of every machine
         self._known: list[list[Real]] = [[] for _ in self.machines]
         self.learnt(np.zeros(len(request.machine.webs), complex))
+
+    @property
+    def left_s(self) -> float:
+        """What is left of the time limit."""
+        return max(self._until - time.thread_time(), 0.0)
 
     def asked(self) -> Goals:
         """The program with the changes of masses that are known."""
@@ -158,11 +164,9 @@ class Robust:
     def solved(self) -> tuple[Goals, Found | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
         objective, gap = self.request.objective, self.request.accuracy.relative_gap
-        until = time.thread_time() + self.request.accuracy.time_limit_s
         for _ in range(_MOST_ROUNDS):
             asked = self.asked()
-            left = max(until - time.thread_time(), 0.0)
-            found = over_turn(asked.program, gap, objective.least_mass, asked.allowances, left)
+            found = over_turn(asked.program, gap, objective.least_mass, asked.allowances, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open

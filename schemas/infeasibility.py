@@ -30,7 +30,11 @@ class SmallestPeak(Model):
 
     response: ResponseName = Field(description="the response", examples=["bearing:A"])
     ceiling_field: CeilingField = Field(description="its ceiling in the request", examples=["bearing_ceiling_N"])
-    ceiling: float = Field(description="largest peak allowed, N or N m", examples=[9000.0])
+    ceiling: float = Field(
+        description="largest peak allowed, N or N m; of specific_load_ceiling_Pa"
+        " times the area of the bearing, diameter times length",
+        examples=[9000.0],
+    )
     smallest: float = Field(description="smallest peak within the limits, all else left free", examples=[9120.4])
     lower_bound: float = Field(description="certified: no counterweights have a smaller one", examples=[9120.3])
     multipliers: BoundMultipliers | None = Field(

@@ -51,7 +51,8 @@ class PriceOfRobustness(Model):
         description="what these counterweights come to on the machine as it is given, nothing off", examples=[30420.1]
     )
     nominal_optimum: float | None = Field(
-        description="the smallest objective of that machine, nothing off; null where its ceilings are out of reach",
+        description="the smallest objective of that machine, nothing off; null where its ceilings are out of reach, or"
+        " where accuracy.time_limit_s was over before it was found, as status_reason then says",
         examples=[30345.0],
     )
     nominal_optimum_worst_case: float | None = Field(

@@ -313,3 +313,23 @@ def test_tiny_and_huge_tolerances_are_answered(tolerances: dict[str, float]) -> 
     assert answer.certificate is not None
     assert answer.certificate.lower_bound is not None
     assert answer.certificate.lower_bound <= worst(answer)
+
+
+def test_a_limit_that_is_over_at_once_leaves_the_price_open_and_says_so() -> None:
+    made, objective = twin(), {**ALONE, "bearing_weight": 1}
+    tolerances = {"reciprocating_mass_relative": 1.0}
+    answer = answered(made, objective=objective, tolerances=tolerances, accuracy={"time_limit_s": 1e-9})
+    assert "price_of_robustness open" in answer.status_reason
+    price, case = answer.price_of_robustness, answer.worst_case
+    assert price is not None
+    assert case is not None
+    assert case.bearing_peak_N is not None
+    assert (price.nominal_optimum, price.nominal_optimum_worst_case) == (None, None)
+    assert 0.0 < price.nominal < case.objective
+    # analytic: bearings alone count, so that the objective is the largest of their peaks
+    assert case.bearing_peak_N == pytest.approx(case.objective, rel=1e-8)
+    in_time = answered(made, objective=objective, tolerances=tolerances, accuracy={"time_limit_s": 30})
+    assert "price_of_robustness" not in in_time.status_reason
+    assert in_time.price_of_robustness is not None
+    assert in_time.price_of_robustness.nominal_optimum is not None
+    assert worst(in_time) <= case.objective * (1 + 1e-9)
