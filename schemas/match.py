@@ -18,6 +18,8 @@ from schemas.units import Unit
 MAX_CLASSES = 8
 #: a larger limit of a counterweight is none, kg
 _LARGEST = 1e15
+#: what is refused of a match, and the way round
+_MATCHED_FIRST = "a match: optimise with the rows of its answer"
 _CEILINGS = (
     "force_ceiling_N", "moment_ceiling_Nm", "force_ceiling_x_N", "force_ceiling_y_N", "moment_ceiling_x_Nm",
     "moment_ceiling_y_Nm",
@@ -133,11 +135,11 @@ class MatchRequest(Ruled):
     def rules(self) -> Iterator[Rule]:
         yield from no_balance_shafts(self.machine, ("machine",), "a match")
         for broken, path, message in self.machine.no_envelopes(
-            "parts are matched with counterweights of a known radius"
+            "parts are matched first: optimise with the rows of the answer"
         ):
             yield Rule(broken, ("machine", *path), message)
-        yield from no_catalogue(self.machine, ("machine",), "a match")
-        yield from no_groups(self.machine, ("machine",), "a match")
+        yield from no_catalogue(self.machine, ("machine",), _MATCHED_FIRST)
+        yield from no_groups(self.machine, ("machine",), _MATCHED_FIRST)
         rows = self.places
         yield Rule(not rows, ("machine", "throws"), "parts need rows to go on")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")

@@ -71,11 +71,11 @@ class ParetoRequest(OptimizeRequest):
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.worst_case_rules("a front is of one machine as it is given")
-        yield from self.envelope_rules("a front is of counterweights of a known radius")
+        yield from self.envelope_rules("a front is of counterweights of a known radius: sweep force_ceiling_N")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
         if self.counts is None:
-            yield from no_catalogue(self.machine, ("machine",), "a front but for one of counts")
+            yield from no_catalogue(self.machine, ("machine",), "a front but for one of counts: sweep force_ceiling_N")
         else:
             yield from self._count_rules(self.counts)
         budgets = self.total_mass_budgets_kg or ()

@@ -18,6 +18,10 @@ from schemas.rules import Rule, Ruled
 from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
 from schemas.units import Unit
 
+#: ways round what does not go together, see "What goes together" in docs/api.md
+_FIX_THE_CHOICE = "choose for the first order of one machine, then ask with the choice as fixed weights"
+_FIX_THE_GROUP = "not with a catalogue: optimise any masses, then fix the nearest that there are"
+
 
 class Accuracy(Model):
     """How close to the optimum the answer has to be."""
@@ -119,14 +123,14 @@ class OptimizeRequest(Scene, Ruled):
             return
         if self.objective.over_the_turn or self.robust:
             also = "scenarios and tolerances" if self.robust else f"objective.{self.objective.over_the_turn[0]}"
-            yield from self.envelope_rules(f"of the first order and of one machine only: not with {also}")
+            yield from self.envelope_rules(f"not with {also}: optimise without, then give the radius that is found")
         limits = self.machine.max_total_mass_kg is not None and any(
             getattr(self.objective, name) is not None
             for name in type(self.objective).model_fields
             if "_ceiling_" in name
         )
         if limits:
-            yield from self.envelope_rules("not with a budget and ceilings together")
+            yield from self.envelope_rules("not with a budget and ceilings together: sweep the budget")
 
     def envelope_rules(self, message: str) -> Iterator[Rule]:
         """Envelopes that are given where only a counterweight of a known radius can be asked for."""
@@ -143,18 +147,20 @@ class OptimizeRequest(Scene, Ruled):
         machine = self.machine
         if not machine.web_groups:
             return
-        yield Rule(machine.discrete, ("machine", "web_groups"), "any mass at any angle only: not with a catalogue")
+        yield Rule(machine.discrete, ("machine", "web_groups"), _FIX_THE_GROUP)
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""
         machine = self.machine
         if not machine.discrete:
             return
-        yield from self.worst_case_rules("does not go with a catalogue")
+        yield from self.worst_case_rules(f"does not go with a catalogue: {_FIX_THE_CHOICE}")
         for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "does not go with a catalogue: of the first order only")
+            yield Rule(True, ("objective", name), f"does not go with a catalogue: {_FIX_THE_CHOICE}")
         yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
-        for broken, path, message in machine.no_envelopes("what is chosen from a catalogue has a radius of its own"):
+        for broken, path, message in machine.no_envelopes(
+            "what is chosen from a catalogue has a radius: give that of the plate"
+        ):
             yield Rule(broken, ("machine", *path), message)
 
     def _fitted_rules(self) -> Iterator[Rule]:
@@ -162,12 +168,15 @@ class OptimizeRequest(Scene, Ruled):
         machine = self.machine
         if not machine.semicontinuous:
             return
-        yield from self.worst_case_rules("does not go with min_fitted_mass_kg")
+        yield from self.worst_case_rules(f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
         for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "does not go with min_fitted_mass_kg: of the first order only")
-        yield Rule(bool(machine.web_groups), ("machine", "web_groups"), "does not go with min_fitted_mass_kg")
+            yield Rule(True, ("objective", name), f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
+        message = "does not go with min_fitted_mass_kg: ask with these weights fixed, and with max_mass_kg 0"
+        yield Rule(bool(machine.web_groups), ("machine", "web_groups"), message)
         yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
-        for broken, path, message in machine.no_envelopes("not beside webs with min_fitted_mass_kg"):
+        for broken, path, message in machine.no_envelopes(
+            "not beside min_fitted_mass_kg: optimise without, then give the radius that is found"
+        ):
             yield Rule(broken, ("machine", *path), message)
         for k, web in enumerate(machine.webs):
             message = "with min_fitted_mass_kg the masses of all webs have a limit"
