@@ -46,7 +46,7 @@ def last_first() -> None:
 
 
 def main() -> None:
-    _say("compiling the kernels, once: half a minute on two quiet cores")
+    _say("compiling the kernels, once: a minute on two quiet cores")
     begun = time.perf_counter()
     beside = get_context("spawn").Process(target=last_first)
     beside.start()
