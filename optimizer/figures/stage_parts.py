@@ -11,13 +11,15 @@ from typing import Literal
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.figures.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE
+from optimizer.figures.rules_of_thumb import ONE_PLANE_M
 from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.response import Phasors
 from schemas.stages import Acting, StageIron
 
+#: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
+_SHAPE = 1e-6
 Motion = Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"]
 
 
@@ -53,11 +55,11 @@ def _motion(pair: Phasors, noise: float) -> tuple[Motion, float | None]:
     co, counter = np.abs(pair.co), np.abs(pair.counter)
     if pair.peak <= noise:
         return "none", None
-    if counter <= SHAPE_TOLERANCE * co:
+    if counter <= _SHAPE * co:
         return "with_shaft", float(np.mod(angle_deg(pair.co), 360.0))
-    if co <= SHAPE_TOLERANCE * counter:
+    if co <= _SHAPE * counter:
         return "against_shaft", float(np.mod(angle_deg(pair.counter), 360.0))
-    fixed = pair.minor <= SHAPE_TOLERANCE * pair.peak
+    fixed = pair.minor <= _SHAPE * pair.peak
     return "fixed" if fixed else "ellipse", float(np.mod(pair.major_axis_deg, 180.0))
 
 

@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer import pieces
 from optimizer.analyze import analyze
+from optimizer.kernel import parts
 from optimizer.optimize import optimize
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.reciprocating import ReciprocatingMachine
@@ -122,7 +122,12 @@ def test_peaks_that_are_left_open_are_told_and_those_that_are_closed_are_not(mon
     # analytic: where nothing is looked at more closely, brackets stay as wide as the pieces leave them
     asked = AnalyzeRequest.model_validate({"machine": random_driven(3), "outputs": TURNING})
     assert "peak_not_closed" not in _codes(analyze(asked))
-    monkeypatch.setattr(pieces, "_MOST_PARTS", 0)
+    opened = parts.first_open
+
+    def nothing_closer(known: parts.Known, looked: parts.Asked, best: parts.Best) -> parts.Parts:
+        return parts.still_open(opened(known, looked, best), looked, best, 0)
+
+    monkeypatch.setattr(parts, "first_open", nothing_closer)
     answer = analyze(asked)
     told = [caution.message for caution in answer.warnings if caution.code == "peak_not_closed"]
     assert {message.split()[3] for message in told} == set(TURNING)

@@ -107,7 +107,7 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
     ("arguments", "said"),
     [
         ((), "--output"),
-        (("-o", "rows.xlsx"), "the name must end in"),
+        (("-o", "rows.ods"), "the name must end in"),
         (("-o", "nowhere/rows.csv"), "there is no folder"),
         (("-o", "rows.csv", "--engine", "abacus"), "there is no engine"),
         (("-o", "rows.csv", "--folder", "/dev/null/x"), "cannot work in"),

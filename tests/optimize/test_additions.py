@@ -61,6 +61,7 @@ NAMED_IN = {
     "figures/loads.py": "on the base, of both",
     "figures/rules_of_thumb.py": "figures of both",
     "figures/balance_quality.py": "what turns with the shaft of both",
+    "pareto/counts.py": "fields of the answer",
     "pareto/pareto.py": "a front is of these two: fields of its answer",
     "pareto/measures.py": "what a front trades by the names that the contract has for it",
     "pareto/trades.py": "fields of the answer",

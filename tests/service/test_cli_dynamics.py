@@ -161,7 +161,7 @@ def test_examples_of_ratings_are_no_machines() -> None:
 
 @pytest.mark.parametrize(
     ("name", "title"),
-    [("rating", "RatingRequest"), ("rating-answer", "RatingAnswer"), ("effects", "EffectCatalogue")],
+    [("rating", "Rating request"), ("rating-answer", "Rating answer"), ("effects", "Effect catalogue")],
 )
 def test_schemas(name: str, title: str) -> None:
     assert name in run("schema").stdout

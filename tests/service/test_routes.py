@@ -78,7 +78,8 @@ def test_examples(client: TestClient) -> None:
     listed = client.get("/v1/examples").json()["examples"]
     assert [one["name"] for one in listed] == sorted(names())
     for one in listed:
-        assert set(one) == {"name", "title", "description", "links"}
+        assert set(one) == {"name", "title", "description", "gas", "links"}
+        assert isinstance(one["gas"], bool)
         assert one["title"]
         assert one["description"]
         assert one["links"] == {"self": f"/v1/examples/{one['name']}", "optimize": "/v1/optimize"}
