@@ -144,7 +144,7 @@ def test_a_ceiling_of_bearings_is_explained(portal: Portal) -> None:
     portal.optimise()
     words = portal.page.locator(".proof").inner_text()
     assert "The ceiling of the bearing loads cannot be met." in words
-    assert "the ceiling asks for 20,000 N" in words
+    assert "the ceiling of the bearing loads asks for 20,000 N" in words
     assert "– N" not in words
 
 

@@ -9,17 +9,25 @@ from optimizer.optimize import optimize
 from schemas.limits import MachineLimit, WebLimit
 from schemas.report import ReportRequest
 from schemas.requests import OptimizeRequest
+from service.report.blocks import Document, Number, Table
 from service.report.chapters.balance import limits
 from service.report.document import report
 from service.report.html import html
 from service.verification import checker
-from tests.optimize.whole_turn import asked, inline_six
+from tests.optimize.whole_turn import asked, inline_six, one_throw
 from tests.report_document.conftest import asked as asked_of
 
 
 def of(request: OptimizeRequest) -> ReportRequest:
     """The report on a request."""
     return ReportRequest.model_validate(request.model_dump())
+
+
+def rows_of(made: Document, title: str) -> list[list[Any]]:
+    """The cells of the one table of this title."""
+    blocks = (block for chapter in made.chapters for block in chapter.blocks)
+    (told,) = [block for block in blocks if isinstance(block, Table) and block.title == title]
+    return [[cell.value if isinstance(cell, Number) else cell for cell in row] for row in told.rows]
 
 
 @pytest.mark.parametrize(
@@ -47,12 +55,47 @@ def test_every_limit_has_words() -> None:
     assert len({limits([name]) for name in named}) == len(named)
 
 
-def test_a_ceiling_that_is_reached_is_named_and_no_price_is_claimed() -> None:
+def test_a_ceiling_that_is_reached_is_named_and_has_its_price() -> None:
     """105 kN lie above the smallest peak of the 2D12, and below what the best force and moment leave."""
-    document = html(report(asked_of("2d12", objective={"bearing_ceiling_N": 1.05e5}))).decode()
+    made = report(asked_of("2d12", objective={"bearing_ceiling_N": 1.05e5}))
+    document = html(made).decode()
     assert "ceiling of the bearing loads" in document.split("limits of the machine reached")[1].split("</tr>")[0]
-    assert "all shadow prices are 0" not in document
-    assert "first order alone" in document
+    rows = rows_of(made, "Shadow prices of the limits")
+    assert [row[3] for row in rows if row[0] == "ceiling of the bearing loads"] == ["N/N"]
+
+
+@pytest.mark.parametrize(
+    ("fields", "machine", "why"),
+    [
+        ({"tolerances": {"angle_deg": 1}}, {}, "of scenarios and tolerances"),
+        (
+            {"objective": {"bearing_weight": 1, "priorities": [{"goal": "external"}, {"goal": "bearings"}]}},
+            {},
+            "of goals in their order",
+        ),
+        ({}, {"web_groups": [{"name": "all", "webs": ["0a", "1a"]}]}, "where webs form groups"),
+        ({}, {"catalogue": {"masses_kg": [1, 2, 3], "angle_step_deg": 30}}, "where counterweights are chosen"),
+    ],
+)
+def test_why_there_are_no_shadow_prices(fields: dict[str, Any], machine: dict[str, Any], why: str) -> None:
+    body = {"machine": inline_six() | machine, "angles": {"step_deg": 30}, **fields}
+    document = html(report(ReportRequest.model_validate(body))).decode()
+    assert f"There are no shadow prices {why}" in document
+
+
+def test_of_ceilings_out_of_reach_the_one_that_each_figure_is_of() -> None:
+    """Analytic: one throw, rod without end: m_rec / 4 a bearing; a ceiling in Pa counts by the area of the bearing."""
+    machine = one_throw()
+    for bearing in machine["bearings"]:
+        bearing |= {"diameter_m": 0.06, "length_m": 0.02}
+    request = asked(machine, bearing_ceiling_N=0.1, specific_load_ceiling_Pa=0.05 / 0.0012)
+    rows = rows_of(report(of(request)), "What else has a ceiling by itself")
+    specific = "specific bearing loads, times diameter and length"
+    # both bearings are alike, so that either may stand for both
+    assert {tuple(row[1:3]) for row in rows} == {("bearing loads", "N"), (specific, "N")}
+    for row in rows:
+        assert row[3] == pytest.approx(0.05 if row[1] == specific else 0.1, rel=1e-12)
+        assert row[4] == pytest.approx(0.25, rel=1e-6)
 
 
 def test_warnings_and_balance_rates_stand_in_the_report() -> None:

@@ -59,8 +59,9 @@ export function refusal({ objective }, { conflict, smallest, smallest_force_N: f
     names.length > 1 ? `The ceilings of ${names.join(" and ")} cannot be met, alone or together.` : `The ceiling of the ${names[0]} cannot be met.`,
     ...(asked.length && reach.length ? [`Within these limits ${reach.join(" and ")} (all else left free); ${asked.length > 1 ? "the ceilings ask" : "the ceiling asks"} for ${asked.join(" and ")}.`] : []),
     ...(smallest ?? []).map((one) => {
-      const unit = one.ceiling_field.split("_").at(-1).replace("Nm", "N m");
-      return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling asks for ${figure(one.ceiling)} ${unit}.`;
+      // a specific load is told as the load of its bearing
+      const unit = one.ceiling_field.endsWith("_Nm") ? "N m" : "N";
+      return `By itself the ${one.response.replace(":", " ")} can come down to ${figure(one.smallest)} ${unit}; the ceiling of the ${CEILINGS[one.ceiling_field]} asks for ${figure(one.ceiling)} ${unit}.`;
     }),
     `Drawn is the closest compromise: ${figure(nearForce.peak_N)} N and ${figure(nearMoment.peak_Nm)} N m of first order.`,
   ];

@@ -3,7 +3,7 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from schemas.answers import OptimizeAnswer
+from schemas.answers import Certificate, OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.counterweights import Counterweight
 from schemas.first_order import FirstOrder, Floor
@@ -221,22 +221,37 @@ def outlines(fitted: Sequence[Counterweight]) -> Iterator[Block]:
 
 def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:
     """What the limits cost."""
-    if request.objective.over_the_turn or request.robust:
-        yield Paragraph("Shadow prices are told of objectives of the first order alone, of one machine as it is given.")
+    if answer.certificate is None:
+        return
+    untold = _without_prices(request, answer.certificate)
+    if untold is not None:
+        yield Paragraph(f"There are no shadow prices {untold}.")
     elif answer.shadow_prices:
         yield Paragraph(
             "A shadow price says by how much the smallest objective falls per unit by which a limit is raised, the "
-            "others kept. The objective is taken as a force, which is to say divided by the weight of the force, or as "
-            "a moment where the force has no weight; a sector is opened to both sides. What the certificate cannot "
-            "tell from 0 is given as 0."
+            "others kept. The objective is taken as a force, which is to say divided by the weight of the force; as a "
+            "moment where the force has no weight, and where neither has one as a bearing load, a bending moment or a "
+            "roll moment. A sector is opened to both sides. What the certificate cannot tell from 0 is given as 0."
         )
         yield table(
             "Shadow prices of the limits",
             ["limit", "web", "#fall of the objective", "unit"],
             [(limits([one.limit]), one.web, one.value, one.unit) for one in answer.shadow_prices],
         )
-    elif answer.certificate is not None:
+    else:
         yield Paragraph("No limit holds the objective up: all shadow prices are 0.")
+
+
+def _without_prices(request: OptimizeRequest, proof: Certificate) -> str | None:
+    """Why nothing is told of what the limits cost, or None where it is."""
+    reasons = {
+        "where nothing is proven": proof.gap is None,
+        "of scenarios and tolerances, which have limits in every case": request.robust,
+        "of goals in their order, which hold one another up": request.objective.priorities,
+        "where webs form groups, of which none gives way by itself": request.machine.web_groups,
+        "where counterweights are chosen from what there is": proof.nodes is not None,
+    }
+    return next((words for words, holds in reasons.items() if holds), None)
 
 
 def limits(names: Sequence[str]) -> str:

@@ -1,25 +1,26 @@
 """The verdict: the answer in plain words and a few figures, and its proof."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from schemas.answers import Certificate, OptimizeAnswer
 from schemas.infeasibility import Infeasibility
+from schemas.limits import CeilingField
 from schemas.objective import Objective
 from schemas.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
 from service.report.chapters.balance import limits, shown, which
 from service.report.formula import formula
 
-_CEILINGS = {
-    "force_ceiling_N": "the ceiling of the force",
-    "force_ceiling_x_N": "the ceiling of the force along x",
-    "force_ceiling_y_N": "the ceiling of the force along y",
-    "moment_ceiling_Nm": "the ceiling of the moment",
-    "moment_ceiling_x_Nm": "the ceiling of the moment along x",
-    "moment_ceiling_y_Nm": "the ceiling of the moment along y",
-    "bearing_ceiling_N": "the ceiling of the bearing loads",
-    "specific_load_ceiling_Pa": "the ceiling of the specific bearing loads",
-    "bending_ceiling_Nm": "the ceiling of the bending moments",
+_CEILINGS: Mapping[CeilingField, str] = {
+    "force_ceiling_N": "force",
+    "force_ceiling_x_N": "force along x",
+    "force_ceiling_y_N": "force along y",
+    "moment_ceiling_Nm": "moment",
+    "moment_ceiling_x_Nm": "moment along x",
+    "moment_ceiling_y_Nm": "moment along y",
+    "bearing_ceiling_N": "bearing loads",
+    "specific_load_ceiling_Pa": "specific bearing loads",
+    "bending_ceiling_Nm": "bending moments",
 }
 
 
@@ -78,7 +79,7 @@ def _percent(share: float) -> str:
 
 def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
     """Which ceilings cannot be met, and what can be reached."""
-    names = " and ".join(_CEILINGS[name] for name in why.conflict)
+    names = " and ".join(f"the ceiling of the {_CEILINGS[name]}" for name in why.conflict)
     together = "cannot be met together" if len(why.conflict) > 1 else "cannot be met"
     yield Paragraph(
         f"Infeasible, and proven so: {names} {together} by any counterweights within the limits of the webs. There is "
@@ -101,10 +102,21 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
     )
     if why.smallest:
         yield table(
-            "What else has a ceiling by itself, N and N m",
-            ["response", "#ceiling", "#smallest", "#certified not below"],
-            [(each.response, each.ceiling, each.smallest, each.lower_bound) for each in why.smallest],
+            "What else has a ceiling by itself",
+            ["response", "ceiling of the", "unit", "#ceiling", "#smallest", "#certified not below"],
+            [
+                (each.response, *_of_ceiling(each.ceiling_field), each.ceiling, each.smallest, each.lower_bound)
+                for each in why.smallest
+            ],
         )
+
+
+def _of_ceiling(field: CeilingField) -> tuple[str, str]:
+    """What a ceiling is of, and the unit that it is told in."""
+    if field == "specific_load_ceiling_Pa":
+        # two ceilings of one bearing stand side by side as loads
+        return f"{_CEILINGS[field]}, times diameter and length", "N"
+    return _CEILINGS[field], "N m" if field.endswith("_Nm") else "N"
 
 
 def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter:
