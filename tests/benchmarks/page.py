@@ -14,10 +14,10 @@ from service.portal.assets import PLOTS, asset, names, page
 from tests.browser import chromium
 from tests.browser.serving import serving
 
-DRAWN_WITHIN_MS = 300.0
+ANSWERED_WITHIN_MS = 60.0
 MACHINES = ("2d12", "v8-cross-plane", "scroll-three-pins")
 _PANELS = "counterweights,hodographs,over-angle,orders"
-#: in the page: milliseconds from the click to the frame after everything that the run draws
+#: in the page: milliseconds from the click until everything that the run draws is on the screen
 _CLICK = """() => new Promise((resolve) => {
   const results = document.getElementById("results");
   const started = performance.now();
@@ -27,6 +27,7 @@ _CLICK = """() => new Promise((resolve) => {
   }).observe(results, { attributeFilter: ["data-drawn"] });
   document.getElementById("optimise").click();
 })"""
+#: and until counterweights, residual and drawing are
 _RESULT = """() => new Promise((resolve) => {
   const started = performance.now();
   new MutationObserver((_, observer) => {
@@ -51,14 +52,14 @@ def main() -> None:
         browser = playwright.chromium.launch(executable_path=path, args=["--no-sandbox", "--disable-dev-shm-usage"])
         view = browser.new_page(viewport={"width": 1280, "height": 900})
         table = Table(title=f"milliseconds, median (and worst) of {repeats} clicks, everything of the page drawn")
-        for heading in ("machine", "first visit", "click to answer and drawing", "click to all plots"):
+        for heading in ("machine", "first visit", "click to answer on the screen", "click to all plots"):
             table.add_column(heading, justify="left" if heading == "machine" else "right")
         for name in MACHINES:
             table.add_row(
                 name, f"{visit(view, url, name):.0f}", clicks(view, _RESULT, repeats), clicks(view, _CLICK, repeats)
             )
         console.print(table)
-        console.print(f"asked for: 2D12 drawn within {DRAWN_WITHIN_MS:.0f} ms of the click")
+        console.print(f"asked for: the answer of the 2D12 within {ANSWERED_WITHIN_MS:.0f} ms of the click")
         browser.close()
 
 

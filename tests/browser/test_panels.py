@@ -255,3 +255,30 @@ def test_who_asks_for_less_motion_turns_by_hand(portal: Portal) -> None:
     panel = portal.panel("turning")
     panel.get_by_role("button", name="Turn by 30°").click()
     assert panel.locator("output").inner_text() == "30°"
+
+
+def test_the_answer_comes_first_and_then_the_plots_in_view(portal: Portal) -> None:
+    portal.open("2d12", ("hodographs", "over-angle", "orders"))
+    # what is drawn, in its order, and whether the answer was there by then
+    portal.page.evaluate(
+        """() => {
+          document.getElementById("panel-orders").scrollIntoView();
+          window.standing = [...document.querySelectorAll(".plot")];
+          window.turns = [];
+          const [{ react }, old] = [Plotly, document.querySelector("#answer h2")];
+          Plotly.react = (node, ...more) => {
+            const panel = node.closest(".panel").id;
+            window.turns.push([panel, document.querySelector("#answer h2") !== old, window.standing.includes(node)]);
+            return react(node, ...more);
+          };
+          document.getElementById("optimise").click();
+        }"""
+    )
+    portal.drawn(2)
+    turns = portal.page.evaluate("window.turns")
+    assert [panel for panel, _, _ in turns[:2]] == ["panel-orders"] * 2
+    assert sorted(panel for panel, _, _ in turns) == sorted(
+        f"panel-{name}" for name in ("hodographs", "over-angle", "orders") for _ in "fm"
+    )
+    # each is changed in its place
+    assert all(answered and standing for _, answered, standing in turns)

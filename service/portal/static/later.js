@@ -1,9 +1,19 @@
 // Work that waits until nobody types: what is asked for several times is done once, when the page has nothing else to do.
 
 const LATEST_MS = 1_000;
+const HIDDEN_MS = 250;
 // not every browser tells when it is idle
 const idle = globalThis.requestIdleCallback ?? ((work) => setTimeout(work, 1));
 const busy = globalThis.cancelIdleCallback ?? clearTimeout;
+
+// until what was done is on the screen; a page in the background paints nothing and need not wait
+export const painted = () => new Promise((resolve) => {
+  requestAnimationFrame(() => setTimeout(resolve));
+  setTimeout(resolve, HIDDEN_MS);
+});
+
+// until the page has nothing else to do
+export const spared = () => new Promise((resolve) => idle(() => resolve(null), { timeout: LATEST_MS }));
 
 export class Later {
   #timer = 0;

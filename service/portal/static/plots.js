@@ -1,7 +1,15 @@
-// Plots, with the library loaded when the first one is drawn.
+// Plots, with the library loaded when the first one is drawn. They are drawn one a frame, those in view first and the
+// others when nobody needs the page: what is clicked or typed waits for one of them at most.
 
+import { h } from "./dom.js";
+import { painted, spared } from "./later.js";
+
+/** @type {Map<HTMLElement, () => any>} what every plot is made of */
 const drawn = new Map();
+/** @type {Map<HTMLElement, { done: ((value?: any) => void)[], failed: ((error: Error) => void)[] }>} those that wait for their turn */
+const due = new Map();
 let library = null;
+let busy = false;
 
 export function load() {
   library ??= new Promise((resolve, reject) => {
@@ -43,15 +51,66 @@ const axis = (given, ink, grid) => ({
   title: { text: given?.title ?? "", standoff: 6 }, color: ink,
 });
 
-// The plot of `make()`: {traces, layout, label, click}. It is asked again when the colours change.
-export async function plot(node, make) {
+// Where the plots of a panel stand: those that are there already are changed, which is quicker than to make them anew.
+export function places(body, count) {
+  const there = body.querySelectorAll(".plot");
+  return Array.from({ length: count }, (_, index) => there[index] ?? h("div"));
+}
+
+// The plot of `make()`: {traces, layout, label, click}. It is asked again when the colours change. Resolves when it is drawn.
+export function plot(node, make) {
   node.classList.add("plot");
   drawn.set(node, make);
-  const plotly = await load();
-  const { traces, layout = {}, label, click } = make();
+  return new Promise((resolve, reject) => {
+    const waiting = due.get(node) ?? { done: [], failed: [] };
+    waiting.done.push(resolve);
+    waiting.failed.push(reject);
+    due.set(node, waiting);
+    turns();
+  });
+}
+
+const seen = (node) => {
+  const { top, bottom, width } = node.getBoundingClientRect();
+  return width > 0 && bottom > 0 && top < innerHeight;
+};
+
+async function turns() {
+  if (busy) return;
+  busy = true;
+  while (due.size) {
+    await painted();
+    let next = [...due.keys()].find(seen);
+    if (!next) {
+      await spared();
+      next = [...due.keys()].find(seen) ?? due.keys().next().value;
+    }
+    const plotly = await load().catch((error) => error);
+    if (next) await take(plotly, next);
+  }
+  busy = false;
+}
+
+// one that is no longer there counts as drawn
+async function take(plotly, node) {
+  const waiting = due.get(node);
+  if (!waiting) return;
+  due.delete(node);
+  try {
+    if (plotly instanceof Error) throw plotly;
+    if (node.isConnected) await draw(plotly, node, /** @type {any} */ (drawn.get(node))());
+    for (const done of waiting.done) done();
+  } catch (error) {
+    for (const failed of waiting.failed) failed(error);
+  }
+}
+
+/** @param {any} plotly @param {any} node @param {{ traces: object[], layout?: any, label: string, click?: (point: any) => void }} picture */
+async function draw(plotly, node, picture) {
+  const { traces, layout, label, click } = picture;
   const ink = variable("ink");
   const grid = variable("grid");
-  const { xaxis, yaxis, ...rest } = layout;
+  const { xaxis, yaxis, ...rest } = layout ?? {};
   node.setAttribute("role", "img");
   node.setAttribute("aria-label", label);
   await plotly.react(node, traces, {
@@ -64,16 +123,18 @@ export async function plot(node, make) {
   if (click) node.on("plotly_click", ({ points }) => click(points[0]));
 }
 
-export async function recolour() {
+export function recolour() {
   for (const [node, make] of drawn) {
     if (!node.isConnected) drawn.delete(node);
-    else if (node.offsetParent) await plot(node, make);
+    else if (node.offsetParent) plot(node, make);
   }
 }
 
-// on paper plots are scaled to their column, as pictures are
+// on paper plots are scaled to their column, as pictures are; none of them may still wait for its turn
 const pictures = () => document.querySelectorAll(".plot .main-svg");
 addEventListener("beforeprint", () => {
+  const plotly = Reflect.get(globalThis, "Plotly");
+  if (plotly) for (const node of [...due.keys()]) take(plotly, node);
   for (const one of pictures()) one.setAttribute("viewBox", `0 0 ${one.getAttribute("width")} ${one.getAttribute("height")}`);
 });
 addEventListener("afterprint", () => {

@@ -2,7 +2,7 @@
 
 import { h, table } from "../dom.js";
 import { figure, label, number } from "../format.js";
-import { plot, series } from "../plots.js";
+import { places, plot, series } from "../plots.js";
 
 const SYMBOLS = ["star", "circle", "square", "diamond", "triangle-up", "cross", "x", "hexagon2", "bowtie"];
 const WORDS = {
@@ -21,7 +21,7 @@ export const accuracy = {
       body.replaceChildren(h("p", {}, WORDS[answer.status] ?? answer.status));
       return;
     }
-    const node = h("div");
+    const [node] = places(body, 1);
     const rows = answer.ladder.filter((row) => row.time_ms !== null);
     // an error that cannot be told from nothing is drawn at the resolution
     const least = Math.max(answer.reference.resolution, 1e-16);

@@ -2,7 +2,7 @@
 
 import { h, table } from "../dom.js";
 import { figure, nameOf, number } from "../format.js";
-import { closed, colours, line, overTurn, plot, series } from "../plots.js";
+import { closed, colours, line, overTurn, places, plot, series } from "../plots.js";
 
 const CASES = { running: "running", no_load: "no load", sudden_stop: "sudden stop" };
 const DRIVEN = { needs: ["rods"], kind: "reciprocating" };
@@ -20,7 +20,7 @@ export const torque = {
   ...DRIVEN, id: "torque", output: "torque", title: "Torque",
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["torque"]))).torque;
-    const node = h("div");
+    const [node] = places(body, 1);
     body.replaceChildren(node, table("Over one turn", ["mean torque, N m", "indicated power, W", "friction power, W", "shaft power, W", "fluctuation energy, J"],
       [[figure(found.mean_torque_Nm), number(found.indicated_power_W), number(found.friction_power_W), number(found.shaft_power_W), number(found.fluctuation_energy_J)]]));
     await plot(node, () => ({
@@ -39,17 +39,16 @@ export const rodLoads = {
   ...DRIVEN, id: "rod-loads", output: "rod_loads", title: "Rod loads",
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["rod_loads"]))).rod_loads;
-    const nodes = [["rod_N", "rod force, N (tension positive)"], ["side_N", "force on the guide, N"]].map(([name, title]) => ({ name, title, node: h("div") }));
+    const nodes = [["rod_N", "rod force, N (tension positive)"], ["side_N", "force on the guide, N"]]
+      .map(([name, title], index) => ({ name, title, node: places(body, 2)[index] }));
     body.replaceChildren(h("div", { class: "pair" }, nodes.map((each) => each.node)),
       table("Load cases; forces in the rod, N", ["row", "case", "tension", "at, °", "compression", "at, °", "governs"],
         found.rows.flatMap((row) => row.cases.map((one) => [rowName(row), CASES[one.case], number(one.tension_N), number(one.tension_deg),
           number(one.compression_N), number(one.compression_deg), one.case === row.governing_case ? "yes" : ""]))));
-    for (const { name, title, node } of nodes) {
-      await plot(node, () => ({
-        traces: found.rows.map((row, index) => line(found.angle_deg, row[name], rowName(row), series(index))),
-        layout: overTurn(title, found.angle_deg), label: `${title} over the turn; largest rod force ${figure(found.governing_load_N)} N.`,
-      }));
-    }
+    await Promise.all(nodes.map(({ name, title, node }) => plot(node, () => ({
+      traces: found.rows.map((row, index) => line(found.angle_deg, row[name], rowName(row), series(index))),
+      layout: overTurn(title, found.angle_deg), label: `${title} over the turn; largest rod force ${figure(found.governing_load_N)} N.`,
+    }))));
   },
 };
 
@@ -58,7 +57,7 @@ export const flywheel = {
   async draw(body, context) {
     const answer = await context.ask("v1/analyze", scene(context, ["torque", "flywheel"]));
     const { torque: turned, flywheel: found } = answer;
-    const node = h("div");
+    const [node] = places(body, 1);
     body.replaceChildren(node, table("Flywheel", ["irregularity", "inertia J, kg m²", "MD² = 4 J, kg m²", "energy to hold, J"],
       [[figure(found.irregularity), number(found.inertia_J_kg_m2), number(found.inertia_MD2_kg_m2), number(found.fluctuation_energy_J)]]));
     await plot(node, () => {
@@ -80,7 +79,7 @@ export const mainBearings = {
   ...DRIVEN, id: "main-bearings", output: "main_bearings", title: "Main bearings", needs: ["rods", "bearings"],
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["main_bearings"]))).main_bearings;
-    const [seen, locus, size, bending] = [h("div"), h("div"), h("div"), h("div")];
+    const [seen, locus, size, bending] = places(body, 4);
     const pick = h("select", { id: "bearing", change: () => draw(Number(pick.value)) },
       found.bearings.map((one, index) => h("option", { value: index }, one.name)));
     body.replaceChildren(h("div", { class: "choose" }, h("label", { for: "bearing" }, "Bearing"), pick),
@@ -90,13 +89,12 @@ export const mainBearings = {
       h("div", { class: "pair" }, size, bending),
       table("Peak loads, N", ["bearing", "plane, m", "before", "at, °", "after", "at, °"], found.bearings.map((one) => [one.name, number(one.position_m),
         number(one.before.peak_N), number(one.before.peak_angle_deg), number(one.after?.peak_N), number(one.after?.peak_angle_deg)])));
-    const draw = async (index) => {
-      await plot(seen, () => seenFromTheShaft(found, found.bearings[index], context.request.machine));
-      await plot(locus, () => polarPlot(found.bearings[index]));
-      await plot(size, () => overTurnPlot(found, found.bearings[index]));
-    };
-    await draw(0);
-    await plot(bending, () => {
+    const draw = (index) => Promise.all([
+      plot(seen, () => seenFromTheShaft(found, found.bearings[index], context.request.machine)),
+      plot(locus, () => polarPlot(found.bearings[index])),
+      plot(size, () => overTurnPlot(found, found.bearings[index])),
+    ]);
+    await Promise.all([draw(0), plot(bending, () => {
       const { before, after, floor } = colours();
       const curve = (values, name, style) => ({ x: found.bending.position_m, y: values, name, mode: "lines+markers", line: style });
       const traces = [curve(found.bending.before_Nm, "before", { color: before, dash: "dash" })];
@@ -105,7 +103,7 @@ export const mainBearings = {
       return { traces, layout: { xaxis: { title: "plane along the shaft, m" }, yaxis: { title: "largest bending moment, N m", rangemode: "tozero" } },
         label: `Largest bending moment inside the shaft over the turn, along the shaft: ${figure(found.bending.peak_Nm)} N m at ${figure(found.bending.peak_position_m)} m, `
           + `never below ${figure(found.bending.floor_Nm)} N m.` };
-    });
+    })]);
   },
 };
 

@@ -2,7 +2,7 @@
 
 import { h, table } from "../dom.js";
 import { figure, number } from "../format.js";
-import { closed, colours, line, overTurn, plot } from "../plots.js";
+import { closed, colours, line, overTurn, places, plot } from "../plots.js";
 import { calm, scales } from "../scales.js";
 
 const PARTS = [
@@ -14,7 +14,7 @@ const PARTS = [
 const largest = ({ residual }, part) => Math.max(...[residual.before, residual.after].map((each) => each?.[part.name][part.peak] ?? 0));
 
 const pair = (body) => {
-  const nodes = PARTS.map(() => h("div"));
+  const nodes = places(body, PARTS.length);
   body.replaceChildren(h("div", { class: "pair" }, nodes));
   return nodes;
 };
@@ -28,10 +28,10 @@ export const hodographs = {
   id: "hodographs", output: "hodograph", title: "Hodographs of force and moment", open: true,
   async draw(body, { answer, request }) {
     const nodes = pair(body);
-    for (const [index, part] of PARTS.entries()) {
+    await Promise.all(PARTS.map((part, index) => {
       const scale = scales(request.machine, answer)[part.name];
       const range = calm(largest(answer, part), scale);
-      await plot(nodes[index], () => {
+      return plot(nodes[index], () => {
         const { before, after, floor } = colours();
         const { hodograph } = answer;
         const curve = (each, name, style) => ({ x: closed(each[part.x]), y: closed(each[part.y]), name, mode: "lines", line: style,
@@ -51,7 +51,7 @@ export const hodographs = {
           yaxis: { title: `${part.name} y, ${part.unit}`, scaleanchor: "x", ...range } },
         label: `Hodograph of the ${part.name}. ${peaks(answer, part)} Floor ${figure(radius)} ${part.unit}.` };
       });
-    }
+    }));
   },
 };
 
@@ -59,9 +59,9 @@ export const overAngle = {
   id: "over-angle", title: "Force and moment over the shaft angle", open: true,
   async draw(body, { answer, request }) {
     const nodes = pair(body);
-    for (const [index, part] of PARTS.entries()) {
+    await Promise.all(PARTS.map((part, index) => {
       const range = calm(largest(answer, part), scales(request.machine, answer)[part.name]);
-      await plot(nodes[index], () => {
+      return plot(nodes[index], () => {
         const { before, after, series } = colours();
         const { hodograph } = answer;
         const angles = hodograph.angle_deg;
@@ -74,7 +74,7 @@ export const overAngle = {
         return { traces, layout: overTurn(`${part.name}, ${part.unit}`, angles, range),
           label: `First-order ${part.name} over the shaft angle. ${peaks(answer, part)}` };
       });
-    }
+    }));
   },
 };
 
@@ -92,8 +92,8 @@ export const orders = {
     const nodes = pair(body);
     const found = answer.orders;
     body.prepend(firstAndSecond(answer.residual.orders));
-    for (const [index, part] of PARTS.entries()) {
-      await plot(nodes[index], () => {
+    await Promise.all(PARTS.map((part, index) => {
+      return plot(nodes[index], () => {
         const { before, after } = colours();
         const bars = (each, name, marker) => ({ type: "bar", name, marker, x: each.map((one) => String(one.order)),
           y: each.map((one) => one[part.name][part.peak]), hovertemplate: "order %{x}: %{y:.5~s}<extra></extra>" });
@@ -104,6 +104,6 @@ export const orders = {
           yaxis: { title: `peak ${part.name}, ${part.unit}`, rangemode: "tozero" } },
         label: `Peak ${part.name} by order, with counterweights: ${said.join(", ")}.` };
       });
-    }
+    }));
   },
 };

@@ -3,6 +3,7 @@
 import { Problem, post } from "../api.js";
 import { showCall } from "../calls.js";
 import { h } from "../dom.js";
+import { painted } from "../later.js";
 
 const everyRow = (machine, ...names) => {
   // asked before the service has looked at the machine, which may hold anything
@@ -22,11 +23,16 @@ const NEEDS = {
 export const missing = (panel, machine) => (panel.needs ?? []).filter((need) => !NEEDS[need].met(machine)).map((need) => NEEDS[need].words);
 export const offered = (panel, machine) => !panel.kind || panel.kind === machine.kind;
 
-// until the answer is on the screen; a page in the background paints nothing and need not wait
-const painted = () => new Promise((resolve) => {
-  requestAnimationFrame(() => setTimeout(resolve));
-  setTimeout(resolve, 50);
-});
+// of many panels the service is asked for one at a time
+function oneByOne() {
+  /** @type {Promise<any>} */
+  let last = Promise.resolve();
+  return (work) => {
+    const mine = last.then(work);
+    last = mine.catch(() => null);
+    return mine;
+  };
+}
 
 export class Panels {
   // `toggled` hears of opening and closing, `blamed` of errors at fields
@@ -53,7 +59,7 @@ export class Panels {
     const ready = shown.filter((panel) => !missing(panel, context.request.machine).length);
     const lacking = shown.filter((panel) => !ready.includes(panel));
     for (const panel of ready) if (!this.parts.has(panel.id)) this.parts.set(panel.id, this.part(panel));
-    this.container.replaceChildren(...ready.map((panel) => this.parts.get(panel.id).details), lacking.length
+    this.place(ready.map((panel) => this.parts.get(panel.id).details), lacking.length
       ? h("p", { class: "about" }, "Not drawn for this machine: ",
         lacking.map((panel) => `${panel.title.toLowerCase()} (needs ${missing(panel, context.request.machine).join(" and ")})`).join(", "), ".") : "");
     for (const panel of ready) {
@@ -63,9 +69,17 @@ export class Panels {
     }
     const now = this.context;
     await painted();
-    for (const panel of ready) {
-      if (now !== this.context) return;
-      if (this.wanted.has(panel.id)) await this.draw(panel);
+    const turn = oneByOne();
+    if (now === this.context) await Promise.all(ready.filter((panel) => this.wanted.has(panel.id)).map((panel) => this.draw(panel, turn)));
+  }
+
+  // what stands there already stays: to put it there again costs a layout of all of it
+  place(details, note) {
+    const there = this.container.querySelectorAll(":scope > details");
+    if (details.length !== there.length || details.some((one, index) => one !== there[index])) this.container.replaceChildren(...details, note);
+    else {
+      for (const other of [...this.container.childNodes]) if (!details.includes(other)) other.remove();
+      this.container.append(note);
     }
   }
 
@@ -86,7 +100,8 @@ export class Panels {
     return part;
   }
 
-  async draw(panel) {
+  // `turn` says when its questions may be asked
+  async draw(panel, turn = (work) => work()) {
     const part = this.parts.get(panel.id);
     const { context } = this;
     if (!context || part.drawnFor === context) return;
@@ -96,7 +111,7 @@ export class Panels {
     const ask = (path, body) => {
       part.call = { method: "POST", path, body };
       part.wait.textContent = "Computing …";
-      return post(path, body, { signal: context.signal, waiting: (why) => { part.wait.textContent = why; } });
+      return turn(() => post(path, body, { signal: context.signal, waiting: (why) => { part.wait.textContent = why; } }));
     };
     try {
       await panel.draw(part.body, { ...context, ask, told: (call) => { part.call = call; } });

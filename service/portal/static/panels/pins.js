@@ -3,7 +3,7 @@
 import { h, table } from "../dom.js";
 import { PinPicture } from "../drawing/pins.js";
 import { figure, number } from "../format.js";
-import { line, overTurn, plot, series } from "../plots.js";
+import { line, overTurn, places, plot, series } from "../plots.js";
 import { scene } from "./dynamics.js";
 import { turner } from "./turner.js";
 
@@ -12,7 +12,7 @@ export const pins = {
   about: "Positive along the eccentric: the pin's small crank in compression.",
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["pin_loads"]))).pin_loads;
-    const node = h("div");
+    const [node] = places(body, 1);
     body.replaceChildren(
       found.warnings.map((warning) => h("p", { class: "error" }, warning.message)).at(0) ?? "",
       h("div", { class: "pair" }, node, animated(context.request.machine, found)),
