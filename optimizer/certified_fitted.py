@@ -13,7 +13,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.response import Response
 from optimizer.searched import continuous, searched
-from optimizer.semicontinuous.search import search
+from optimizer.semicontinuous.search import Asked, search
 from schemas.requests import Accuracy, OptimizeRequest
 
 #: of a mass, relative: what is this near to the least is the least
@@ -51,10 +51,13 @@ def certified_fitted(
         least * statement.limits.radius,
         best.found.unbalance[0],
         float(best.found.lower_bound[0]),
-        asked.relative_gap * size,
-        size,
-        OPTIMUM_SHARE * size if goal.least_mass else 0.0,
-        asked.time_limit_s,
+        Asked(
+            asked.relative_gap * size,
+            size,
+            OPTIMUM_SHARE * size if goal.least_mass else 0.0,
+            asked.time_limit_s,
+        ),
+        solver,
     )
     mass, angle = masses_and_angles(machine, found.unbalance[None], program.limits)
     mass = np.where(np.abs(mass - least) <= _ROUNDING * least, least, mass)

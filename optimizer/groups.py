@@ -13,8 +13,15 @@ from optimizer.remembered import remembered
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 
-#: what webs of a group have in common, beside their sectors as seen from their own cranks
-_ALIKE = ("counterweight_radius_m", "max_mass_kg", "max_centrifugal_force_N", "envelope")
+#: what webs of a group have in common, beside their sectors and holes as seen from their own cranks
+_ALIKE = (
+    "counterweight_radius_m",
+    "max_mass_kg",
+    "max_centrifugal_force_N",
+    "envelope",
+    "min_fitted_mass_kg",
+    "catalogue_masses_kg",
+)
 
 
 @remembered
@@ -55,11 +62,27 @@ def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: S
         mirrored = machine.web_groups[i].mirrors(j)
         if not _same_sector(first.sector, at or 0.0, web.sector, cranks[k] or 0.0, mirrored):
             unlike.append("sector, counted from the own crank,")
+        if not _same_holes(first.hole_angles_deg, at or 0.0, web.hole_angles_deg, cranks[k] or 0.0, mirrored):
+            unlike.append("hole_angles_deg, counted from the own crank,")
         if unlike:
             words = " and ".join(unlike)
             yield FieldProblem(
                 path, f"only webs that are alike get the same casting: its {words} is not that of {first.name}"
             )
+
+
+def _same_holes(
+    first: Sequence[float] | None, at: float, other: Sequence[float] | None, there: float, mirrored: bool
+) -> bool:
+    """Whether holes are in the same places, or each other's mirror images, as seen from the own cranks."""
+    if first is None or other is None:
+        return first is other
+    sign = -1.0 if mirrored else 1.0
+    one, two = np.sort([sign * (angle - at) % 360.0 for angle in first]), [(angle - there) % 360.0 for angle in other]
+    # a hair below a whole turn is 0
+    return len(one) == len(two) and all(
+        float(np.min(np.abs((one - angle + 180.0) % 360.0 - 180.0))) <= 1e-9 for angle in two
+    )
 
 
 def _same_sector(first: Any, at: float, other: Any, there: float, mirrored: bool) -> bool:

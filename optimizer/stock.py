@@ -8,6 +8,7 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.discrete.options import Options
 from optimizer.errors import refuse
+from optimizer.groups import alike_webs
 from optimizer.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
 from optimizer.own_cranks import crank_angles
@@ -21,30 +22,36 @@ _SAME = 1e-9
 
 
 class Stock(NamedTuple):
-    """The options of every web, and the angles at which they are."""
+    """The options of every slot, and what they are on its first web."""
 
     options: Options
+    mass_kg: Real  # (K, O)
     angle_deg: Real  # (K, O), 0 where there is nothing
 
     def fitted(self, chosen: np.ndarray) -> tuple[Real, Real]:
-        """Masses [kg] and angles [deg] (K,) of options chosen (K,)."""
-        return self.options.of(self.options.mass, chosen), self.options.of(self.angle_deg, chosen)
+        """Masses [kg] and angles [deg] of all webs (W,) with options chosen (K,)."""
+        mass, angle = self.options.of(self.mass_kg, chosen), self.options.of(self.angle_deg, chosen)
+        alike = self.options.alike
+        return (mass, angle) if alike is None else alike.fitted(mass[alike.owner], angle[alike.owner])
 
 
 def stock(machine: Machine) -> Stock:
-    """What every web of one machine can take.
+    """What every web of one machine can take; webs of a group are one slot.
 
     Raises
     ------
     OutOfRange
-        where steps of angle have no crank to count from, or none is in the sector of a web.
+        where steps of angle have no crank to count from, none is in the sector of a web, or webs of a group are unlike.
     """
+    alike = alike_webs(machine)
     catalogue = machine.catalogue or Catalogue()
     problems: list[FieldProblem] = []
     held: list[tuple[Real, Real]] = []
     cranks = crank_angles(machine)
     free, centre, half_angle = sectors(machine)
-    for k, (web, most) in enumerate(zip(machine.webs, largest_mass(machine).tolist(), strict=True)):
+    limit = largest_mass(machine).tolist()
+    for k in range(len(machine.webs)) if alike is None else alike.first.tolist():
+        web, most = machine.webs[k], limit[k]
         angles, path = np.mod(np.array(web.hole_angles_deg or (), dtype=float), 360.0), ("machine", "webs", k)
         if web.fixed is not None:
             held.append((np.zeros(1), np.zeros(1)))
@@ -69,15 +76,17 @@ def stock(machine: Machine) -> Stock:
     mass, angle = (np.array([np.pad(one[n], (0, most_options - one[n].size)) for one in held]) for n in (0, 1))
     mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
     radius = np.array([web.radius_m for web in machine.webs]).reshape(-1, 1)
+    radius = radius if alike is None else radius[alike.first]
     options = Options(
         unbalance=mass * radius * direction(angle),
-        mass=mass,
+        mass=mass if alike is None else mass * alike.count[:, None],
         part=_parts(mass),
         exists=np.arange(most_options) < np.array([one.size for one, _ in held]).reshape(-1, 1),
         most_fitted=machine.max_counterweights,
         most_parts=catalogue.max_part_numbers,
+        alike=alike,
     )
-    return Stock(options, angle)
+    return Stock(options, mass, angle)
 
 
 def _masses(web: Web, catalogue: Catalogue, most: float) -> Iterator[float]:

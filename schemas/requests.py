@@ -20,7 +20,6 @@ from schemas.units import Unit
 
 #: ways round what does not go together, see "What goes together" in docs/api.md
 _FIX_THE_CHOICE = "choose for the first order of one machine, then ask with the choice as fixed weights"
-_FIX_THE_GROUP = "not with a catalogue: optimise any masses, then fix the nearest that there are"
 
 
 class Accuracy(Model):
@@ -112,7 +111,6 @@ class OptimizeRequest(Scene, Ruled):
         yield from scenario_rules(self)
         yield from self._shaft_rules()
         yield from self._catalogue_rules()
-        yield from self._group_rules()
         yield from self._fitted_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
             squares = self.objective.bearing_weight > 0 and self.objective.bearing_measure == "rms"
@@ -142,13 +140,6 @@ class OptimizeRequest(Scene, Ruled):
         yield Rule(bool(self.scenarios), ("scenarios",), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
 
-    def _group_rules(self) -> Iterator[Rule]:
-        """What does not go with identical castings."""
-        machine = self.machine
-        if not machine.web_groups:
-            return
-        yield Rule(machine.discrete, ("machine", "web_groups"), _FIX_THE_GROUP)
-
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""
         machine = self.machine
@@ -171,8 +162,6 @@ class OptimizeRequest(Scene, Ruled):
         yield from self.worst_case_rules(f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
-        message = "does not go with min_fitted_mass_kg: ask with these weights fixed, and with max_mass_kg 0"
-        yield Rule(bool(machine.web_groups), ("machine", "web_groups"), message)
         yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
         for broken, path, message in machine.no_envelopes(
             "not beside min_fitted_mass_kg: optimise without, then give the radius that is found"

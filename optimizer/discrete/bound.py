@@ -33,7 +33,7 @@ def proven(statement: Statement, options: Options, left: np.ndarray, multipliers
     """What multipliers prove of the options left (N, K, O) of N nodes (N,)."""
     constant, slope, rounding = affine_minorant(statement, multipliers)
     size = np.abs(options.unbalance)
-    each = _along(slope, options.unbalance) - rounding[..., None] * size
+    each = _along(options.of_first(slope), options.unbalance) - options.together(rounding)[..., None] * size
     each = np.where(left, each, np.inf)
     budget = options.budget(statement)
     charged = budget if np.isfinite(budget) else 0.0
@@ -47,11 +47,14 @@ def proven(statement: Statement, options: Options, left: np.ndarray, multipliers
         if options.limits_fitted:
             can_stay = left[..., 0]
             gain = np.where(can_stay, np.minimum(found - priced[..., 0], 0.0), 0.0)
-            room = (options.most_fitted or 0) - np.sum(~can_stay, axis=-1)
-            order = np.argsort(gain, axis=-1, kind="stable")
-            used = np.argsort(order, axis=-1, kind="stable") < room[:, None]
-            found = np.where(can_stay, np.where(used, found, priced[..., 0]), found)
-            mass = np.where(can_stay & ~used, 0.0, mass)
+            # those that gain most for each of their webs, and of the last the share that there is room for
+            room = (options.most_fitted or 0) - np.sum(np.where(can_stay, 0, options.webs), axis=-1)
+            order = np.argsort(gain / options.webs, axis=-1, kind="stable")
+            webs = np.where(np.take_along_axis(can_stay, order, axis=-1), options.webs[order], 0)
+            share = np.clip((room[:, None] - np.cumsum(webs, axis=-1) + webs) / np.maximum(webs, 1), 0.0, 1.0)
+            share = np.take_along_axis(share, np.argsort(order, axis=-1, kind="stable"), axis=-1)
+            found = np.where(can_stay, priced[..., 0] + share * gain, found)
+            mass = np.where(can_stay, share * mass, mass)
         return np.sum(found, axis=-1), np.sum(mass, axis=-1)
 
     price, taken = np.zeros(left.shape[0]), np.zeros(left.shape[0])
@@ -105,7 +108,7 @@ def uphill(
     still = still - (price * budget if np.isfinite(budget) else 0.0)
     best, value = y, np.full(y.shape[0], -np.inf)
     for _ in range(_STEPS):
-        slope = still_slope + y @ norms.influence
+        slope = options.of_first(still_slope + y @ norms.influence)
         each = _along(slope, u) + cost
         taken = np.argmin(each, axis=-1)[..., None]
         found = still + np.sum((np.conj(y) * norms.constant).real, axis=-1)
@@ -113,7 +116,8 @@ def uphill(
         better = found > value
         value, best = np.where(better, found, value), np.where(better[:, None], y, best)
         there = np.take_along_axis(u, taken, axis=-1)[..., 0]
-        uphill = norms.constant + there @ norms.influence.T
+        webs = there if options.alike is None else options.alike.carried(there)
+        uphill = norms.constant + webs @ norms.influence.T
         step = np.maximum(target - found, 0.0) / np.maximum(np.sum(np.abs(uphill) ** 2, axis=-1), 1e-300)
         y = y + step[:, None] * uphill
         size = np.abs(y)

@@ -8,6 +8,7 @@ returns, multipliers prove (``bound.py``), and options by which the bound rises 
 import heapq
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.discrete.bound import proven, uphill
 from optimizer.discrete.options import Incumbent, Options
-from optimizer.discrete.relaxed import relaxed
+from optimizer.discrete.relaxed import apart, on_first, relaxed
 from optimizer.program.certificate import Multipliers
 from optimizer.program.compiled import both_stages
 from optimizer.program.statement import Statement
@@ -112,6 +113,11 @@ class _Work:
     incumbent: Incumbent
     gap: float
 
+    @cached_property
+    def apart(self) -> tuple[Statement, Options, np.ndarray]:
+        """What the kernel takes."""
+        return apart(self.incumbent.statement, self.options)
+
     @property
     def counted(self) -> bool:
         """Whether counts or the budget couple what the slots may take."""
@@ -133,10 +139,10 @@ class _Work:
                 left &= options.mass <= (budget * (1.0 + 1e-12) - (np.sum(least) - least))[:, None]
             fitted = ~left[:, 0]
             if options.limits_fitted:
-                if np.sum(fitted) > (options.most_fitted or 0):
+                room = (options.most_fitted or 0) - int(np.sum(options.webs[fitted]))
+                if room < 0:
                     return None
-                if np.sum(fitted) == options.most_fitted:
-                    left[np.ix_(slots[~fitted], np.arange(1, left.shape[1]))] = False
+                left[np.ix_(slots[~fitted & (options.webs > room)], np.arange(1, left.shape[1]))] = False
             if options.limits_parts:
                 lone = (np.min(np.where(left, options.part, np.inf), axis=-1)) == np.max(
                     np.where(left, options.part, -1), axis=-1
@@ -180,9 +186,10 @@ class _Work:
             which, left = which[stays], left[stays]
         if not which.size:
             return closed, []
-        base, program = relaxed(statement, options, left)
+        whole, each, slot = self.apart
+        base, program = relaxed(whole, each, left[:, slot])
         found = both_stages(program, np.full(which.size, 1e-9), np.zeros(which.size), False)
-        near = np.nan_to_num(base + found.smallest)
+        near = on_first(options, np.nan_to_num(base + found.smallest))
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
         multipliers = self._raised(left, found.multipliers)
         stays, left = kept(left, multipliers)
@@ -243,6 +250,7 @@ class _Work:
         norms, ceilings = statement.norms, statement.ceilings.norms
         does = np.sum(np.abs(norms.influence), axis=-2)
         does = does + np.sum(np.abs(ceilings.influence) / statement.ceilings.size[:, None], axis=-2)
+        does = options.together(does)
         # where the nearest option does most harm; where none does any, the slot with most room
         several, room = np.sum(left, axis=-1) > 1, np.max(np.where(left, off, 0.0), axis=-1)
         k = np.argmax(np.where(several, (np.min(off, axis=-1) + 1e-6 * room) * does, -1.0), axis=-1)
@@ -292,14 +300,17 @@ def _no_worse(statement: Statement, options: Options, left: np.ndarray, level: f
     fixed, norms = np.argmax(left, axis=-1), statement.norms
     if not which:
         return fixed[None]
-    u = options.of(options.unbalance, fixed)
-    u[several] = 0.0
-    terms = norms.at(u)[None]
-    for k, some in zip(several, which, strict=True):
-        terms = (terms[:, None] + options.unbalance[k, some, None] * norms.influence[:, k]).reshape(-1, terms.shape[-1])
+    # the first option is nothing
+    rest = fixed.copy()
+    rest[several] = 0
+    terms: Complex = norms.at(options.carried(rest))[None]
+    for k, some in zip(several.tolist(), which, strict=True):
+        terms = (terms[:, None] + options.effect(k, some, norms.influence)).reshape(-1, terms.shape[-1])
     rounding = _ROUNDING * float(np.max(np.sum(np.abs(terms), axis=-1) + np.max(statement.floor)))
     near = np.flatnonzero(statement.objective_of(np.abs(terms)) <= level + rounding)
     sets = np.tile(fixed, (near.size, 1))
-    for k, some, digit in zip(several, which, np.unravel_index(near, [some.size for some in which]), strict=True):
+    for k, some, digit in zip(
+        several.tolist(), which, np.unravel_index(near, [some.size for some in which]), strict=True
+    ):
         sets[:, k] = some[digit]
     return sets

@@ -16,7 +16,7 @@ _SEED = 20_240_229
 
 
 def start(incumbent: Incumbent, u: Complex) -> None:
-    """Offer nothing on any slot, and the nearest options to unbalances (M, K) as they are and partly."""
+    """Offer nothing on any slot, and the nearest options to unbalances of first webs (M, K) as they are and partly."""
     options = incumbent.options
     near = options.nearest(u)
     incumbent.offer(np.concatenate([np.zeros((1, options.slots), int), near]))

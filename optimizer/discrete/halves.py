@@ -96,13 +96,13 @@ def _sums(options: Options, effect: Complex, which: Sequence[np.ndarray], side: 
     sums = _Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
     for k in side:
         some = which[k]
-        fitted = (some > 0).astype(np.int64) if options.limits_fitted else np.zeros(some.size, np.int64)
+        fitted = options.webs[k] * (some > 0) if options.limits_fitted else np.zeros(some.size, np.int64)
         bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
         bits = bits if options.limits_parts else np.zeros_like(bits)
         sums = _Sums(
             (sums.z[:, None] + effect[k, some]).reshape(-1, effect.shape[-1]),
             (sums.mass[:, None] + options.mass[k, some]).ravel(),
-            (sums.square[:, None] + np.abs(options.unbalance[k, some]) ** 2).ravel(),
+            (sums.square[:, None] + options.webs[k] * np.abs(options.unbalance[k, some]) ** 2).ravel(),
             (sums.fitted[:, None] + fitted).ravel(),
             (sums.parts[:, None] | bits).ravel(),
             (sums.code[:, None] * some.size + np.arange(some.size)).ravel(),

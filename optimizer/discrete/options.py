@@ -6,6 +6,7 @@ from functools import cached_property
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.alike import Alike
 from optimizer.program.statement import Statement
 
 #: objectives nearer than this share of the yardstick are equal
@@ -15,23 +16,32 @@ _EPS = float(np.finfo(float).eps)
 
 @dataclass(frozen=True)
 class Options:
-    """What each of K slots can take, O options at most; the first option of every slot is nothing."""
+    """What each of K slots can take, O options at most; the first option of every slot is nothing.
 
-    unbalance: Complex  # (K, O) kg m
-    mass: Real  # (K, O) kg
+    A slot is a web, or all webs that carry alike counterweights: then what it takes is on each of them.
+    """
+
+    unbalance: Complex  # (K, O) kg m, on the first web of a slot
+    mass: Real  # (K, O) kg, on all webs of a slot together
     part: np.ndarray  # (K, O) int: the part number, -1 is no part
     exists: np.ndarray  # (K, O) bool, False beyond the options of a slot
-    most_fitted: int | None = None  # slots that may take more than nothing
+    most_fitted: int | None = None  # webs that may take more than nothing
     most_parts: int | None = None  # different part numbers that may be used
+    alike: Alike | None = None  # whose units are the slots; None: every web is one
 
     @property
     def slots(self) -> int:
         return self.mass.shape[0]
 
+    @cached_property
+    def webs(self) -> np.ndarray:
+        """How many webs each slot is (K,)."""
+        return np.ones(self.slots, int) if self.alike is None else self.alike.count
+
     @property
     def limits_fitted(self) -> bool:
-        """Whether the number of counterweights is limited to fewer than there are slots."""
-        return self.most_fitted is not None and self.most_fitted < self.slots
+        """Whether the number of counterweights is limited to fewer than there are webs."""
+        return self.most_fitted is not None and self.most_fitted < int(np.sum(self.webs))
 
     @property
     def limits_parts(self) -> bool:
@@ -40,11 +50,36 @@ class Options:
 
     def budget(self, statement: Statement) -> float:
         """Largest total mass, kg, and what the rounding of as many masses adds to it, which bounds allow for."""
-        return float(statement.limits.max_total_mass) * (1.0 + _EPS * (1 + self.slots))
+        return float(statement.limits.max_total_mass) * (1.0 + _EPS * (1 + int(np.sum(self.webs))))
 
     def of(self, array: np.ndarray, chosen: np.ndarray) -> np.ndarray:
         """What an array (K, O) holds for the options chosen (..., K)."""
         found: np.ndarray = array[np.arange(self.slots), chosen]
+        return found
+
+    @cached_property
+    def on_webs(self) -> Complex:
+        """What every option puts on each of the webs (W, O) of its slot, kg m."""
+        return self.unbalance if self.alike is None else self.alike.carried(self.unbalance.T).T
+
+    def carried(self, chosen: np.ndarray) -> Complex:
+        """Unbalances of all webs (..., W) with options chosen (..., K), kg m."""
+        u = self.of(self.unbalance, chosen)
+        return u if self.alike is None else self.alike.carried(u)
+
+    def of_first(self, slope: Complex) -> Complex:
+        """Slopes (..., K) in what the first webs carry, of slopes in what all webs do (..., W)."""
+        return slope if self.alike is None else self.alike.means(slope) * self.alike.count
+
+    def together(self, of_webs: Real) -> Real:
+        """Sums over the webs of every slot (..., K)."""
+        summed: Real = of_webs if self.alike is None else self.alike.summed(of_webs)
+        return summed
+
+    def effect(self, slot: int, some: np.ndarray | slice, influence: Real | Complex) -> Complex:
+        """What some options of a slot do to J terms (some, J), of influences of the webs (J, W)."""
+        webs = np.array([slot]) if self.alike is None else np.flatnonzero(self.alike.owner == slot)
+        found: Complex = self.on_webs[webs][:, some].T @ influence[:, webs].T
         return found
 
     def counts(self, statement: Statement, chosen: np.ndarray) -> np.ndarray:
@@ -52,7 +87,7 @@ class Options:
         mass = self.of(self.mass, chosen)
         kept = np.sum(mass, axis=-1) <= self.budget(statement)
         if self.limits_fitted:
-            kept &= np.sum(chosen > 0, axis=-1) <= self.most_fitted
+            kept &= (chosen > 0) @ self.webs <= self.most_fitted
         if self.limits_parts:
             parts = np.sort(self.of(self.part, chosen), axis=-1)
             new = np.concatenate([parts[..., :1] >= 0, (np.diff(parts, axis=-1) > 0)], axis=-1)
@@ -60,7 +95,7 @@ class Options:
         return kept
 
     def nearest(self, u: Complex) -> np.ndarray:
-        """The option of every slot that is nearest to an unbalance (..., K)."""
+        """The option of every slot that is nearest to an unbalance of its first web (..., K)."""
         off = np.where(self.exists, np.abs(self.unbalance - u[..., None]), np.inf)
         return np.argmin(off, axis=-1)
 
@@ -86,7 +121,9 @@ class Incumbent:
         _, singular, basis = np.linalg.svd(scaled, full_matrices=False)
         basis = basis[singular > 1e-14 * singular[0]] if singular.size else basis
         lever = (influence @ np.conj(basis.T))[: self.statement.norms.constant.size]
-        return lever, self.options.unbalance[..., None] * basis.T[:, None, :]
+        every = slice(None)
+        effects = [self.options.effect(k, every, basis) for k in range(self.options.slots)]
+        return lever, np.array(effects, complex).reshape(*self.options.mass.shape, basis.shape[0])
 
     @property
     def level(self) -> float:
@@ -99,7 +136,7 @@ class Incumbent:
         chosen = chosen[options.counts(statement, chosen)]
         if not len(chosen):
             return
-        u = options.of(options.unbalance, chosen)
+        u = options.carried(chosen)
         kept = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
         value = np.where(kept, statement.objective(u), np.inf)
         near = value <= min(float(np.min(value)), self.least) + self.resolution
@@ -112,12 +149,12 @@ class Incumbent:
         self.chosen = candidates[self._first(candidates)]
 
     def _value(self, chosen: np.ndarray) -> float:
-        return float(self.statement.objective(self.options.of(self.options.unbalance, chosen)))
+        return float(self.statement.objective(self.options.carried(chosen)))
 
     def _first(self, chosen: np.ndarray) -> int:
         """Place of the first in the order among equals."""
         mass = np.sum(self.options.of(self.options.mass, chosen), axis=-1)
-        square = np.sum(np.abs(self.options.of(self.options.unbalance, chosen)) ** 2, axis=-1)
+        square = np.sum(np.abs(self.options.carried(chosen)) ** 2, axis=-1)
         # in steps, so that sums in another order do not differ
         steps = [np.round(each / (1e-9 * (np.max(each) or 1.0))) for each in (mass, square)]
         return int(np.lexsort((*chosen.T[::-1], steps[1], steps[0]))[0])

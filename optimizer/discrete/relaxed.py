@@ -6,11 +6,40 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.discrete.options import Options
+from optimizer.program.alike import united
+from optimizer.program.compiled import suits_kernel
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
 
 #: share of its size that a relaxed slot without room is given, which the kernel needs
 _SPECK = 1e-9
+
+
+def apart(statement: Statement, options: Options) -> tuple[Statement, Options, np.ndarray]:
+    """A program that the kernel takes and the options of its unknowns, and the slot of each unknown.
+
+    An unknown is what the webs of a slot carry together where the kernel takes that. Where it does not, because cranks
+    are in several planes or a web has a mirror image, it is a web: what is proven knows that webs are alike all the
+    same (``bound.py``).
+    """
+    alike, slots = options.alike, np.arange(options.slots)
+    if alike is None:
+        return statement, options, slots
+    whole = united(statement, alike) if alike.plain else None
+    if whole is not None and suits_kernel(whole):
+        return whole, replace(options, unbalance=options.unbalance * alike.count[:, None], alike=None), slots
+    webs = alike.owner
+    mass = (options.mass / alike.count[:, None])[webs]
+    loose = replace(options, unbalance=options.on_webs, mass=mass, part=options.part[webs], exists=options.exists[webs])
+    limits = replace(statement.limits, alike=None)
+    return replace(statement, limits=limits), replace(loose, alike=None), webs
+
+
+def on_first(options: Options, u: Complex) -> Complex:
+    """What the first webs of all slots carry (..., K), of the unknowns of :func:`apart`."""
+    if options.alike is None:
+        return u
+    return u / options.alike.count if u.shape[-1] == options.slots else options.alike.means(u)
 
 
 def relaxed(statement: Statement, options: Options, left: np.ndarray) -> tuple[Complex, Statement]:
@@ -22,6 +51,7 @@ def relaxed(statement: Statement, options: Options, left: np.ndarray) -> tuple[C
     Parameters
     ----------
     left : (N, K, O) options of N nodes.
+    statement, options : whose every slot is an unknown (:func:`apart`).
     """
     u, size = options.unbalance, np.abs(options.unbalance)
     angle = np.angle(u)

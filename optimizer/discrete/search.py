@@ -51,7 +51,7 @@ def search(
     Parameters
     ----------
     statement : one program (no leading axes), whose limits hold every option.
-    relaxed : (K,) kg m, its optimum without options.
+    relaxed : (W,) kg m, its optimum without options.
     at_least : lower bound of that optimum.
     relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
     """
@@ -63,6 +63,8 @@ def search(
     def halfway() -> bool:
         return time.monotonic() >= began + 0.5 * time_limit_s
 
+    if options.alike is not None:
+        relaxed = options.alike.means(relaxed)
     resolution = EQUAL * yardstick
     incumbent = Incumbent(statement, options, resolution)
     start(incumbent, relaxed[None])

@@ -85,7 +85,7 @@ def _most(machine: Machine, of: Counted) -> int:
     """The largest number that means anything."""
     options = stock(machine).options
     if of == "weights":
-        return int(np.sum(np.any(options.mass > 0, axis=-1)))
+        return int(np.sum(options.webs[np.any(options.mass > 0, axis=-1)]))
     return int(np.max(options.part, initial=-1)) + 1
 
 

@@ -61,6 +61,12 @@ class Alike:
         back = u * np.conj(self.turn)
         return np.asarray(self.summed(np.where(self.mirrored, np.conj(back), back)) / self.count)
 
+    def angles(self, web: int, angle: float) -> Real:
+        """Directions (K,) [rad] of what all webs carry where one of them carries something in a direction."""
+        turn = np.angle(self.turn)
+        first = (angle - turn[web]) * (-1.0 if self.mirrored[web] else 1.0)
+        return np.where(self.mirrored, -first, first) + turn
+
     def nearest(self, u: Complex) -> Complex:
         """The nearest unbalances that are alike, or of what pulls at the webs the part that moves them (..., K)."""
         return self.carried(self.means(u))

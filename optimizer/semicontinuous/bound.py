@@ -32,6 +32,7 @@ def proven(statement: Statement, places: Places, multipliers: Multipliers) -> Pr
     """What multipliers (N,) prove of N nodes of one program (no leading axes)."""
     limits = statement.limits
     constant, slope, rounding = affine_minorant(statement, multipliers)
+    slope = places.slopes(slope)
     budget, price = float(limits.max_total_mass), np.zeros(constant.shape)
     charged = budget if np.isfinite(budget) else 0.0
 
@@ -53,15 +54,17 @@ def proven(statement: Statement, places: Places, multipliers: Multipliers) -> Pr
         price = taken
     each = price[:, None] / limits.radius - rounding
     value, _ = places.lowest(slope, each)
+    total = np.sum(value, axis=-1)
     size = np.abs(constant) + np.sum(np.abs(slope) * places.most, axis=-1) + price * charged
     lowest = constant - _EPS * (64 + 8 * limits.radius.size) * size
     bound = lowest + best
-    apart = (lowest + np.sum(value, axis=-1) - price * charged)[:, None] - value
+    value = places.together(value)
+    apart = (lowest + total - price * charged)[:, None] - value
     nothing = ~np.isfinite(bound)
     return Proven(
         np.where(nothing, -np.inf, bound),
         np.where(nothing[:, None], -np.inf, apart),
-        np.where(nothing[:, None], -np.inf, apart + places.when_fitted(slope, each)),
+        np.where(nothing[:, None], -np.inf, apart + places.together(places.when_fitted(slope, each))),
         price,
     )
 
@@ -82,7 +85,7 @@ def uphill(statement: Statement, places: Places, multipliers: Multipliers, price
     still = still - (price * limits.max_total_mass if np.isfinite(limits.max_total_mass) else 0.0)
     best, value = y, np.full(y.shape[0], -np.inf)
     for _ in range(_STEPS):
-        of_webs, u = places.lowest(still_slope + y @ norms.influence, each)
+        of_webs, u = places.lowest(places.slopes(still_slope + y @ norms.influence), each)
         found = still + np.sum((np.conj(y) * norms.constant).real, axis=-1) + np.sum(of_webs, axis=-1)
         better = found > value
         value, best = np.where(better, found, value), np.where(better[:, None], y, best)

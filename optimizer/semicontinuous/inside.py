@@ -10,10 +10,11 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.compiled import both_stages
 from optimizer.program.limits import Limits
+from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.semicontinuous.places import Places, wrapped
+from optimizer.semicontinuous.solved import Solved, solved
 
 #: share of its size that a web without room is given, which the kernel needs
 SPECK = 1e-9
@@ -28,14 +29,19 @@ _ROUNDING = 1e-12
 class Incumbent:
     """The best point so far; of equal ones the lightest."""
 
-    def __init__(self, statement: Statement, places: Places, resolution: float) -> None:
+    def __init__(self, statement: Statement, places: Places, resolution: float, solver: Solver) -> None:
         """``places`` is where anything may be; ``resolution``: objectives that differ by no more are equal."""
-        self.statement, self.places, self.resolution = statement, places, resolution
+        self.statement, self.places, self.resolution, self.solver = statement, places, resolution, solver
         self.least = np.inf  # smallest objective
         self.unbalance: Complex | None = None  # (K,) kg m
 
+    def solved(self, programs: Statement, share: Real, gap: Real, least_mass: bool) -> Solved:
+        """Optima of N programs in all or some of what is added to points (N, K)."""
+        return solved(programs, self.places.alike, share, gap, least_mass, self.solver)
+
     def offer(self, u: Complex) -> Real:
         """Take the best of points (M, K) kg m, or stay; their objectives (M,), inf of what breaks a limit."""
+        u = u if self.places.alike is None else self.places.alike.nearest(u)
         statement, size = self.statement, np.abs(u)
         kept = np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
         kept &= statement.mass(u) <= statement.limits.max_total_mass * (1.0 + _ROUNDING)
@@ -67,7 +73,7 @@ def improved(incumbent: Incumbent, u: Complex, fitted: np.ndarray) -> None:
     for _ in range(_TANGENTS):
         base, room, program = _beyond(incumbent, u, fitted)
         # what is a speck is nothing
-        u = base + np.where(room, np.nan_to_num(both_stages(program, share, gap, False).smallest), 0.0)
+        u = base + np.where(room, incumbent.solved(program, share, gap, False).unbalance, 0.0)
         value = incumbent.offer(u)
         if not np.any(value < before - incumbent.resolution):
             return
@@ -84,9 +90,9 @@ def lightened(incumbent: Incumbent, u: Complex, share: float) -> Complex:
         return u
     for _ in range(_LIGHTER):
         base, room, program = _beyond(incumbent, u[None], np.abs(u[None]) > 0)
-        found = base + np.where(room, np.nan_to_num(both_stages(program, each, np.zeros(1), True).unbalance), 0.0)
+        found = base + np.where(room, incumbent.solved(program, each, np.zeros(1), True).unbalance, 0.0)
         # offered alone, as it is no better
-        alone = Incumbent(statement, incumbent.places, 0.0)
+        alone = Incumbent(statement, incumbent.places, 0.0, incumbent.solver)
         alone.offer(found)
         before, after = float(statement.mass(u)), float(statement.mass(found[0]))
         if alone.least > incumbent.least + share or after >= before:
@@ -103,7 +109,7 @@ def _beyond(incumbent: Incumbent, u: Complex, fitted: np.ndarray) -> tuple[Compl
     statement, places = incumbent.statement, incumbent.places
     least, most, limits = places.least, places.most, statement.limits
     fitted = fitted & (least > 0) & ~places.out
-    angle = places.nearest(np.angle(u))
+    angle = places.towards(u)
     base = np.where(fitted, least * np.exp(1j * angle), 0.0)
     # of the directions of a sector those that go no way back
     turn, opened, quarter = places.centre, places.half, 0.5 * np.pi
@@ -142,4 +148,4 @@ def sharing(incumbent: Incumbent, u: Complex) -> None:
     fitted = np.repeat((share >= 1.0)[None], order.size + 1, axis=0)
     for count in range(1, order.size + 1):
         fitted[count, order[:count]] = True
-    improved(incumbent, np.repeat(u[None], len(fitted), axis=0), fitted)
+    improved(incumbent, np.repeat(u[None], len(fitted), axis=0), incumbent.places.whole(fitted))

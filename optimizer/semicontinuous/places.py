@@ -1,17 +1,20 @@
 """What nodes of a tree leave the webs: nothing, anything in a sector, or at least the least that is fitted."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.program.alike import Alike
 from optimizer.program.limits import Limits
 
 #: a sector this wide is the whole turn, rad
 WHOLE = np.pi
 #: widest piece of a sector in which something is certainly fitted, half of it, rad
 WIDEST = 0.25 * np.pi
+_OF_NODES = ("out", "fitted", "centre", "half")
 
 
 @dataclass(frozen=True)
@@ -24,6 +27,7 @@ class Places:
     fitted: np.ndarray  # (N, K) bool: something is
     centre: Real  # (N, K) rad, middle of where it may be
     half: Real  # (N, K) rad, half of its opening
+    alike: Alike | None = None  # webs of which what is decided for one is decided for all, turned or mirrored
 
     @property
     def undecided(self) -> np.ndarray:
@@ -35,25 +39,36 @@ class Places:
 
     def beside(self, *others: "Places") -> "Places":
         """All nodes in one."""
-        return replace(
-            self,
-            **{
-                name: np.concatenate([getattr(self, name), *(getattr(each, name) for each in others)])
-                for name in ("out", "fitted", "centre", "half")
-            },
-        )
+        per_node: dict[str, Any] = {
+            name: np.concatenate([getattr(self, name), *(getattr(each, name) for each in others)]) for name in _OF_NODES
+        }
+        return replace(self, **per_node)
 
     def without(self, node: int, web: int) -> "Places":
         """A node alone (1, K), nothing on a web."""
         one = self.chosen([node])
-        one.out[0, web] = True
+        one.out[0, self.beside_web(web)] = True
         return one
 
     def within(self, node: int, web: int, centre: float, half: float) -> "Places":
         """A node alone (1, K), something on a web, in a piece of its sector."""
-        one = self.chosen([node])
-        one.fitted[0, web], one.centre[0, web], one.half[0, web] = True, centre, half
+        one, webs = self.chosen([node]), self.beside_web(web)
+        one.fitted[0, webs], one.half[0, webs] = True, half
+        one.centre[0, webs] = centre if self.alike is None else self.alike.angles(web, centre)[webs]
         return one
+
+    def beside_web(self, web: int) -> np.ndarray:
+        """The webs that are alike with one, itself among them."""
+        return np.array([web]) if self.alike is None else np.flatnonzero(self.alike.owner == self.alike.owner[web])
+
+    def slopes(self, slope: Complex) -> Complex:
+        """Slopes (N, K) that come to the same wherever webs are alike, and are alike themselves."""
+        return slope if self.alike is None else self.alike.nearest(slope)
+
+    def together(self, of_webs: Real) -> Real:
+        """Of what is of webs (N, K), on every web the sum over those that are alike with it."""
+        summed: Real = of_webs if self.alike is None else self.alike.summed(of_webs)[..., self.alike.owner]
+        return summed
 
     def nearest(self, angle: Real) -> Real:
         """Angles (..., N, K) [rad] within the sectors, nearest to others."""
@@ -77,9 +92,20 @@ class Places:
         rate = each - np.abs(slope) * np.cos(wanted - self.nearest(wanted))
         return rate * np.where(rate < 0, self.most, self.least)
 
+    def whole(self, some: np.ndarray) -> np.ndarray:
+        """Webs (N, K) bool, with all that are alike with one of them."""
+        return some if self.alike is None else self.together(some) > 0
+
+    def towards(self, u: Complex) -> Real:
+        """Directions (N, K) [rad] within the sectors nearest to unbalances, alike where webs are."""
+        if self.alike is None:
+            return self.nearest(np.angle(u))
+        first = np.exp(1j * np.angle(u[..., self.alike.first]))
+        return self.nearest(np.angle(self.alike.carried(first)))
+
     def _mapped(self, function: Callable[[np.ndarray], np.ndarray]) -> "Places":
-        per_node = [field.name for field in fields(self)[2:]]
-        return replace(self, **{name: function(getattr(self, name)).copy() for name in per_node})
+        per_node: dict[str, Any] = {name: function(getattr(self, name)).copy() for name in _OF_NODES}
+        return replace(self, **per_node)
 
 
 def root(least: Real, limits: Limits) -> Places:
@@ -94,7 +120,7 @@ def root(least: Real, limits: Limits) -> Places:
     half = np.where(limits.free, WHOLE, np.arctan2(limits.half_angle_sin, limits.half_angle_cos))
     none = np.zeros((1, least.size), bool)
     # what is too heavy for its limit, or for the budget, is not fitted
-    return Places(least, most, (least > most)[None], none, np.angle(limits.centre)[None], half[None])
+    return Places(least, most, (least > most)[None], none, np.angle(limits.centre)[None], half[None], limits.alike)
 
 
 def wrapped(angle: Real) -> Real:

@@ -3,12 +3,14 @@
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.discrete.search import TREE
 from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.semicontinuous.inside import Incumbent, lightened, sharing
 from optimizer.semicontinuous.places import Places, root
@@ -31,44 +33,49 @@ class Found:
     proven: bool = False  # equals are not told apart
 
 
+class Asked(NamedTuple):
+    """What is asked of a search, in units of the objective."""
+
+    gap: float
+    yardstick: float
+    share: float  # by which the objective of the lightest may be above that of the best
+    time_limit_s: float
+
+
 def search(
     statement: Statement,
     least: Real,
     continuous: Complex,
     at_least: float,
-    gap: float,
-    yardstick: float,
-    share: float,
-    time_limit_s: float,
+    asked: Asked,
+    solver: Solver,
 ) -> Found:
     """The counterweights with the smallest objective, and of those with the same webs the lightest.
 
     Parameters
     ----------
-    statement : one program (no leading axes), one that the kernel takes, with finite limits.
+    statement : one program (no leading axes), with finite limits.
     least : (K,) kg m, the least unbalance that is fitted on every web; 0 where there is none.
     continuous : (K,) kg m, its optimum whatever the least.
     at_least : lower bound of that optimum.
-    gap : that is asked, in units of the objective.
-    share : by which the objective of the lightest may be above that of the best, in units of the objective.
     """
-    end = time.monotonic() + time_limit_s
+    end, gap = time.monotonic() + asked.time_limit_s, asked.gap
 
     def spent() -> bool:
         return time.monotonic() >= end
 
     places = root(least, statement.limits)
-    incumbent = Incumbent(statement, places, _EQUAL * yardstick)
+    incumbent = Incumbent(statement, places, _EQUAL * asked.yardstick, solver)
     sharing(incumbent, continuous)
     if incumbent.unbalance is None:
-        within = _within(statement, places, continuous, spent)
+        within = _within(statement, places, continuous, spent, solver)
         if not within.kept:
             return within
         incumbent.offer(within.unbalance[None])
     tree = branch(incumbent, at_least, gap, lambda bound: False, spent)
     bound = min(max(at_least, tree.lower_bound), incumbent.least)
     assert incumbent.unbalance is not None  # that keeps the ceilings was offered
-    lightest = lightened(incumbent, incumbent.unbalance, min(share, max(bound + gap - incumbent.least, 0.0)))
+    lightest = lightened(incumbent, incumbent.unbalance, min(asked.share, max(bound + gap - incumbent.least, 0.0)))
     closed = incumbent.least - bound <= gap
     return Found(lightest, True, bound, tree.nodes, _ended(tree, closed))
 
@@ -77,9 +84,11 @@ def _ended(tree: Tree, closed: bool) -> str | None:
     return None if closed else "size" if tree.full else "time"
 
 
-def _within(statement: Statement, places: Places, continuous: Complex, spent: Callable[[], bool]) -> Found:
+def _within(
+    statement: Statement, places: Places, continuous: Complex, spent: Callable[[], bool], solver: Solver
+) -> Found:
     """The first counterweights that keep the ceilings, or the proof that there are none."""
-    incumbent = Incumbent(statement.excess(), places, 0.0)
+    incumbent = Incumbent(statement.excess(), places, 0.0, solver)
 
     def kept() -> bool:
         return incumbent.least <= CEILING_TOLERANCE

@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.compiled import both_stages
 from optimizer.program.statement import Statement
 from optimizer.semicontinuous.bound import proven, uphill
 from optimizer.semicontinuous.inside import Incumbent, cones, improved
@@ -95,8 +94,8 @@ def _bounded(
     statement, count = incumbent.statement, inherited.size
     program = relaxed(statement, places)
     close = max(gap, _CLOSE)
-    found = both_stages(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)
-    near = np.where(places.out, 0.0, np.nan_to_num(found.smallest))
+    found = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)
+    near = np.where(places.out, 0.0, found.unbalance)
     multipliers = replace(found.multipliers, ceiling=found.multipliers.ceiling[:, : statement.ceilings.cap.size])
     _offer(incumbent, places, near, inherited)
     target = incumbent.least - gap
@@ -104,16 +103,17 @@ def _bounded(
     raised = proven(statement, places, uphill(statement, places, multipliers, known.price, target))
     better = raised.bound > known.bound
     bound = np.maximum(inherited, np.where(better, raised.bound, known.bound))
+    bound = np.where(found.nowhere, np.inf, bound)
     closed = np.inf
     # what one web rules out by itself
     undecided = places.undecided
     without = np.maximum(np.where(better[:, None], raised.without, known.without), bound[:, None])
     fitted = np.maximum(np.where(better[:, None], raised.fitted, known.fitted), bound[:, None])
-    never = undecided & (fitted >= target)
+    never = places.whole(undecided & (fitted >= target))
     if np.any(never):
         closed = min(closed, float(np.min(fitted[never])))
         places = replace(places, out=places.out | never)
-    must = undecided & ~never & (without >= target)
+    must = places.whole(undecided & ~never & (without >= target))
     if np.any(must):
         closed = min(closed, float(np.min(without[must])))
     nowhere = np.any(undecided & never & (without >= target), axis=-1)
@@ -129,7 +129,7 @@ def _bounded(
         if must[n, web]:
             # it is split into pieces alone
             node = places.chosen([n])
-            node.fitted[0, web] = True
+            node.fitted[0, places.beside_web(web)] = True
         else:
             node = places.chosen([n])
         stays.append((float(bound[n]), _Open(node, web, float(np.angle(near[n, web])))))
@@ -140,9 +140,10 @@ def _offer(incumbent: Incumbent, places: Places, near: Complex, bounds: Real) ->
     """Relaxed points as they are, and the most promising with everything kept."""
     least = places.least
     incumbent.offer(np.where((least > 0) & (np.abs(near) <= _MISSES * least), 0.0, near))
-    best = np.argsort(bounds, kind="stable")[:_TRIED]
+    # one after the other where the kernel may not take them
+    best = np.argsort(bounds, kind="stable")[: _TRIED if places.alike is None else 1]
     some = near[best]
-    improved(incumbent, some, places.fitted[best] | (np.abs(some) >= 0.5 * least))
+    improved(incumbent, some, places.whole(places.fitted[best] | (np.abs(some) >= 0.5 * least)))
 
 
 def relaxed(statement: Statement, places: Places) -> Statement:
