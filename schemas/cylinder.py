@@ -44,7 +44,10 @@ class Cylinder(GasState, Ruled):
 
     bore_m: Annotated[Length | None, Unit("m")] = Field(None, description="cylinder bore", examples=[0.73])
     piston_rod_diameter_m: Annotated[float | None, non_negative(1e9), Unit("m")] = Field(
-        None, description="diameter of the piston rod; 0 where there is none", examples=[0.11]
+        None,
+        description="diameter of the piston rod; 0 where there is none; null is 0 where the head side has an indicated "
+        "pressure and the crank side is open: a trunk piston",
+        examples=[0.11],
     )
     head_area_m2: Annotated[Area | None, Unit("m2")] = Field(
         None, description="piston area on the head side, in place of the diameters", examples=[0.41729]
@@ -52,8 +55,11 @@ class Cylinder(GasState, Ruled):
     crank_area_m2: Annotated[Area | None, Unit("m2")] = Field(
         None, description="piston area on the crank side, in place of the diameters", examples=[0.41092]
     )
-    acting: Literal["double", "head", "crank"] = Field(
-        "double", description="which sides of the piston compress gas", examples=["double"]
+    acting: Literal["double", "head", "crank"] | None = Field(
+        None,
+        description="which sides of the piston compress gas; null is the sides with an indicated pressure or gas data, "
+        "and both where no pressure is indicated",
+        examples=["double"],
     )
     ambient_pressure_Pa: Annotated[Pressure | None, Unit("Pa")] = Field(
         None, description="absolute pressure on the open side of a single-acting piston", examples=[101325.0]
@@ -67,7 +73,7 @@ class Cylinder(GasState, Ruled):
     pressure: IndicatedPressure | None = Field(
         None,
         description="indicated pressure of an engine or of a measured compressor; a side that has one needs no other "
-        "gas data than its area",
+        "gas data than its area, the open side of a trunk piston only ambient_pressure_Pa",
         examples=[None],
     )
 

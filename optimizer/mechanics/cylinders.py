@@ -130,9 +130,8 @@ def without_gas(machine: ReciprocatingMachine) -> tuple[Path, ...]:
 def gas_problems(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
     """Fields that the gas forces of cylinders need and the machine does not give, by paths from the machine."""
     for place, cylinder in _cylinders(machine):
-        words = "" if cylinder.pressure is None else " on the side without an indicated pressure"
-        for field in _missing(cylinder):
-            yield FieldProblem((*place.path, field), f"gas forces need this field{words if field in _STATE else ''}")
+        for field, words in _missing(cylinder):
+            yield FieldProblem((*place.path, field), f"gas forces need this field{words}")
 
 
 def delivery_rules(machine: ReciprocatingMachine, layout: Layout) -> Iterator[Rule]:
@@ -175,7 +174,16 @@ def _cylinders(machine: ReciprocatingMachine) -> Iterator[tuple[_Place, Cylinder
 def _acts(cylinder: Cylinder, side: str) -> bool:
     """Whether a side compresses gas; one without area is none."""
     area = cylinder.head_area_m2 if side == "head" else cylinder.crank_area_m2
-    return cylinder.acting in ("double", side) and not _is_none(area)
+    if cylinder.acting is None:
+        acts = _indicated(cylinder, side) is not None or cylinder.pressure is None or _has_gas(cylinder, side)
+    else:
+        acts = cylinder.acting in ("double", side)
+    return acts and not _is_none(area)
+
+
+def _has_gas(cylinder: Cylinder, side: str) -> bool:
+    """Whether any of the data of a cycle is given for a side."""
+    return any(_value(cylinder, side, field) is not None for field in _STATE)
 
 
 def _is_none(area: float | None) -> bool:
@@ -197,24 +205,33 @@ def _areas(cylinder: Cylinder) -> tuple[float | None, float | None]:
     if cylinder.bore_m is None:
         return cylinder.head_area_m2, cylinder.crank_area_m2
     bore, rod = cylinder.bore_m, cylinder.piston_rod_diameter_m
+    if rod is None and cylinder.pressure is not None and not _acts(cylinder, "crank"):
+        # a trunk piston, open to the crankcase
+        rod = 0.0
     crank = None if rod is None else 0.25 * np.pi * (bore - rod) * (bore + rod)
     return 0.25 * np.pi * bore**2, crank
 
 
-def _missing(cylinder: Cylinder) -> Iterator[str]:
+def _missing(cylinder: Cylinder) -> Iterator[tuple[str, str]]:
+    """Fields that are missing, and why they are needed where that is not plain."""
     head, crank = _areas(cylinder)
     if head is None:
-        yield "bore_m"
+        yield "bore_m", ""
     if crank is None:
-        yield "piston_rod_diameter_m" if cylinder.bore_m is not None else "crank_area_m2"
+        yield "piston_rod_diameter_m" if cylinder.bore_m is not None else "crank_area_m2", ""
     cycled = [side for side in _SIDES if _indicated(cylinder, side) is None]
     areas = dict(zip(_SIDES, (head, crank), strict=True))
     open_ = [side for side in cycled if not _acts(cylinder, side) and not _is_none(areas[side])]
     if open_ and cylinder.ambient_pressure_Pa is None:
-        yield "ambient_pressure_Pa"
+        words = "" if cylinder.pressure is None else f": the {open_[0]} side has no indicated pressure and is open"
+        yield "ambient_pressure_Pa", words
     for field in _STATE:
-        if any(_acts(cylinder, side) and _value(cylinder, side, field) is None for side in cycled):
-            yield field
+        lacking = [side for side in cycled if _acts(cylinder, side) and _value(cylinder, side, field) is None]
+        if lacking:
+            words = "" if cylinder.pressure is None else f" on the {lacking[0]} side, which has no indicated pressure"
+            if words and cylinder.acting == "double":
+                words += "; it is open if acting is left out"
+            yield field, words
 
 
 def _row(cylinder: Cylinder) -> list[list[float | None]]:

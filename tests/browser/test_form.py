@@ -54,6 +54,18 @@ def test_an_error_stands_at_its_field(portal: Portal, name: str, value: str, mes
     assert portal.page.locator("#problem").inner_text() == ""
 
 
+def test_a_choice_may_be_left_open(portal: Portal) -> None:
+    portal.open("inline-four-engine")
+    row = f"{THROW}/rows/0"
+    portal.unfold("/machine", "/machine/throws", THROW, f"{THROW}/rows", row, f"{row}/cylinder")
+    acting = portal.input(f"{row}/cylinder/acting")
+    assert acting.input_value() == "head"
+    acting.select_option("")
+    portal.optimise()
+    (throw, *_) = portal.bodies("/v1/optimize")[-1]["machine"]["throws"]
+    assert "acting" not in throw["rows"][0]["cylinder"]
+
+
 def test_an_error_between_fields_has_a_place_too(portal: Portal) -> None:
     portal.refusals = {422}
     portal.open()

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optimizer.arrays import Real
-from optimizer.mechanics.cylinders import chambers, cycle_turns, traces
+from optimizer.mechanics.cylinders import chambers, cycle_turns, gas_problems, traces
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import layout, spread
@@ -17,6 +17,13 @@ from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.engines import FOUR, RADIUS, UNEVEN, cylinder, engine, trace
 
 TURN = 2.0 * np.pi
+CYCLE = {
+    "suction_pressure_Pa": 1e5,
+    "discharge_pressure_Pa": 4e5,
+    "relative_clearance": 0.1,
+    "expansion_exponent": 1.3,
+    "compression_exponent": 1.3,
+}
 
 
 def machine(body: dict[str, Any]) -> ReciprocatingMachine:
@@ -190,3 +197,52 @@ def test_a_batch_is_the_loop() -> None:
         np.testing.assert_allclose(found.pressure[k], expected.pressure, rtol=1e-11)
         np.testing.assert_allclose(series.of("gas").middle[0, k], expected.total, rtol=1e-9, atol=1e-6)
         assert float(batch[k]) == pytest.approx(float(work(alone)), rel=1e-9)
+
+
+@pytest.mark.parametrize("side", ["head", "crank"])
+def test_a_trace_on_one_side_leaves_the_other_open(side: str) -> None:
+    """Independent: a piston whose acting side and rod are said."""
+    said = cylinder(UNEVEN)
+    said |= {"acting": side, "pressure": {side: UNEVEN, "cycle_turns": 2}}
+    named = ("bore_m", "ambient_pressure_Pa", "pressure", *(("piston_rod_diameter_m",) if side == "crank" else ()))
+    trunk = {name: said[name] for name in named}
+    assert not list(gas_problems(machine(engine([0.0], [trunk]))))
+    angle = np.linspace(0.0, 719.0, 20)
+    np.testing.assert_array_equal(pressures(engine([0.0], [trunk]), angle), pressures(engine([0.0], [said]), angle))
+    area = chambers(machine(engine([0.0], [trunk]))).area
+    np.testing.assert_array_equal(area, chambers(machine(engine([0.0], [said]))).area)
+
+
+@pytest.mark.parametrize(
+    ("fields", "missing"),
+    [
+        ({}, {"ambient_pressure_Pa": ": the crank side has no indicated pressure and is open"}),
+        # what is begun is a cycle
+        (
+            {"suction_pressure_Pa": 1e5, "discharge_pressure_Pa": 4e5, "piston_rod_diameter_m": 0.02},
+            dict.fromkeys(
+                ("relative_clearance", "expansion_exponent", "compression_exponent"),
+                " on the crank side, which has no indicated pressure",
+            ),
+        ),
+        (
+            {
+                "acting": "double",
+                "piston_rod_diameter_m": 0.02,
+                "crank": {name: value for name, value in CYCLE.items() if name != "relative_clearance"},
+            },
+            {
+                "relative_clearance": " on the crank side, which has no indicated pressure; it is open if acting is "
+                "left out"
+            },
+        ),
+        ({"piston_rod_diameter_m": 0.02, "crank": CYCLE}, {}),
+    ],
+)
+def test_what_a_side_without_a_trace_needs_is_named_with_the_reason(
+    fields: dict[str, Any], missing: dict[str, str]
+) -> None:
+    given = {"bore_m": 0.1, "pressure": {"head": UNEVEN, "cycle_turns": 2}, **fields}
+    problems = gas_problems(machine(engine([0.0], [given])))
+    found = {str(one.path[-1]): one.message for one in problems}
+    assert found == {name: f"gas forces need this field{words}" for name, words in missing.items()}

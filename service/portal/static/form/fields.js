@@ -61,10 +61,12 @@ function make(description, value, required, change) {
 // What an empty field stands for.
 const meaning = ({ about }) => /null is ([^;,.]+)/.exec(about)?.[1] ?? "none";
 
-function choice({ options, fallback }, value, _required, change) {
-  const select = h("select", { change: () => change(select.value) },
+function choice(description, value, _required, change) {
+  const { options, fallback, nullable } = description;
+  const select = h("select", { change: () => change(select.value || undefined) },
+    nullable ? h("option", { value: "" }, meaning(description)) : null,
     options.map((option) => h("option", { value: option }, label(String(option)))));
-  select.value = value ?? fallback ?? options[0];
+  select.value = value ?? fallback ?? (nullable ? "" : options[0]);
   return select;
 }
 
