@@ -118,10 +118,11 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
 
     def warm_up() -> None:
         with ThreadPoolExecutor(1) as beside:
-            # a second's work, for which the first who asks would wait
-            document = beside.submit(app.document, chosen.root_path)
+            # seconds of work, for which the first who asks would wait
+            document, page = beside.submit(app.document, chosen.root_path), beside.submit(portal.prepare)
             pool.open()
             document.result()
+            page.result()
         # what is loaded by now stays; each full collection of garbage, of which there are some a second where many ask,
         # would stop everything for a tenth of a second to look through all of it again
         gc.collect()

@@ -1,22 +1,46 @@
-"""The files of the page: our own, and the plotting library of an installed package."""
+"""The files of the page: our own, one of each kind, and the plotting library of an installed package."""
 
 import hashlib
-from collections.abc import Mapping, Sequence
+import json
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from importlib.metadata import version
 from importlib.resources import files
 from pathlib import Path
 
+from pydantic.json_schema import models_json_schema
+
+from schemas.pareto import ParetoRequest
+from schemas.requests import OptimizeRequest
+from service.portal.bundle import bundle
+
 MEDIA_TYPES: Mapping[str, str] = {
     ".css": "text/css; charset=utf-8",
     ".js": "text/javascript; charset=utf-8",
+    ".json": "application/json",
     ".svg": "image/svg+xml",
 }
 PLOTS = "plotly.min.js"
-_STATIC = Path(__file__).parent / "static"
-_MODULES = b"<!-- modules -->"
+STATIC = Path(__file__).parent / "static"
+_STYLES = ("theme.css", "form.css", "results.css")
 _FRAMES = b"<!-- frames -->"
+
+
+def _schemas() -> str:
+    """What the form is made from: of the service's document, which is ten times as long, what it needs."""
+    _, found = models_json_schema(
+        [(OptimizeRequest, "validation"), (ParetoRequest, "validation")], ref_template="#/components/schemas/{model}"
+    )
+    return json.dumps(found["$defs"], ensure_ascii=False, separators=(",", ":"))
+
+
+_OWN: Mapping[str, Callable[[], str]] = {
+    "page.js": lambda: bundle(STATIC, "main.js"),
+    "page.css": lambda: "".join((STATIC / name).read_text(encoding="utf-8") for name in _STYLES),
+    "schemas.json": _schemas,
+    "icon.svg": lambda: (STATIC / "icon.svg").read_text(encoding="utf-8"),
+}
 
 
 class UnknownAsset(LookupError):
@@ -31,11 +55,9 @@ class Asset:
     content: bytes
 
 
-@cache
 def names() -> tuple[str, ...]:
-    """Names of all files, relative to the folder of the page."""
-    own = (path.relative_to(_STATIC).as_posix() for path in _STATIC.rglob("*") if path.suffix in MEDIA_TYPES)
-    return (*sorted(own), PLOTS)
+    """Names of all files."""
+    return (*_OWN, PLOTS)
 
 
 @cache
@@ -50,7 +72,8 @@ def asset(name: str) -> Asset:
     # looked up in the listing: a name never becomes a path by itself
     if name not in names():
         raise UnknownAsset(name)
-    content = (files("plotly") / "package_data" / PLOTS if name == PLOTS else _STATIC / name).read_bytes()
+    made = _OWN.get(name)
+    content = made().encode() if made else (files("plotly") / "package_data" / PLOTS).read_bytes()
     return Asset(MEDIA_TYPES[Path(name).suffix], content)
 
 
@@ -58,21 +81,18 @@ def asset(name: str) -> Asset:
 def release() -> str:
     """Changes whenever a file does, so that browsers may keep what they have for ever."""
     digest = hashlib.sha256(version("plotly").encode())
-    for name in names():
-        if name != PLOTS:
-            digest.update(name.encode() + (_STATIC / name).read_bytes())
+    for name in _OWN:
+        digest.update(name.encode() + asset(name).content)
     return digest.hexdigest()[:12]
 
 
 def page(origins: Sequence[str] = ()) -> bytes:
-    """The page, with the addresses of this release and all modules announced at once.
+    """The page, with the addresses of this release.
 
     Parameters
     ----------
     origins : whose pages may show it in a frame, and are listened to.
     """
-    modules = (name for name in names() if name.endswith(".js") and name != PLOTS)
-    announced = "".join(f'<link rel="modulepreload" href="portal/{name}">\n' for name in modules).encode()
     framed = f'<meta name="frame-origins" content="{" ".join(origins)}">'.encode()
-    content = (_STATIC / "index.html").read_bytes().replace(_MODULES, announced).replace(_FRAMES, framed)
+    content = (STATIC / "index.html").read_bytes().replace(_FRAMES, framed)
     return content.replace(b'="portal/', f'="portal/{release()}/'.encode())

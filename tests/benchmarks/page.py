@@ -69,7 +69,7 @@ def weigh(console: Console) -> None:
     plots = asset(PLOTS)
     travel, read = sum(len(gzip.compress(one.content)) for one in own), sum(len(one.content) for one in own)
     console.print(
-        f"page and {len(own)} files of our own: {(len(page()) + travel) / 1e3:.0f} kB, {read / 1e3:.0f} kB read"
+        f"page and the {len(own)} files of our own: {(len(page()) + travel) / 1e3:.0f} kB, {read / 1e3:.0f} kB read"
     )
     console.print(f"plots, loaded beside the first result: {len(gzip.compress(plots.content)) / 1e3:.0f} kB", end=", ")
     console.print(f"{len(plots.content) / 1e3:.0f} kB read")

@@ -1,6 +1,7 @@
 """What the page is made of: compressed, kept, allowed to load nothing from elsewhere. Needs no browser."""
 
 import gzip
+import json
 import re
 import urllib.error
 import urllib.request
@@ -10,7 +11,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from service.app import create_app
-from service.portal.assets import PLOTS, asset, names, page, release
+from service.portal.assets import PLOTS, STATIC, asset, names, page, release
 from service.settings import Settings
 
 
@@ -48,31 +49,27 @@ def test_nobody_may_frame_it_unless_the_operator_says_who(url: str) -> None:
 
 
 def test_nothing_in_our_files_writes_markup() -> None:
-    for name in names():
-        if name.endswith(".js") and name != PLOTS:
-            text = asset(name).content.decode()
-            assert not re.search(
-                r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function", text
-            ), name
-            assert not re.search(r"""["'`]https?://(?!www\.w3\.org/2000/svg)""", text), name
+    text = asset("page.js").content.decode()
+    assert not re.search(r"innerHTML|outerHTML|insertAdjacentHTML|document\.write|\beval\(|new Function", text)
+    assert not re.search(r"""["'`]https?://(?!www\.w3\.org/2000/svg)""", text)
 
 
 def test_files_are_kept_for_ever_until_they_change(url: str) -> None:
-    status, headers, body = _get(f"{url}/portal/{release()}/main.js", Accept_Encoding="gzip, br")
+    status, headers, body = _get(f"{url}/portal/{release()}/page.js", Accept_Encoding="gzip, br")
     assert status == 200
     assert headers["content-type"].startswith("text/javascript")
     assert "immutable" in headers["cache-control"]
     assert headers["vary"].startswith("Accept-Encoding")
-    assert gzip.decompress(body) == asset("main.js").content
-    status, headers, body = _get(f"{url}/portal/of-yesterday/main.js")
-    assert (status, headers["cache-control"], body) == (200, "no-cache", asset("main.js").content)
+    assert gzip.decompress(body) == asset("page.js").content
+    status, headers, body = _get(f"{url}/portal/of-yesterday/page.js")
+    assert (status, headers["cache-control"], body) == (200, "no-cache", asset("page.js").content)
 
 
 @pytest.mark.parametrize("refused", ["gzip;q=0", "br", "identity", "*;q=0"])
 def test_who_does_not_take_gzip_gets_none(url: str, refused: str) -> None:
-    _, headers, body = _get(f"{url}/portal/{release()}/theme.css", Accept_Encoding=refused)
+    _, headers, body = _get(f"{url}/portal/{release()}/page.css", Accept_Encoding=refused)
     assert headers["content-encoding"] is None
-    assert body == asset("theme.css").content
+    assert body == asset("page.css").content
 
 
 @pytest.mark.parametrize("name", ["", "nothing.js", "../assets.py", "..%2f..%2fapp.py", "index.html", "%00"])
@@ -82,7 +79,21 @@ def test_nothing_else_is_served(url: str, name: str) -> None:
     assert headers["content-type"] == "application/problem+json"
 
 
-def test_the_page_announces_every_module_of_this_release() -> None:
-    for name in names():
-        if name != PLOTS:
-            assert f"portal/{release()}/{name}".encode() in page() or not name.endswith((".js", ".css"))
+def test_the_page_asks_for_one_file_of_each_kind_of_this_release() -> None:
+    asked = re.findall(rb'(?:src|href)="portal/(\w+)/([\w.]+)"', page())
+    assert sorted(asked) == [(release().encode(), name) for name in (b"icon.svg", b"page.css", b"page.js")]
+    assert {name.decode() for _, name in asked} | {"schemas.json", PLOTS} == set(names())
+
+
+def test_every_module_and_every_style_is_in_the_page() -> None:
+    page, style = asset("page.js").content.decode(), asset("page.css").content.decode()
+    for path in STATIC.rglob("*.js"):
+        assert f"\n// {path.relative_to(STATIC).as_posix()}\nconst module" in f"\n{page}", path
+    assert all(path.read_text() in style for path in STATIC.glob("*.css"))
+
+
+def test_the_form_has_the_schemas_of_the_document(url: str) -> None:
+    document = json.loads(_get(f"{url}/openapi.json")[2])["components"]["schemas"]
+    own = json.loads(asset("schemas.json").content)
+    assert {"OptimizeRequest", "ParetoRequest"} <= set(own)
+    assert own == {name: document[name] for name in own}

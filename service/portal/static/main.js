@@ -21,9 +21,8 @@ import { sweep } from "./panels/sweep.js";
 import { turning } from "./panels/turning.js";
 import { versions } from "./panels/versions.js";
 import { whatIf } from "./panels/what_if.js";
-import { load as loadPlots } from "./plots.js";
 import { Run } from "./run.js";
-import { Schema } from "./schema.js";
+import { schemas } from "./schema.js";
 import { sketching } from "./sketch.js";
 import { starter } from "./starter.js";
 import { theme } from "./theme.js";
@@ -34,7 +33,7 @@ const MODEL = "OptimizeRequest";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
 const PANELS = [counterweights, whatIf, versions, cranks, hodographs, turning, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, bearingCurves, pins, match, sweep];
 
-const schema = get("openapi.json").then((document) => new Schema(document));
+const schema = schemas();
 const examples = get("v1/examples");
 /** @type {any} made when the schema is here */
 let form = null;
@@ -152,6 +151,4 @@ examples.then((found) => {
   byId("example").replaceChildren(...choices(found.examples));
   tools();
 }, (error) => run.complain(error));
-// while the first answer is computed, and not in its way
-loadPlots().catch(() => null);
 opening.link(location.hash);

@@ -11,7 +11,7 @@ const due = new Map();
 let library = null;
 let busy = false;
 
-export function load() {
+function load() {
   library ??= new Promise((resolve, reject) => {
     // The library writes style attributes, which the policy of this page forbids; the same through the object
     // model is allowed, and does not loosen the policy.

@@ -1,8 +1,12 @@
-// What a field takes, from the JSON schema in the OpenAPI document.
+// What a field takes, from the schemas that the OpenAPI document holds too: those of the form alone come with the page.
+
+import { get } from "./api.js";
+
+export const schemas = async () => new Schema(await get(new URL("schemas.json", import.meta.url).href));
 
 export class Schema {
-  constructor(document) {
-    this.known = document.components.schemas;
+  constructor(known) {
+    this.known = known;
   }
 
   deref(node) {

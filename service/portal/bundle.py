@@ -1,0 +1,67 @@
+"""The modules of the page as one file, so that a first visit needs one request and not seventy.
+
+Every module becomes a function that returns what it exports, after those that it imports. Only what our modules use is
+understood, imports and exports by name, a line each; anything else is refused. Nothing else is changed: what a browser
+runs is what can be read in the folder.
+"""
+
+import re
+from pathlib import Path
+from posixpath import dirname, join, normpath
+
+_IMPORT = re.compile(r'^import \{ ([\w$ ,]+) \} from "(\.[\w./]+)";$', re.MULTILINE)
+_EXPORT = re.compile(r"^export (?=(?:const|class|(?:async )?function\*?) ([\w$]+))", re.MULTILINE)
+_OTHER = re.compile(r"^(?:import|export)\b.*|\bimport\(.*", re.MULTILINE)
+# types are told to the checker alone
+_NOTE = re.compile(r"/\*\*.*?\*/", re.DOTALL)
+
+
+class UnknownStatement(ValueError):
+    """A module imports or exports in a way that is not understood here."""
+
+
+class CircularImport(ValueError):
+    """Modules that need one another have no order."""
+
+
+def bundle(folder: Path, entry: str) -> str:
+    """One module that does what the one of this name does with all that it imports.
+
+    Raises
+    ------
+    UnknownStatement
+        if a module imports or exports otherwise than by name, in a line each.
+    CircularImport
+        if there is a module that needs itself.
+    """
+    written: dict[str, str] = {}
+    _write(folder, entry, written, ())
+    return "".join(written.values())
+
+
+def _write(folder: Path, name: str, written: dict[str, str], around: tuple[str, ...]) -> None:
+    if name in around:
+        raise CircularImport(" needs ".join((*around[around.index(name) :], name)))
+    if name in written:
+        return
+    text = (folder / name).read_text(encoding="utf-8")
+    for _, needed in _IMPORT.findall(text):
+        _write(folder, _beside(name, needed), written, (*around, name))
+    numbers = {each: number for number, each in enumerate(written)}
+    exported = _EXPORT.findall(text)
+    inside = _EXPORT.sub("", text)
+    inside = _IMPORT.sub(
+        lambda found: f"const {{ {found[1].replace(' as ', ': ')} }} = module{numbers[_beside(name, found[2])]};",
+        inside,
+    )
+    other = _OTHER.search(_NOTE.sub("", inside))
+    if other:
+        raise UnknownStatement(f"{name}: {other[0]}")
+    written[name] = (
+        f"// {name}\nconst module{len(written)} = (() => {{\n{inside}return {{ {', '.join(exported)} }};\n}})();\n"
+    )
+
+
+def _beside(name: str, needed: str) -> str:
+    """The name of a module, from the path at which another one knows it."""
+    return normpath(join(dirname(name), needed))
