@@ -293,10 +293,14 @@ def test_only_what_the_sides_without_a_pressure_need_is_asked_for() -> None:
     body = engine([0.0])
     given = body["throws"][0]["rows"][0]["cylinder"]
     at = "machine/throws/0/rows/0/cylinder"
-    for field in ("ambient_pressure_Pa", "piston_rod_diameter_m", "bore_m"):
+    for field in ("ambient_pressure_Pa", "bore_m"):
         without = copy.deepcopy(body)
         del without["throws"][0]["rows"][0]["cylinder"][field]
         assert list(told(without, "gas")) in ([f"{at}/{field}"], [f"{at}/{field}", f"{at}/crank_area_m2"])
+    # no piston rod is none of a trunk piston
+    trunk = copy.deepcopy(body)
+    del trunk["throws"][0]["rows"][0]["cylinder"]["piston_rod_diameter_m"]
+    assert ask(trunk, "gas").gas == ask(body, "gas").gas
     # a pressure on the open side needs no ambient one
     given["pressure"]["crank"] = {"angle_deg": [0, 200, 400, 720], "pressure_Pa": [1.1e5, 1e5, 1.2e5, 1.1e5]}
     del given["ambient_pressure_Pa"]
@@ -306,7 +310,7 @@ def test_only_what_the_sides_without_a_pressure_need_is_asked_for() -> None:
     given["acting"] = "double"
     found = told(body, "gas")
     assert len(found) == 5
-    assert "without an indicated pressure" in found[f"{at}/relative_clearance"]
+    assert "on the crank side, which has no indicated pressure" in found[f"{at}/relative_clearance"]
 
 
 def test_more_entries_than_can_be_worked_on_are_refused() -> None:
