@@ -23,7 +23,8 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cut_proof import Proof
 from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
-from optimizer.program.over_turn import Goal, Group, OverTurn, Values, Weighed
+from optimizer.program.deciding import Group, Weighed
+from optimizer.program.over_turn import Goal, OverTurn, Values
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import CONTRADICTED, INFEASIBLE, Claim, Verdict, mass_resolution, verdict
 from optimizer.scene import Prepared

@@ -21,7 +21,8 @@ from optimizer.mechanics.roll import mirrored, roll
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.cut import EXACT, Quantity, Scatter
-from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
+from optimizer.program.deciding import Group, Weighed
+from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.rows import Row, combined, weighted_peak
 from optimizer.projected import component
 from optimizer.response import Response

@@ -10,8 +10,9 @@ from optimizer.arrays import Complex, Real
 from optimizer.formulate import RESPONSES
 from optimizer.goals import Case, goals
 from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.program.deciding import Group, Weighed
 from optimizer.program.norms import Norms
-from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
+from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.rows import Row, WeightedPeak
 from optimizer.scene import Prepared
 from schemas.objective import Objective

@@ -14,14 +14,8 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.astray import peaks_astray
-from optimizer.cells import worst_masses
-from optimizer.circle import smallest_circle
 from optimizer.curve import TurnResponse, peaks
 
-#: places in every piece of a curve at which it is sampled
-_WITHIN = np.array([-0.75, -0.25, 0.25, 0.75])
-#: share of what is added up at which it has cancelled
-_DUST = 1e-13
 #: by this share of them constants differ that are not one
 _ALIKE = 1e-12
 #: cuts of a quantity that are kept from one round to the next
@@ -136,69 +130,6 @@ class Quantity:
         return Reached(value - off, value + off, cut)
 
 
-class Samples:
-    """Quantities at angles all over the turn, evaluated once: their cuts lead close to an optimum in no time."""
-
-    def __init__(self, quantities: Sequence[Quantity]) -> None:
-        self.quantities = quantities
-        self._parts: dict[tuple[int, int], Complex] = {}  # what rows add, (n, R)
-        together: dict[int, tuple[Real, Complex]] = {}
-        self._places: list[tuple[Real, Complex]] = []  # angles (n,) rad and values (n,)
-        for quantity in quantities:
-            curves, number = quantity.response.curves, quantity.response.number
-            if id(curves) not in together:
-                pieces = curves.pieces
-                wide = pieces.half[number] > 0.0
-                centre, half = pieces.centre[number][wide], pieces.half[number][wide]
-                angle = (centre[:, None] + half[:, None] * _WITHIN).ravel()
-                together[id(curves)] = angle, curves.at(angle)
-            angle, values = together[id(curves)]
-            self._places.append((angle, _cleared(quantity, values[number])))
-        #: quantities whose curves cancel to their rounding error everywhere
-        self.cancelled = [
-            not (np.any(values) or quantity.masses > 0.0) and quantity.response.turning is None
-            for quantity, (_, values) in zip(quantities, self._places, strict=True)
-        ]
-
-    def first(self) -> tuple[tuple[Cut, ...], ...]:
-        """Cuts to begin with: what holds the smallest circle, or the still and the moving part by themselves."""
-        found: list[tuple[Cut, ...]] = []
-        for quantity, (angle, value) in zip(self.quantities, self._places, strict=True):
-            influence = quantity.response.influence
-            if quantity.measure == "rms":
-                mean, off = quantity.response.mean, quantity.response.rms_error
-                found.append((Cut(0j, 0.0 * influence, quantity.spread - off), Cut(mean, influence, -off)))
-            else:
-                support = smallest_circle(value).support
-                found.append(tuple(quantity.cut(float(angle[k]), complex(value[k])) for k in support))
-        return tuple(found)
-
-    def reached(self, u: Complex, scatter: Scatter) -> tuple[Reached, ...]:
-        """The largest sample of every quantity, in place of its peak."""
-        found = []
-        for quantity, (angle, value) in zip(self.quantities, self._places, strict=True):
-            if quantity.measure == "rms":
-                found.append(quantity.rms(u, scatter))
-                continue
-            if quantity.masses > 0.0:
-                value = value + self._astray(quantity, value + quantity.response.added(u, angle), angle)
-            moved = value + quantity.response.added(u, angle)
-            size = np.abs(moved.real if quantity.response.scalar else moved)
-            k = int(np.argmax(size))
-            cut = quantity.cut(float(angle[k]), complex(value[k]))
-            found.append(quantity.peak(u, scatter, float(size[k]), float(size[k]), cut))
-        return tuple(found)
-
-    def _astray(self, quantity: Quantity, moved: Complex, angle: Real) -> Complex:
-        """What masses that are about the worst add to samples (n,)."""
-        response = quantity.response
-        key = id(response.curves), response.number
-        if key not in self._parts:
-            self._parts[key] = response.curves.parts.at(response.number, angle)
-        parts = quantity.masses * self._parts[key]
-        return np.sum(worst_masses(moved, parts) * parts, axis=-1)
-
-
 class Pool:
     """The cuts that are known of every quantity."""
 
@@ -209,15 +140,18 @@ class Pool:
     def count(self) -> int:
         return sum(len(cuts) for cuts in self.cuts)
 
-    def add(self, found: Sequence[Reached], u: Complex, matters: Real) -> bool:
-        """Take the cut of every quantity whose true value is above what matters; whether any was new."""
+    def add(self, found: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+        """Take the cuts of every quantity whose true value is above what matters; whether any was new."""
         new = False
-        for cuts, each, least in zip(self.cuts, found, matters, strict=True):
-            known = max(cut.at(u, self.scatter) for cut in cuts)
-            above = each.lower > least and each.lower > known * (1.0 + 4 * np.finfo(float).eps)
-            if above and not any(each.cut.alike(cut) for cut in cuts):
-                cuts.append(each.cut)
-                new = True
+        for cuts, several, least in zip(self.cuts, found, matters, strict=True):
+            above = [each for each in several if each.lower > least]
+            if not above:
+                continue
+            known = max(cut.at(u, self.scatter) for cut in cuts) * (1.0 + 4 * np.finfo(float).eps)
+            for each in above:
+                if each.lower > known and not any(each.cut.alike(cut) for cut in cuts):
+                    cuts.append(each.cut)
+                    new = True
         return new
 
     def forget(self, u: Complex) -> None:
@@ -225,12 +159,6 @@ class Pool:
         for q, cuts in enumerate(self.cuts):
             if len(cuts) > _MOST_CUTS:
                 self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u, self.scatter))[:_MOST_CUTS]
-
-
-def _cleared(quantity: Quantity, values: Complex) -> Complex:
-    """Samples, all 0 where what the rows add to them cancels up to rounding."""
-    added = quantity.response.curves.pieces.size[quantity.response.number]
-    return values if np.max(np.abs(values)) > _DUST * added else np.zeros_like(values)
 
 
 def reached(

@@ -7,7 +7,7 @@ gap tells when to stop, and not the solver.
 """
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -15,7 +15,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.cut import Pool
+from optimizer.program.cut import Pool, Reached
 from optimizer.program.cut_attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cut_proof import Proof, proofs, resting_proof, times, units
 from optimizer.program.over_turn import OverTurn, Values
@@ -33,8 +33,6 @@ _REACH = 10.0
 _LAST_S = 1e-2
 #: no bracket is left wider
 _COARSE = 1e-4
-#: share of a goal below which samples of the turn tell no more
-_SAMPLED = 1e-4
 #: share of a gap from which on it is the solver that leaves it open
 _LOST = 0.5
 #: share of the gap asked for that brackets may leave open
@@ -124,39 +122,46 @@ class Search:
         """
         best, proof = self.inside, None if self.of_mass else self._resting()
         attempts, gap = list(FREELY if self.free else WITHIN), np.inf
-        rounds, coarse, timed_out = 0, True, False
+        rounds, timed_out, promised = 0, True, None
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
             statement = self.program.statement(self.pool.cuts)
             found = self._solved(statement, attempts[0])
             if found is None:
-                attempts, coarse = attempts[1:], False
+                attempts = attempts[1:]
                 continue
             u, proven = found
             for one in proven:
                 proof = one if proof is None or one.bound > proof.bound else proof
             self._spare(enough * (best.mass if self.of_mass else 1.0))
-            if coarse:
-                # the largest samples are cuts as well, and cost next to nothing
-                values = self.program.sampled(u)
-                coarse = self._apart(statement, u, values) and self._learnt(statement, u, values)
-                if coarse:
-                    continue
-            point = self._evaluated(u, self._width(enough, gap))
-            best = min(best, self._kept(point), key=self.figure)
             bound = -np.inf if proof is None else proof.bound
+            matters, mass = self._matters(statement, u), self._mass(u)
+            # what is seen at some angles is no more than the truth: while that is too much no bracket is needed
+            seen, places = self.program.seen(u, matters)
+            promised = Point(u, seen, mass)
+            figure = self._promise(promised)
+            gap = figure - bound
+            lost = self.free and self._said(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap
+            if gap > self._wanted(enough, best) and not told(figure, bound) and self._learnt(places, u, matters):
+                if lost:
+                    # not cuts are missing but digits of the multipliers
+                    attempts = [*attempts[1:], attempts[0]]
+                continue
+            point, promised = self._evaluated(u, self._width(enough, gap)), None
+            best = min(best, self._kept(point), key=self.figure)
             gap = self.figure(best) - bound
             if gap <= self._wanted(enough, best) or told(self.figure(best), bound):
                 break
-            if not self._learnt(statement, u, point.values):
+            if not self._learnt([(each,) for each in point.values.reached], u, matters):
                 proof = self._closed(proof)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
-            elif self.free and self._said(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap:
-                # not cuts are missing but digits of the multipliers
+            elif lost:
                 attempts = [*attempts[1:], attempts[0]]
         else:
             timed_out = self._late()
+        if promised is not None:
+            best = min(best, self._kept(self._evaluated(promised.unbalance, self._width(enough, gap))), key=self.figure)
         return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
 
     def _wanted(self, enough: float, best: Point) -> float:
@@ -186,16 +191,24 @@ class Search:
         worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
         self.margin = np.minimum(self.kept.margin, np.maximum(worth, least))
 
-    def _learnt(self, statement: Statement, u: Complex, values: Values) -> bool:
+    def _learnt(self, found: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
         """Whether a point has shown a cut that was not known."""
-        new = self.pool.add(values.reached, u, self._matters(statement, u))
+        new = self.pool.add(found, u, matters)
         self.pool.forget(u)
         return new
 
-    def _apart(self, statement: Statement, u: Complex, values: Values) -> bool:
-        """Whether a point comes to more than its statement says by more than samples leave open."""
-        over = float(np.max((values.goals - self._said(statement, u)) / self.program.units))
-        return over > _SAMPLED or values.excess > _SAMPLED
+    def _promise(self, point: Point) -> float:
+        """What the best that is kept between a point and those inside comes to at least, and by convexity at most if
+        the point comes to no more than its values."""
+        over = self._excess(point.values)
+        if np.all(over <= 0.0):
+            return self.figure(point)
+        found = []
+        for inside in (self.inside, self.near):
+            if inside is not None:
+                step = min(_step(over, self._excess(inside.values)), 1.0)
+                found.append(self.figure(point) + step * (self.figure(inside) - self.figure(point)))
+        return min(found)
 
     def _said(self, statement: Statement, u: Complex) -> Real:
         """(goals,) what a point comes to by its statement."""
@@ -285,8 +298,10 @@ class Search:
         return point if np.any(self._excess(tidy.values) > 0) else tidy
 
     def _evaluated(self, u: Complex, width: float) -> Point:
-        mass = float(np.sum(np.abs(u) / self.program.limits.radius))
-        return Point(u, self.program.values(u, width), mass)
+        return Point(u, self.program.values(u, width), self._mass(u))
+
+    def _mass(self, u: Complex) -> float:
+        return float(np.sum(np.abs(u) / self.program.limits.radius))
 
     def _kept(self, point: Point) -> Point:
         """The best that is kept between a point and those inside; later points are moved towards the nearest."""
@@ -302,8 +317,7 @@ class Search:
         """The point moved towards one inside just so far that all is kept; all of it is convex."""
         for _ in range(4):
             over, under = self._excess(point.values), self._excess(inside.values)
-            worst = np.where(over > 0, over / np.maximum(over - under, np.finfo(float).tiny), 0.0)
-            step = float(np.max(worst, initial=0.0))
+            step = _step(over, under)
             if step <= 0.0:
                 return point
             step = min(1.0, step * (1.0 + 1e-9) + _NARROWEST)
@@ -316,3 +330,9 @@ class Search:
         kept = self.kept.most
         over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
         return np.concatenate([over, values.over - self.allowed])
+
+
+def _step(over: Real, under: Real) -> float:
+    """How far from a point towards one inside all is kept, by the excess of both."""
+    worst = np.where(over > 0, over / np.maximum(over - under, np.finfo(float).tiny), 0.0)
+    return float(np.max(worst, initial=0.0))

@@ -17,12 +17,15 @@ import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.program.ceilings import Ceilings, limited
-from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Samples, Scatter, reached
+from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Scatter, reached
+from optimizer.program.cut_samples import Samples
+from optimizer.program.cut_terms import Terms
+from optimizer.program.deciding import Group, Weighed, deciding, spare
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, WeightedPeak
 from optimizer.program.scaling import natural_reach
-from optimizer.program.statement import PARTS, Names, Statement, Term
+from optimizer.program.statement import Names, Statement
 from optimizer.response import Response
 
 #: relative width of the brackets by which quantities are known without counterweights
@@ -33,21 +36,6 @@ _OF_QUANTITIES = ("samples", "first", "_resting")
 _TINY = 1e-300
 #: of every quantity
 Cuts = Sequence[Sequence[Cut]]
-
-
-class Weighed(NamedTuple):
-    """offset + weight * quantity, a row of a group."""
-
-    quantity: int  # its place in the program
-    weight: float  # > 0
-    offset: float = 0.0
-
-
-class Group(NamedTuple):
-    """The largest of some rows and of some quantities."""
-
-    rows: tuple[Row, ...] = ()
-    weighed: tuple[Weighed, ...] = ()
 
 
 class Goal(NamedTuple):
@@ -133,20 +121,21 @@ class OverTurn:
     @cached_property
     def telling(self) -> Cuts:
         """The same, and what tells all that counterweights change: no two of them alike in these are told apart."""
-        resting = zip(self.quantities, self.first, self._resting, strict=True)
+        resting = zip(self.quantities, self.first, self._resting[0], strict=True)
         return tuple((*first, *quantity.harmonics(rest.upper)) for quantity, first, rest in resting)
 
     @cached_property
     def at_rest(self) -> Values:
         """Without counterweights."""
-        still = np.zeros(self.limits.radius.shape, complex)
-        return self._values(still, self._resting, self.sizes)
+        still, fine = np.zeros(self.limits.radius.shape, complex), np.full(len(self.quantities), _FINE)
+        return self._decided(still, fine, *self._resting)
 
     @cached_property
-    def _resting(self) -> tuple[Reached, ...]:
+    def _resting(self) -> tuple[tuple[Reached, ...], np.ndarray]:
+        """Brackets without counterweights, and which are coarse (quantities,)."""
         still = np.zeros(self.limits.radius.shape, complex)
-        width = np.full(len(self.quantities), _FINE)
-        return reached(self.quantities, still, width, self.samples.cancelled, self.scatter)
+        spare = self._spare(self.samples.sizes(still, self.scatter))
+        return self._reached(still, np.maximum(_FINE, spare)), spare > _FINE
 
     @cached_property
     def yardsticks(self) -> Real:
@@ -175,7 +164,7 @@ class OverTurn:
     @cached_property
     def sizes(self) -> Real:
         """(ceilings and limited,) what excesses are measured by."""
-        rest = np.array([self._resting[q].upper for q, _ in self.limited])
+        rest = np.array([self._resting[0][q].upper for q, _ in self.limited])
         size = np.maximum(np.array([cap for _, cap in self.limited]), rest)
         return np.concatenate([self._exact_ceilings.size, np.where(size > 0, size, 1.0)])
 
@@ -220,7 +209,7 @@ class OverTurn:
 
     def _objective(self, cuts: Cuts) -> Statement:
         """The statement without ceilings."""
-        terms = _Terms()
+        terms = Terms()
         for n, group in enumerate(self.groups):
             for row in group.rows:
                 terms.add(n, row)
@@ -243,10 +232,31 @@ class OverTurn:
         ----------
         width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
-        about = np.array([max(each.lower, _TINY) for each in self.samples.reached(u, self.scatter)])
-        tolerance = np.clip(width * self._shares / about, 1e-15, 1e300)
-        found = reached(self.quantities, u, tolerance, self.samples.cancelled, self.scatter)
-        return self._values(u, found, self.sizes)
+        about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
+        wanted = np.clip(width * self._shares / about, 1e-15, 1e300)
+        spare = self._spare(about)
+        return self._decided(u, wanted, self._reached(u, np.maximum(wanted, spare)), spare > wanted)
+
+    def _spare(self, about: Real) -> Real:
+        """Widths of brackets (quantities,) that tell of what decides nothing that it does not; 0 of what is limited."""
+        found = spare(self.groups, about)
+        found[[q for q, _ in self.limited]] = 0.0
+        return found
+
+    def _reached(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Reached, ...]:
+        """Brackets of quantities, by default all."""
+        some = range(len(self.quantities)) if chosen is None else chosen
+        quantities, cancelled = [self.quantities[q] for q in some], [self.samples.cancelled[q] for q in some]
+        return reached(quantities, u, tolerance[list(some)], cancelled, self.scatter)
+
+    def _decided(self, u: Complex, tolerance: Real, found: tuple[Reached, ...], coarse: np.ndarray) -> Values:
+        """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
+        tolerance (quantities,) where they may decide something."""
+        may = deciding(self.groups, found)
+        may[[q for q, _ in self.limited]] = True
+        again = np.flatnonzero(coarse & may).tolist()
+        closer = dict(zip(again, self._reached(u, tolerance, again), strict=True)) if again else {}
+        return self._values(u, tuple(closer.get(q, each) for q, each in enumerate(found)), self.sizes)
 
     @cached_property
     def _shares(self) -> Real:
@@ -260,9 +270,15 @@ class OverTurn:
             worth[q] = min(worth[q], size)
         return worth
 
-    def sampled(self, u: Complex) -> Values:
-        """What an unbalance comes to at the samples, which is less."""
-        return self._values(u, self.samples.reached(u, self.scatter), self.sizes)
+    def seen(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Reached, ...], ...]]:
+        """What an unbalance comes to at some angles, which is no more than the truth, and every quantity there.
+
+        Parameters
+        ----------
+        matters : (quantities,) above which more angles than one count.
+        """
+        found = self.samples.highest(u, self.scatter, matters)
+        return self._values(u, tuple(each[0] for each in found), self.sizes), found
 
     def _values(self, u: Complex, found: tuple[Reached, ...], sizes: Real) -> Values:
         largest = [
@@ -294,52 +310,6 @@ class OverTurn:
         weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
         goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),), 1.0)
         return self.changed(goals=(goal,), ceilings=(), limited=())
-
-
-class _Terms:
-    """Terms and rows of an objective, one after the other."""
-
-    def __init__(self) -> None:
-        self.constant: list[complex] = []
-        self.influence: list[Real | Complex] = []
-        self.row: list[int] = []
-        self.names: list[Term] = []
-        self.floor: list[float] = []
-        self.group: list[int] = []
-        self.rows: list[str] = []
-        self.known: set[str] = set()
-        self.scalar: list[bool] = []
-
-    def add(self, group: int, row: Row) -> None:
-        for peak in row.peaks:
-            count = peak.norms.constant.size
-            self.constant += peak.norms.constant.tolist()
-            self.influence += list(peak.norms.influence)
-            self.row += [len(self.rows)] * count
-            self.scalar += [False] * count
-            self.names += [Term(peak.name, part, None, peak.scenario) for part in PARTS[:count]]
-        self._end(group, row.name, float(sum(peak.floor for peak in row.peaks)))
-
-    def add_cut(self, group: int, quantity: Quantity, cut: Cut, weighed: Weighed) -> None:
-        name = quantity.name
-        self.constant.append(weighed.weight * cut.constant)
-        self.influence.append(weighed.weight * cut.influence)
-        self.scalar.append(cut.scalar)
-        self.row.append(len(self.rows))
-        self.names.append(Term(name, "co", cut.angle_deg, quantity.scenario))
-        # of a root mean square the cuts have no angle
-        called = f"{name} {len(self.rows)}" if cut.angle_deg is None else f"{name} at {cut.angle_deg!r} deg"
-        called = called if quantity.scenario is None else f"{called} in {quantity.scenario}"
-        if called in self.known:
-            # beside a jump both limits are of one angle
-            called = f"{called}, {len(self.rows)}"
-        self._end(group, called, weighed.offset + weighed.weight * cut.floor)
-
-    def _end(self, group: int, name: str, floor: float) -> None:
-        self.floor.append(floor)
-        self.group.append(group)
-        self.rows.append(name)
-        self.known.add(name)
 
 
 def _sum(row: Row, u: Complex, scatter: Scatter) -> float:

@@ -13,7 +13,8 @@ from optimizer.curve import TurnResponse
 from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts import Found, Unkept, over_turn
-from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
+from optimizer.program.deciding import Group, Weighed
+from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.reach import bounded
 from tests.curves.fourier import FourierCurves
 from tests.program.cases import random_limits, random_point

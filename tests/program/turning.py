@@ -6,8 +6,9 @@ import numpy as np
 
 from optimizer.curve import TurnResponse
 from optimizer.program.cut import Quantity
+from optimizer.program.deciding import Group, Weighed
 from optimizer.program.limits import Limits
-from optimizer.program.over_turn import Goal, Group, OverTurn, Weighed
+from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.response import Phasors, Response
 from tests.curves.fourier import FourierCurves

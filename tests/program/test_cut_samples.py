@@ -1,0 +1,131 @@
+"""Samples of quantities over the turn: what they tell is true, and close to peaks and floors."""
+
+import numpy as np
+import pytest
+
+from optimizer.arrays import Complex, Real
+from optimizer.certified_turn import whole_turn_of
+from optimizer.circle import smallest_circle
+from optimizer.curve import TurnResponse, floor, peaks
+from optimizer.goals import bearing_responses
+from optimizer.outputs import prepare
+from optimizer.program.cut import EXACT, Quantity, Scatter
+from optimizer.program.cut_samples import Samples
+from optimizer.program.deciding import deciding, spare
+from schemas.reciprocating import ReciprocatingMachine
+from tests.benchmarks.whole_turn import six_with_gas
+from tests.curves.fourier import FourierCurves
+from tests.optimize.whole_turn import ALONE, asked
+from tests.program.test_scalars import quantity
+from tests.program.turning import bearings, largest, quantities
+
+
+def bearings_with_gas() -> tuple[Quantity, ...]:
+    """Of the in-line six: loads jump where rows reverse and have kinks where valves open."""
+    request = asked(six_with_gas(), **ALONE, bearing_weight=1)
+    scene = prepare(request)
+    assert isinstance(scene.machine, ReciprocatingMachine)
+    return tuple(map(Quantity, bearing_responses(scene.machine, request.fidelity, scene.laden, whole_turn_of(scene))))
+
+
+def drawn(seed: int, webs: int) -> Complex:
+    found: Complex = np.random.default_rng(seed).normal(size=(webs, 2)) @ [1, 1j]
+    return found
+
+
+def none(count: int) -> Real:
+    """Nothing matters but what is largest."""
+    return np.full(count, np.inf)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_is_told_is_the_curve_at_the_angle_that_is_told(seed: int) -> None:
+    """Independent: the Fourier series by themselves."""
+    every, u = quantities(np.random.default_rng(seed), 4, 6), drawn(seed, 6)
+    for each, told in zip(every, Samples(every).highest(u, EXACT, np.zeros(4)), strict=True):
+        for one in told:
+            assert one.cut.angle_deg is not None
+            there = each.response.at(np.deg2rad([one.cut.angle_deg]))[0]
+            assert one.cut.constant == pytest.approx(there, rel=1e-12)
+            assert one.lower == pytest.approx(abs(there + each.response.offset(u)), rel=1e-12)
+        assert [one.lower for one in told] == sorted((one.lower for one in told), reverse=True)
+
+
+@pytest.mark.parametrize("gas", [False, True])
+def test_the_highest_that_is_told_is_the_peak_but_for_little(gas: bool) -> None:
+    """Independent: brackets; no more than they prove, and as close as parabolas are."""
+    every = bearings_with_gas() if gas else quantities(np.random.default_rng(7), 4, 6)
+    webs = every[0].response.influence.size
+    size = max(abs(each.response.mean) for each in every)
+    for seed in range(3):
+        u = 0.3 * size * drawn(seed, webs)
+        bracket = peaks([each.response for each in every], u, 1e-10)
+        samples = Samples(every)
+        told = np.array([each[0].lower for each in samples.highest(u, EXACT, none(len(every)))])
+        assert np.all(told <= bracket.upper)
+        np.testing.assert_allclose(told, bracket.lower, rtol=1e-6)
+        np.testing.assert_allclose(samples.sizes(u, EXACT), bracket.lower, rtol=1e-2)
+
+
+@pytest.mark.parametrize("gas", [False, True])
+def test_first_cuts_hold_the_largest_floor(gas: bool) -> None:
+    """Independent: the smallest circle around the curve, by brackets."""
+    every = bearings_with_gas() if gas else quantities(np.random.default_rng(3), 4, 6)
+    known = [floor(each.response, 1e-9).circle.radius for each in every]
+    held = [smallest_circle(np.array([cut.constant for cut in cuts])).radius for cuts in Samples(every).first()]
+    worst = int(np.argmax(known))
+    assert held[worst] == pytest.approx(known[worst], rel=1e-6)
+    assert np.all(np.array(held) <= np.array(known) * (1.0 + 1e-9))
+
+
+def test_more_local_maxima_are_told_where_they_matter() -> None:
+    """Analytic: |1/2 + e^{3 j theta}| is largest at 0, 120 and 240 degrees; of what does not matter one is told."""
+    orders = np.arange(0.0, 4.0)
+    curves = FourierCurves(orders, np.array([[0.5, 0.0, 0.0, 1.0]]) + 0j)
+    samples, u = Samples([Quantity(TurnResponse("bearing", "N", np.zeros(1), curves, 0))]), np.zeros(1, complex)
+    (told,) = samples.highest(u, EXACT, np.zeros(1))
+    angles = np.mod([(one.cut.angle_deg or 0.0) + 60.0 for one in told], 360.0)
+    np.testing.assert_allclose(sorted(angles[:3]), [60.0, 180.0, 300.0], atol=1e-2)
+    np.testing.assert_allclose([one.lower for one in told[:3]], 1.5, rtol=1e-9)
+    assert [len(each) for each in samples.highest(u, EXACT, none(1))] == [3]
+    assert [len(each) for each in Samples([constant()]).highest(u, EXACT, none(1))] == [1]
+
+
+def constant() -> Quantity:
+    curves = FourierCurves(np.zeros(1), np.ones((1, 1)) + 0j)
+    return Quantity(TurnResponse("bearing", "N", np.zeros(1), curves, 0))
+
+
+@pytest.mark.parametrize("scalar", [False, True])
+def test_what_turns_is_told_with_what_counterweights_add_there(scalar: bool) -> None:
+    """Independent: brackets of the curve that moves."""
+    rng = np.random.default_rng(5)
+    each, u = quantity(rng, rng.choice([-2.0, -1.0, 0.0, 1.0], 6), scalar, "roll"), drawn(5, 6)
+    scatter = Scatter(0.01, 0.0)
+    bracket, more = peaks([each.response], u, 1e-10), scatter.of(each.response.influence, u)
+    ((highest, *_),) = Samples([each]).highest(u, scatter, none(1))
+    assert highest.lower <= bracket.upper[0] + more
+    assert highest.lower == pytest.approx(bracket.lower[0] + more, rel=1e-6)
+
+
+def test_a_coarse_bracket_never_hides_what_decides() -> None:
+    """Property: a program comes to what sharp brackets of every quantity say, whatever is known of the others."""
+    for seed in range(10):
+        program, u = bearings(seed, count=5), 0.3 * drawn(seed, 6)
+        values = program.values(u, 1e-9)
+        bracket = peaks([each.response for each in program.quantities], u, 1e-12)
+        assert values.goals[-1] == pytest.approx(np.max(bracket.upper), rel=1e-8)
+        assert all(each.lower <= high for each, high in zip(values.reached, bracket.upper, strict=True))
+        assert all(each.upper >= low for each, low in zip(values.reached, bracket.lower, strict=True))
+        assert program.at_rest.goals[-1] == pytest.approx(
+            max(each.upper for each in program.at_rest.reached), rel=1e-12
+        )
+
+
+def test_what_may_be_the_largest_has_no_room() -> None:
+    """Analytic: a quarter of what each is below the largest, and of nothing that is the largest."""
+    groups = (largest(0, 3), largest(2, 4, weight=2.0))
+    np.testing.assert_allclose(spare(groups, np.array([4.0, 2.0, 1.0, 1.0])), [0.0, 0.25, 0.0, 0.0])
+    told = bearings(0, count=4).values(np.zeros(6, complex), 1e-9).reached
+    most = int(np.argmax([each.upper for each in told]))
+    assert deciding((largest(0, 4),), told).tolist() == [q == most for q in range(4)]
