@@ -8,6 +8,7 @@ import { arc, circle, degrees, line, metres, points, polar, radians, radiiOf, re
 
 const MIDDLE = [WIDTH / 2, WIDTH / 2];
 const MOST_NAMES = 16;
+const PIN = 7;
 
 // names stand where things are at angle 0
 export function front(machine, counterweights, { named = true } = {}) {
@@ -27,7 +28,9 @@ export function front(machine, counterweights, { named = true } = {}) {
   machine.kind === "scroll" ? scroll(machine, scale) : cranks(machine, scale),
   circle(MIDDLE, 5, { class: "shaft" }),
   sense(MIDDLE, 0.47 * WIDTH, machine.rotation),
-  named ? labels([...cranksNamed(machine, scale), ...websNamed(webs, fitted, scale)], [WIDTH, WIDTH]) : null);
+  named ? labels([...cranksNamed(machine, scale), ...websNamed(webs, fitted, scale)], [WIDTH, WIDTH],
+    [...fitted.map((one) => placed(one, webs, scale) ?? arc(centre(one, scale), round(one, fitted, scale), 0, 360)),
+      ...placesOf(machine).map(({ each }) => arc(pinOf(each, scale), PIN, 0, 360))]) : null);
 }
 
 function axes() {
@@ -111,10 +114,12 @@ function placesOf(machine) {
   return [...places.values()];
 }
 
+const pinOf = (each, scale) => polar(MIDDLE, scale * metres(each.crank_radius_m), each.crank_angle_deg);
+
 function cranks(machine, scale) {
   return placesOf(machine).map(({ each, names }) => {
-    const pin = polar(MIDDLE, scale * metres(each.crank_radius_m), each.crank_angle_deg);
-    return s("g", { class: "throw" }, line(MIDDLE, pin), circle(pin, 7),
+    const pin = pinOf(each, scale);
+    return s("g", { class: "throw" }, line(MIDDLE, pin), circle(pin, PIN),
       s("title", {}, `throw ${names.join(", ")} at ${figure(degrees(each.crank_angle_deg))}°`));
   });
 }
@@ -122,7 +127,7 @@ function cranks(machine, scale) {
 function cranksNamed(machine, scale) {
   const places = placesOf(machine);
   return places.length > MOST_NAMES ? [] : places.map(({ each, names }) => {
-    const [x, y] = polar(MIDDLE, scale * metres(each.crank_radius_m), each.crank_angle_deg);
+    const [x, y] = pinOf(each, scale);
     // never on the crank itself
     return { x, y: y > MIDDLE[1] + 1 ? y + 17 : y - 17, content: together(names, "throws") };
   });
