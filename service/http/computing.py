@@ -6,7 +6,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import ExitStack
 from typing import Annotated, BinaryIO, TypeVar
 
-from anyio import CancelScope, CapacityLimiter, to_thread
+from anyio import CapacityLimiter, to_thread
 from fastapi import Depends
 from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
@@ -18,6 +18,7 @@ from service.guard.sizes import SizeLimits
 from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, coding_of, liked
 from service.http.file_names import file_name
+from service.http.leaving import on_leaving
 from service.http.request_body import announced, read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
@@ -168,20 +169,14 @@ def _form(request: Request, asked_for: Computation) -> Form:
 
 async def _while_connected(request: Request, work: Callable[[], Awaitable[Result]]) -> Result:
     """The result of some work, which is cancelled when the client goes away."""
-    with CancelScope() as connected:
-
-        async def watch() -> None:
-            while (await request.receive())["type"] != "http.disconnect":
-                pass
-            connected.cancel()
-
-        # beside the work, for a fifth of what a group of tasks costs
-        watching = asyncio.create_task(watch())
-        try:
-            return await work()
-        finally:
-            watching.cancel()
-    raise ClientGone
+    try:
+        async with asyncio.timeout(None) as connected:
+            with on_leaving(request, lambda: connected.reschedule(0.0)):
+                return await work()
+    except TimeoutError:
+        if connected.expired():
+            raise ClientGone from None
+        raise
 
 
 def computing_of(request: Request) -> Computing:

@@ -16,6 +16,7 @@ from service.guard.addresses import client_network
 from service.guard.refusals import TooManyConnections
 from service.http.errors import PROBLEM_JSON, Fault, fault, problem
 from service.http.joined import Joined
+from service.http.leaving import CLIENT, Client
 from service.http.plain_requests import Head, PlainCycle, plain_head
 from service.http.rounds import Rounds
 from service.settings import Settings
@@ -55,6 +56,7 @@ class Connection(H11Protocol):
         self._plain = False
         self._missing = 0
         self._next = b""
+        self._asks: Client | None = None
         #: called when it has ended
         self.left: Callable[[], None] = _nothing
 
@@ -83,6 +85,8 @@ class Connection(H11Protocol):
         _stop(self._write_timer)
         self.left()
         super().connection_lost(exc)
+        if self._asks is not None:
+            self._asks.leave()
         if isinstance(self.transport, Joined):
             self.transport.ended()
 
@@ -122,6 +126,7 @@ class Connection(H11Protocol):
         self._unset_keepalive_if_required()
         path, _, query = head.target.partition(b"?")
         self.headers = head.headers
+        self._asks = Client(self.flow)
         self.scope = {
             "type": "http",
             "asgi": {"version": self.asgi_version, "spec_version": "2.3"},
@@ -135,7 +140,7 @@ class Connection(H11Protocol):
             "raw_path": self.root_path.encode("ascii") + path,
             "query_string": query,
             "headers": head.headers,
-            "state": self.app_state.copy(),
+            "state": {**self.app_state, CLIENT: self._asks},
         }
         self.cycle = PlainCycle(
             scope=self.scope,

@@ -1,16 +1,16 @@
 """What a worker says to the service: a pickled object over a socket, and with it an open file where there is one.
 
-The service reads what has come and waits for the rest on its event loop. So no answer costs it a thread, and none holds
-one where a worker has stopped in the middle of what it says.
+The service reads what has come on its event loop, for which a worker is one reader as long as it lives. So no answer
+costs it a thread, and none holds one where a worker has stopped in the middle of what it says.
 """
 
+import asyncio
+import os
 import pickle
 import socket
 import struct
-from contextlib import ExitStack
+from contextlib import suppress
 from typing import Any, BinaryIO
-
-from anyio import wait_readable as readable
 
 #: before an object, how many bytes it has
 _LENGTH = struct.Struct("!Q")
@@ -35,30 +35,86 @@ def say(to: socket.socket, said: object, file: BinaryIO | None = None) -> None:
     to.sendall(memoryview(message)[sent:])
 
 
-async def heard(from_: socket.socket) -> tuple[Any, BinaryIO | None]:
-    """The next object, and the file that came with it; what is said after it must wait until this one was heard.
+class Listener:
+    """Hears what is said at the other end of a socket, one object after the other.
 
-    Raises
-    ------
-    EOFError, OSError
-        if the worker is gone.
+    Who stops waiting loses nothing: it is there for the next who waits.
     """
-    content, length = bytearray(), _LENGTH.size
-    with ExitStack() as refused:
-        file: BinaryIO | None = None
-        while len(content) < length:
-            try:
-                # socket.recv_fds loses the flags in Python 3.11
-                piece, beside, _, _ = from_.recvmsg(_PIECE_BYTES, socket.CMSG_LEN(_FILE.size), _AS_IT_IS)
-            except BlockingIOError:
-                await readable(from_)
-                continue
-            if not piece:
+
+    def __init__(self, from_: socket.socket) -> None:
+        self._from = from_
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._waits: asyncio.Future[None] | None = None
+        self._content = bytearray()
+        self._file: BinaryIO | None = None
+        self._gone = False
+
+    async def heard(self) -> tuple[Any, BinaryIO | None]:
+        """The next object, and the file that came with it; what is said after it must wait until this one was heard.
+
+        Raises
+        ------
+        EOFError
+            if the worker is gone.
+        """
+        loop = asyncio.get_running_loop()
+        if loop is not self._loop and not self._gone:
+            self._loop = loop
+            loop.add_reader(self._from, self._read)
+        while not self._whole:
+            if self._gone:
                 raise EOFError
-            for _, _, files in beside:
-                file = refused.enter_context(open(_FILE.unpack(files)[0], "rb"))
-            content += piece
-            if len(content) >= _LENGTH.size:
-                length = _LENGTH.size + _LENGTH.unpack_from(content)[0]
-        refused.pop_all()
-    return pickle.loads(memoryview(content)[_LENGTH.size :]), file
+            self._waits = loop.create_future()
+            await self._waits
+        content, self._content = self._content, bytearray()
+        file, self._file = self._file, None
+        return pickle.loads(memoryview(content)[_LENGTH.size :]), file
+
+    @property
+    def _whole(self) -> bool:
+        said = self._content
+        return len(said) >= _LENGTH.size and len(said) - _LENGTH.size >= _LENGTH.unpack_from(said)[0]
+
+    @property
+    def gone(self) -> bool:
+        """Whether nobody is there any more."""
+        if not self._gone:
+            with suppress(BlockingIOError):
+                # its loop may not have come to it yet
+                return not self._from.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT)
+        return self._gone
+
+    def end(self) -> None:
+        """Hear no more; in whatever thread, while nobody waits."""
+        loop = self._loop
+        if loop is None or loop.is_closed():
+            self._close()
+        else:
+            # only there: else the next file of the same number would be taken for this one
+            with suppress(RuntimeError):
+                loop.call_soon_threadsafe(self._close)
+
+    def _read(self) -> None:
+        try:
+            # socket.recv_fds loses the flags in Python 3.11
+            piece, beside, _, _ = self._from.recvmsg(_PIECE_BYTES, socket.CMSG_LEN(_FILE.size), _AS_IT_IS)
+        except BlockingIOError:
+            return
+        except OSError:
+            piece, beside = b"", []
+        for _, _, files in beside:
+            self._file = os.fdopen(_FILE.unpack(files)[0], "rb")
+        self._content += piece
+        if not piece:
+            self._close()
+        if (self._gone or self._whole) and self._waits is not None and not self._waits.done():
+            self._waits.set_result(None)
+
+    def _close(self) -> None:
+        self._gone = True
+        if self._loop is not None and not self._loop.is_closed():
+            self._loop.remove_reader(self._from)
+        self._loop = None
+        self._from.close()
+        if self._file is not None and not self._whole:
+            self._file.close()

@@ -1,13 +1,14 @@
 """Workers lent to requests: started when needed, ended when a client is gone or its time over, replaced when dead."""
 
 import logging
+from asyncio import timeout
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
-from anyio import CancelScope, CapacityLimiter, fail_after, get_cancelled_exc_class, move_on_after, to_thread
+from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
 from service.workers.turns import Full, Turns
@@ -131,7 +132,7 @@ class Pool:
         """
         computing = False
         try:
-            with fail_after(self.timeout_s):
+            async with timeout(self.timeout_s):
                 async with self._turns.turn(owner, task.computation.long):
                     computing = True
                     return await self._computed(replace(task, behind=self._turns.more(owner)))
@@ -166,24 +167,20 @@ class Pool:
         raise WorkerDied("The process that computed this died; try again later.")
 
     async def _asked(self, worker: Worker, task: Task) -> Outcome:
-        answering = False
         try:
             if len(task.body) < _AT_ONCE_BYTES:
                 worker.send(task)
             else:
                 await self._in_thread(worker.send, task)
-            await worker.answered()
-            answering = True
-            return await worker.receive()
+            return await worker.outcome()
         except get_cancelled_exc_class():
             with CancelScope(shield=True):
-                await self._abandon(worker, 0.0 if answering else _GRACE_S)
+                await self._abandon(worker)
             raise
 
-    async def _abandon(self, worker: Worker, grace_s: float) -> None:
-        with suppress(Dead, OSError), move_on_after(grace_s):
-            await worker.answered()
-            left = await worker.receive()
+    async def _abandon(self, worker: Worker) -> None:
+        with suppress(Dead, OSError), move_on_after(_GRACE_S):
+            left = await worker.outcome()
             if isinstance(left, Answer) and left.file is not None:
                 left.file.close()
             self._idle.append(worker)

@@ -14,9 +14,7 @@ from multiprocessing.process import BaseProcess
 from pathlib import Path
 from threading import Lock, Timer
 
-from anyio import wait_readable as readable
-
-from service.workers.messages import heard
+from service.workers.messages import Listener
 from service.workers.worker import Outcome, Task, serve
 
 _LOG = logging.getLogger(__name__)
@@ -48,6 +46,7 @@ class Worker:
     def __init__(self, memory_bytes: int, folder: Path | None) -> None:
         context = multiprocessing.get_context("forkserver")
         self._connection, theirs = socket.socketpair()
+        self._says = Listener(self._connection)
         self._process: BaseProcess = context.Process(
             target=serve, args=(theirs, memory_bytes, folder), name="solver", daemon=True
         )
@@ -68,7 +67,7 @@ class Worker:
         return self._process.pid or 0
 
     def alive(self) -> bool:
-        return self._process.is_alive()
+        return not self._says.gone
 
     def send(self, task: Task) -> None:
         try:
@@ -76,13 +75,10 @@ class Worker:
         except OSError as error:
             raise Dead from error
 
-    async def answered(self) -> None:
-        await readable(self._connection)
-
-    async def receive(self) -> Outcome:
+    async def outcome(self) -> Outcome:
         try:
-            outcome, file = await heard(self._connection)
-        except (EOFError, OSError) as error:
+            outcome, file = await self._says.heard()
+        except EOFError as error:
             raise Dead from error
         return outcome if file is None else replace(outcome, file=file)
 
@@ -96,7 +92,7 @@ class Worker:
         self.kill()
         with suppress(OSError, ValueError, AssertionError):
             self._process.join(_END_S)
-        self._connection.close()
+        self._says.end()
 
 
 def forked(memory_bytes: int, folder: Path | None, first: bool) -> Worker:

@@ -1,11 +1,9 @@
 """Whose computation begins next: owner by owner, so that nobody waits behind all that another one asks."""
 
+import asyncio
 from collections import Counter, OrderedDict, deque
-from collections.abc import AsyncIterator, Iterator
-from contextlib import asynccontextmanager
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-
-from anyio import Event
 
 
 class Full(Exception):
@@ -14,10 +12,26 @@ class Full(Exception):
 
 @dataclass(eq=False)
 class _Turn:
+    """Asked for, waited for and had in an ``async with``."""
+
+    turns: "Turns"
     owner: str
     long: bool
-    decided: Event = field(default_factory=Event)
+    decided: asyncio.Event = field(default_factory=asyncio.Event)
     begun: bool = False
+
+    async def __aenter__(self) -> None:
+        self.turns.ask(self)
+        try:
+            await self.decided.wait()
+            if not self.begun:
+                raise Full
+        except BaseException:
+            self.turns.end(self)
+            raise
+
+    async def __aexit__(self, *raised: object) -> None:
+        self.turns.end(self)
 
 
 class Turns:
@@ -52,8 +66,7 @@ class Turns:
         """Whether an owner has more than one turn, or waits for one."""
         return self._running[owner] > 1 or owner in self._waiting
 
-    @asynccontextmanager
-    async def turn(self, owner: str, long: bool) -> AsyncIterator[None]:
+    def turn(self, owner: str, long: bool) -> _Turn:
         """Wait for a turn, and have it.
 
         Raises
@@ -61,22 +74,22 @@ class Turns:
         Full
             at once, or when the place is given to another owner.
         """
-        turn = _Turn(owner, long)
-        self._ask(turn)
-        try:
-            await turn.decided.wait()
-            if not turn.begun:
-                raise Full
-            yield
-        finally:
-            if turn.begun:
-                self._running -= Counter((owner,))
-                self._running_long -= long
-            else:
-                self._leave(turn)
+        return _Turn(self, owner, long)
+
+    def end(self, turn: _Turn) -> None:
+        """It was had, or is not wanted any more."""
+        if turn.begun:
+            self._running[turn.owner] -= 1
+            if not self._running[turn.owner]:
+                del self._running[turn.owner]
+            self._running_long -= turn.long
+        else:
+            self._leave(turn)
+        if self._waiting:
             self._go_on()
 
-    def _ask(self, turn: _Turn) -> None:
+    def ask(self, turn: _Turn) -> None:
+        """Have it begin, or wait for its decision."""
         # whoever waits may not begin, so nobody is overtaken
         if self._may_begin(turn):
             self._begin(turn)

@@ -5,12 +5,12 @@ import socket
 from collections.abc import Iterator
 from tempfile import TemporaryFile
 from threading import Thread
-from typing import Any
+from typing import Any, BinaryIO
 
 import anyio
 import pytest
 
-from service.workers.messages import heard, say
+from service.workers.messages import Listener, say
 
 
 @pytest.fixture
@@ -18,6 +18,11 @@ def ends() -> Iterator[tuple[socket.socket, socket.socket]]:
     ours, theirs = socket.socketpair()
     with ours, theirs:
         yield ours, theirs
+
+
+async def heard(ours: socket.socket) -> tuple[Any, BinaryIO | None]:
+    """What comes next."""
+    return await Listener(ours).heard()
 
 
 def whole(said: object) -> bytes:
@@ -30,9 +35,11 @@ def whole(said: object) -> bytes:
 
 def test_objects_come_as_they_were_said(ends: tuple[socket.socket, socket.socket]) -> None:
     ours, theirs = ends
+    # each in an event loop of its own
+    listener = Listener(ours)
     for said in (None, "short", {"a": bytes(50_000)}):
         say(theirs, said)
-        assert anyio.run(heard, ours) == (said, None)
+        assert anyio.run(listener.heard) == (said, None)
 
 
 def test_an_object_that_comes_in_pieces_is_waited_for(ends: tuple[socket.socket, socket.socket]) -> None:
@@ -85,3 +92,51 @@ def test_one_that_ends_in_the_middle_is_gone(ends: tuple[socket.socket, socket.s
     theirs.close()
     with pytest.raises(EOFError):
         anyio.run(heard, ours)
+
+
+def test_who_stops_waiting_leaves_what_comes_to_the_next(ends: tuple[socket.socket, socket.socket]) -> None:
+    ours, theirs = ends
+    message = whole("for the next")
+
+    async def two() -> Any:
+        listener = Listener(ours)
+        for piece in (b"", message[:5], message[5:12]):
+            theirs.sendall(piece)
+            with anyio.move_on_after(0.01):
+                await listener.heard()
+                raise AssertionError
+        theirs.sendall(message[12:])
+        return await listener.heard()
+
+    assert anyio.run(two) == ("for the next", None)
+
+
+def test_what_was_said_before_the_end_is_heard(ends: tuple[socket.socket, socket.socket]) -> None:
+    ours, theirs = ends
+    listener = Listener(ours)
+    assert not listener.gone
+    say(theirs, "farewell")
+    theirs.close()
+    assert anyio.run(listener.heard) == ("farewell", None)
+    assert listener.gone
+    with pytest.raises(EOFError):
+        anyio.run(listener.heard)
+
+
+def test_a_socket_is_closed_where_it_is_read(ends: tuple[socket.socket, socket.socket]) -> None:
+    ours, theirs = ends
+
+    async def ended_in_a_thread() -> None:
+        listener = Listener(ours)
+        say(theirs, 1)
+        await listener.heard()
+        await anyio.to_thread.run_sync(listener.end)
+        await anyio.wait_all_tasks_blocked()
+        assert ours.fileno() == -1
+        # the number is free for another one
+        again, other = socket.socketpair()
+        with again, other:
+            say(other, 2)
+            assert await Listener(again).heard() == (2, None)
+
+    anyio.run(ended_in_a_thread)
