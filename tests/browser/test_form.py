@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from schemas.form_groups import GROUPS
 from tests.browser.portal import Portal
 
 THROW = "/machine/throws/0"
@@ -26,6 +27,21 @@ def test_units_are_shown_and_read(portal: Portal) -> None:
     portal.optimise()
     machine = portal.bodies("/v1/optimize")[-1]["machine"]
     assert machine["throws"][0]["crank_radius_m"] == "5.5 in"
+
+
+def test_fields_stand_under_the_headings_of_the_schema_in_its_order(portal: Portal) -> None:
+    portal.open()
+    machine = "#form details[data-pointer='/machine'] > .inside > fieldset"
+    assert portal.page.locator(f"{machine} > legend").all_inner_texts() == list(GROUPS["ReciprocatingMachine"])
+    for number, fields in enumerate(GROUPS["ReciprocatingMachine"].values()):
+        section = portal.page.locator(machine).nth(number)
+        pointers = section.locator(":scope > [data-pointer], :scope > .fields > [data-pointer]").evaluate_all(
+            "all => all.map((one) => one.dataset.pointer.split('/').at(-1))"
+        )
+        assert set(pointers) <= set(fields)
+        assert pointers
+    # one thing with a title of its own needs no heading
+    assert portal.page.locator("#form > fieldset > legend").all_inner_texts() == ["What is to be small", "Answer"]
 
 
 @pytest.mark.parametrize(

@@ -78,7 +78,7 @@ export class Schema {
 
   object(node) {
     // of fields that go together those that are usual
-    return { properties: node.properties, required: new Set([...(node.required ?? []), ...(node.then?.required ?? [])]) };
+    return { properties: ordered(node.properties), required: new Set([...(node.required ?? []), ...(node.then?.required ?? [])]) };
   }
 
   union(objects) {
@@ -111,6 +111,8 @@ export class Schema {
     return { ...Object.fromEntries(made), ...(fields.length ? {} : example) };
   }
 }
+
+const ordered = (properties) => Object.fromEntries(Object.entries(properties).sort(([, one], [, other]) => (one["x-order"] ?? 0) - (other["x-order"] ?? 0)));
 
 function range(node) {
   return {

@@ -34,8 +34,7 @@ export class Form {
   draw(request, open) {
     this.request = request;
     this.grids = new Map();
-    const { plain, groups } = this.parts.inside(this.root, "");
-    this.container.replaceChildren(...plain, ...groups);
+    this.container.replaceChildren(...this.parts.inside(this.root, ""));
     for (const pointer of open) {
       const group = this.group(pointer);
       if (group) Object.assign(group, { open: true }).build();

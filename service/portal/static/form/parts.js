@@ -37,11 +37,10 @@ export class Parts {
     return below.length > 0 && (absent || Object.keys(description.properties ?? {}).every((name) => below.includes(name)));
   }
 
-  // fields first, then groups; what must be given comes before what may be left out
+  // fields and groups under the headings that the schema gives them, in its order
   inside(object, pointer) {
-    const plain = [];
-    const more = [];
-    const groups = [];
+    /** @type {Map<string, { plain: any[], more: any[], groups: any[] }>} */
+    const sections = new Map();
     for (const [name, node] of Object.entries(object.properties)) {
       if (pointer === "" && NOT_ASKED.has(name)) continue;
       const description = this.form.schema.describe(node);
@@ -49,20 +48,26 @@ export class Parts {
       const value = get(this.form.request, at);
       const required = object.required.has(name);
       if (description.kind === "constant" || this.covered(at, description)) continue;
+      const heading = description.group ?? "";
+      const section = sections.get(heading) ?? { plain: [], more: [], groups: [] };
+      sections.set(heading, section);
       if (SINGLE.has(description.kind)) {
         const made = field(name, at, description, value, required, (given) => this.form.edit(at, given));
-        (required || value !== undefined || description.longest <= 64 ? plain : more).push(made);
-      } else {
-        const made = this.part(name, at, description, required);
-        if (required) groups.unshift(made); else groups.push(made);
-      }
+        (required || value !== undefined || description.longest <= 64 ? section.plain : section.more).push(made);
+      } else section.groups.push(this.part(name, at, description, required));
     }
+    return [...sections].flatMap(([heading, section]) => this.section(sections.size > 1 ? heading : "", section));
+  }
+
+  // fields first, those that may be left out folded where they are many; what has a title of its own needs no heading
+  section(heading, { plain, more, groups }) {
     if (plain.length + more.length <= 4) plain.push(...more.splice(0));
-    return {
-      plain: [h("div", { class: "fields" }, plain),
-        more.length ? h("details", { class: "more" }, h("summary", {}, "More"), h("div", { class: "fields" }, more)) : []].flat(),
+    const nodes = [
+      plain.length ? h("div", { class: "fields" }, plain) : [],
+      more.length ? h("details", { class: "more" }, h("summary", {}, "More"), h("div", { class: "fields" }, more)) : [],
       groups,
-    };
+    ].flat();
+    return heading && nodes.length > Number(groups.length === 1) ? [h("fieldset", {}, h("legend", {}, heading), nodes)] : nodes;
   }
 
   part(name, at, description, required) {
@@ -98,14 +103,13 @@ export class Parts {
     if ((value === undefined || value === null) && description.nullable) return this.absent(name, at, description, required);
     const shape = description.kind === "union" ? this.chosen(description, value) : description;
     const details = this.fold({ class: "group" }, description.title, at, () => {
-      const { plain, groups } = this.inside(shape, at);
       const remove = () => {
         this.form.put(at, undefined);
         this.redraw(details, this.part(name, at, description, required), false);
       };
       return [
         description.kind === "union" ? this.kind(name, at, description, required, () => details) : [],
-        plain, groups,
+        this.inside(shape, at),
         optional && description.nullable ? h("button", { type: "button", click: remove }, `Remove ${label(name)}`) : [],
       ].flat(2);
     });
@@ -187,13 +191,12 @@ export class Parts {
     const pointer = join(at, index);
     const value = get(this.form.request, pointer);
     return this.fold({ class: "item", "data-heading": singular(name) }, `${singular(name)} ${nameOf(value, index)}`, pointer, () => {
-      const { plain, groups } = this.inside(description.items, pointer);
       const remove = () => {
         this.form.put(pointer, undefined);
         if (details) this.redraw(details(), this.list(name, at, description));
         else this.form.refresh();
       };
-      return [...plain, ...groups, h("button", { type: "button", click: remove }, `Remove ${singular(name)}`)];
+      return [...this.inside(description.items, pointer), h("button", { type: "button", click: remove }, `Remove ${singular(name)}`)];
     });
   }
 
@@ -208,7 +211,7 @@ export class Parts {
     const made = this.fold({ class: "group" }, description.title, at, () => {
       const change = (given) => this.form.edit(at, given);
       const number = { ...description, kind: "number", text: true };
-      const inside = tabled ? this.inside(description.object, at).plain : [field(name, at, number, value, false, change)];
+      const inside = tabled ? this.inside(description.object, at) : [field(name, at, number, value, false, change)];
       const other = tabled ? "Give one constant instead" : "Give a table over the turn instead";
       return [...inside, h("button", { type: "button", click: () => switched(!tabled) }, other)];
     });
