@@ -113,7 +113,7 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real) -> Fitted:
                 counterweights=on_shaft,
             )
         )
-    crank = counterweights(machine, mass_kg[:own], angle_deg[:own])
+    crank = counterweights(machine, mass_kg[:own], angle_deg[:own], u[:own])
     return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(found), u[:own], u[own:] if shafts else None)
 
 

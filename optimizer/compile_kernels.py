@@ -15,6 +15,7 @@ from optimizer.warm_up import follow_a_turn, warm_up
 
 def last_first() -> None:
     """Compile, by one use of each, what an answer comes to last."""
+    from optimizer.kernel.knapsack import filled
     from optimizer.program.kernel.cancelling import least_changes
     from optimizer.program.kernel.disc_steps import LANES, OWN, WEB, correct, eliminate, find_step, go, look
     from optimizer.program.kernel.lanes import Lanes, new_work, state_size, views
@@ -36,6 +37,7 @@ def last_first() -> None:
     means(vectors, np.ones((1, 1, 1)), alike, np.zeros(1, np.int64), vectors)
     worst_turned(vectors, np.ones(1, complex), 0.1)
     least_changes(np.ones((1, 1, 1), complex), vectors, 1)
+    filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
     web, own, matrix, step = (np.ones(size) for size in (WEB, OWN, 25 * LANES, 5 * LANES))
     look(False, 1, web, own)
     eliminate(False, own, matrix)

@@ -7,7 +7,7 @@ Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import reduce
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
@@ -146,12 +146,27 @@ WEB_LIMITS: dict[WebLimit, Limit] = {
 MACHINE_LIMITS: dict[MachineLimit, Limit] = {"max_total_mass": _Budget()}
 
 
+class Given(NamedTuple):
+    """A limit of the webs that is stated at all."""
+
+    limit: Limit
+    size: Real  # (..., K) in its unit; inf where a web has no such limit
+
+
+@remembered
+def given_limits(machine: Machine) -> dict[WebLimit, Given]:
+    """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
+    every = {name: Given(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
+    return {name: each for name, each in every.items() if (each.size < np.inf).any()}
+
+
 @remembered
 def largest_mass(machine: Machine) -> Real:
     """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
-    allowed = [each.mass(machine) for each in WEB_LIMITS.values() if isinstance(each, MassLimit)]
+    given = (each.limit for each in given_limits(machine).values())
+    allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
     # where a weight is fixed nothing is chosen
-    mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed))
+    mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed, np.full(len(machine.webs), np.inf)))
     # null, or more than can be multiplied
     return np.where(mass > _NO_LIMIT, np.inf, mass)
 

@@ -19,6 +19,7 @@ def shares(machine: ReciprocatingMachine) -> Real:
     return web_shares(throw, web, stacked([np.nan if one.throw is None else one.throw for one in machine.webs]))
 
 
+@remembered
 def own_throws(machine: Machine) -> list[int | None]:
     """Number of the throw whose crank each web of one machine belongs to; None where it is none alone."""
     if not isinstance(machine, ReciprocatingMachine) or not machine.webs:

@@ -75,7 +75,7 @@ class Prepared:
         """The machine with the weights that are on it already."""
         return laden(self.layout, self.machine)
 
-    @property
+    @cached_property
     def responses(self) -> tuple[Response, ...]:
         """What can be weighed, as responses to the unbalance of the counterweights that are chosen."""
         plan = self.laden

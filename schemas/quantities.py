@@ -4,7 +4,7 @@ from typing import Annotated
 
 from pydantic import Strict, StringConstraints
 
-from schemas.units import Unit, between, non_negative, positive, symmetric
+from schemas.units import Told, Unit, between, non_negative, positive, symmetric
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[^\x00-\x1f\x7f]+$")]
 
@@ -25,17 +25,18 @@ Weight = Annotated[float, Strict(), non_negative(1e30)]
 Flag = Annotated[bool, Strict()]
 Count = Annotated[int, Strict()]
 
-Kilograms = Annotated[float, Unit("kg")]
-Metres = Annotated[float, Unit("m")]
-KilogramMetres = Annotated[float, Unit("kg m")]
-Degrees = Annotated[float, Unit("deg")]
-Newtons = Annotated[float, Unit("N")]
-NewtonMetres = Annotated[float, Unit("N m")]
-Seconds = Annotated[float, Unit("s")]
-Milliseconds = Annotated[float, Unit("ms")]
-MetresPerSecond = Annotated[float, Unit("m/s")]
-MetresPerSquareSecond = Annotated[float, Unit("m/s2")]
-Pascals = Annotated[float, Unit("Pa")]
-Joules = Annotated[float, Unit("J")]
-Watts = Annotated[float, Unit("W")]
-KilogramSquareMetres = Annotated[float, Unit("kg m2")]
+#: of answers
+Kilograms = Annotated[float, Told("kg")]
+Metres = Annotated[float, Told("m")]
+KilogramMetres = Annotated[float, Told("kg m")]
+Degrees = Annotated[float, Told("deg")]
+Newtons = Annotated[float, Told("N")]
+NewtonMetres = Annotated[float, Told("N m")]
+Seconds = Annotated[float, Told("s")]
+Milliseconds = Annotated[float, Told("ms")]
+MetresPerSecond = Annotated[float, Told("m/s")]
+MetresPerSquareSecond = Annotated[float, Told("m/s2")]
+Pascals = Annotated[float, Told("Pa")]
+Joules = Annotated[float, Told("J")]
+Watts = Annotated[float, Told("W")]
+KilogramSquareMetres = Annotated[float, Told("kg m2")]

@@ -7,17 +7,17 @@ from pydantic import Field
 from schemas.base import Answer, Model
 from schemas.cylinder import Cylinder
 from schemas.quantities import Newtons
-from schemas.units import Unit
+from schemas.units import Told
 
-Kelvins = Annotated[float, Unit("K")]
-Pascals = Annotated[float, Unit("Pa")]
-Metres = Annotated[float, Unit("m")]
-SquareMetres = Annotated[float, Unit("m2")]
-CubicMetres = Annotated[float, Unit("m3")]
-CubicMetresPerMinute = Annotated[float, Unit("m3/min")]
-MetresPerSecond = Annotated[float, Unit("m/s")]
-Watts = Annotated[float, Unit("W")]
-RevolutionsPerMinute = Annotated[float, Unit("rpm")]
+Kelvins = Annotated[float, Told("K")]
+Pascals = Annotated[float, Told("Pa")]
+Metres = Annotated[float, Told("m")]
+SquareMetres = Annotated[float, Told("m2")]
+CubicMetres = Annotated[float, Told("m3")]
+CubicMetresPerMinute = Annotated[float, Told("m3/min")]
+MetresPerSecond = Annotated[float, Told("m/s")]
+Watts = Annotated[float, Told("W")]
+RevolutionsPerMinute = Annotated[float, Told("rpm")]
 
 
 class StageState(Model):

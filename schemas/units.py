@@ -85,6 +85,8 @@ class Unit:
     symbol: str
 
     def _read(self, value: Any) -> Any:
+        if type(value) is float:
+            return value
         if isinstance(value, bool):
             raise PydanticCustomError("quantity", f"must be a number in {self.symbol}, not true or false")
         if not isinstance(value, str):
@@ -109,6 +111,16 @@ class Unit:
             "pattern": rf"^{_SPACE}{_NUMBER}{_SPACE}({'|'.join(UNITS[self.symbol])}){_SPACE}$",
         }
         return {"anyOf": [number, text], "x-unit": self.symbol, "x-accepted-units": list(UNITS[self.symbol])}
+
+
+class Told(Unit):
+    """The same of a field of answers alone, which are told in numbers."""
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return handler(source)
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {**handler(schema), "x-unit": self.symbol}
 
 
 def positive(largest: float) -> Any:

@@ -3,6 +3,7 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -69,7 +70,7 @@ class Simulated:
     results: Mapping[str, Any]
     uses: Mapping[str, EffectUse]
 
-    @property
+    @cached_property
     def first_order(self) -> Wrench:
         """First-order force and moment without counterweights, over omega^2."""
         rotating: Wrench = self.results["rotating_inertia"]

@@ -1,8 +1,7 @@
 """Balance rates of the throws: how much of its own crank each pair of webs balances."""
 
+from cmath import isnan
 from typing import NamedTuple
-
-import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
@@ -50,10 +49,10 @@ def balance_rate(machine: Machine, unbalance: Complex | None) -> tuple[BalanceRa
         BalanceRate(
             throw=number,
             name=throw.name,
-            rate=None if np.isnan(rate) else float(rate.real) + 0.0,
-            sideways=None if np.isnan(rate) else float(rate.imag) + 0.0,
+            rate=None if isnan(rate) else rate.real + 0.0,
+            sideways=None if isnan(rate) else rate.imag + 0.0,
         )
-        for number, (throw, rate) in enumerate(zip(machine.throws, rates, strict=True))
+        for number, (throw, rate) in enumerate(zip(machine.throws, rates.tolist(), strict=True))
     )
 
 

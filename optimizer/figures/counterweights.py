@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.fixed import beside
-from optimizer.limits import WEB_LIMITS, sectors
+from optimizer.limits import given_limits, sectors
 from optimizer.mechanics.angles import angle_deg, direction
 from optimizer.mechanics.envelope import Envelope
 from optimizer.mechanics.layout import stacked
@@ -79,9 +79,16 @@ def places(machine: Machine) -> tuple[Web, ...]:
     return (*machine.webs, *(web for shaft in machine.balance_shafts for web in shaft.webs))
 
 
-def counterweights(machine: Machine, mass_kg: Real, angles_deg: Real) -> tuple[Counterweight, ...]:
-    """The counterweights of a machine, one for each web of its crankshaft."""
-    return _placed(machine, mass_kg, angles_deg, own_throws(machine), 1.0)
+def counterweights(
+    machine: Machine, mass_kg: Real, angles_deg: Real, vectors: Complex | None = None
+) -> tuple[Counterweight, ...]:
+    """The counterweights of a machine, one for each web of its crankshaft.
+
+    Parameters
+    ----------
+    vectors : (K,) kg m, their unbalances where they are known.
+    """
+    return _placed(machine, mass_kg, angles_deg, own_throws(machine), 1.0, vectors)
 
 
 def unbalances_of_shaft(
@@ -93,7 +100,12 @@ def unbalances_of_shaft(
 
 
 def _placed(
-    machine: Machine, mass_kg: Real, angles_deg: Real, own: Sequence[int | None], ratio: float
+    machine: Machine,
+    mass_kg: Real,
+    angles_deg: Real,
+    own: Sequence[int | None],
+    ratio: float,
+    vectors: Complex | None = None,
 ) -> tuple[Counterweight, ...]:
     """One for each web of a machine.
 
@@ -102,8 +114,11 @@ def _placed(
     own : throw of each web.
     ratio : turns of the webs for one of the crankshaft.
     """
-    touched = {name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, limit in WEB_LIMITS.items()}
-    vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs])).tolist()
+    touched = {
+        name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, (limit, _) in given_limits(machine).items()
+    }
+    if vectors is None:
+        vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
     throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
     plates = envelopes(machine)
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
@@ -128,7 +143,7 @@ def _placed(
             shape=_shape(plates[k], mass * web.radius_m) if k in plates and mass > 0.0 else None,
         )
         for k, (web, mass, angle, vector, throw) in enumerate(
-            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors, own, strict=True)
+            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
         )
     )
 

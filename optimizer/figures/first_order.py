@@ -1,20 +1,21 @@
 """First-order force and moment as ellipses, their floor, and their hodographs."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import cache
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.output import Columns, Output
-from optimizer.figures.phasors import order_of
+from optimizer.figures.phasors import orders_of
 from optimizer.mechanics.balance_shafts import shaft_arms
 from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.response import Phasors
 from optimizer.scene import Prepared
-from schemas.first_order import FirstOrder, Floor, Residual, ResidualOrders
-from schemas.outputs import Hodograph, Hodographs, Order
+from schemas.first_order import FirstOrder, Floor, Residual
+from schemas.outputs import Hodograph, Hodographs
 from schemas.proof import BoundMultipliers
 
 FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
@@ -22,13 +23,7 @@ FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
 
 def first_order(wrench: Wrench) -> FirstOrder:
     """Ellipses of force [N] and moment [N m] of one machine."""
-    both = Phasors(np.array([pair.co for pair in wrench]), np.array([pair.counter for pair in wrench]))
-    figures = _ellipse(both)
-    force, moment = (
-        {name if name == "major_axis_deg" else f"{name}_{unit}": values[k] for name, values in figures.items()}
-        for k, unit in enumerate(("N", "Nm"))
-    )
-    return FirstOrder.model_validate({"force": force, "moment": moment})
+    return FirstOrder.model_validate(_ellipses([wrench])[0])
 
 
 def floor(layout: Layout, wrench: Wrench) -> Floor:
@@ -66,25 +61,31 @@ def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMu
 
 def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
     """First order of one machine without and with counterweights, and the second beside it."""
-    before, after = scene.first_order(), None if unbalance is None else scene.first_order(unbalance)
-    second = _second_order(scene, False)
-    left = second if scene.shafts is None else _second_order(scene, True)
-    return Residual(
-        before=first_order(before),
-        after=None if after is None else first_order(after),
-        orders=ResidualOrders(
-            before=(order_of(1, before), second), after=None if after is None else (order_of(1, after), left)
-        ),
+    shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
+    second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
+    told = orders_of([*((1, wrench) for wrench in shown), *((2, wrench) for wrench in second)])
+    first, twice, ellipses = told[: len(shown)], told[len(shown) :], _ellipses(shown)
+    # one validation of the whole takes a third of the time of one of each part
+    return Residual.model_validate(
+        {
+            "before": ellipses[0],
+            "after": None if unbalance is None else ellipses[1],
+            "orders": {
+                "before": (first[0], twice[0] if twice else None),
+                "after": None if unbalance is None else (first[1], twice[-1] if twice else None),
+            },
+        }
     )
 
 
-def _second_order(scene: Prepared, with_shafts: bool) -> Order | None:
-    """Second order of one machine, which balance shafts alone change; None where a row has no rod."""
+def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[Wrench]:
+    """Second order of one machine, which balance shafts alone change, without and with them; none where a row has no
+    rod."""
     if np.isnan(scene.layout.reciprocating.rod_ratio).any():
-        return None
+        return []
     harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
-    wrench = reciprocating(scene.layout, 2, harmonic)
-    return order_of(2, (scene.with_shafts(wrench, 2) if with_shafts else wrench).times(scene.layout.omega**2))
+    own, square = reciprocating(scene.layout, 2, harmonic), scene.layout.omega**2
+    return [(scene.with_shafts(own, 2) if turning else own).times(square) for turning in with_shafts]
 
 
 def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
@@ -108,8 +109,12 @@ def _hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
     )
 
 
-def _ellipse(pairs: Phasors) -> dict[str, list[float]]:
-    """Figures of ellipses (n,), by name."""
+def _ellipses(wrenches: Sequence[Wrench]) -> list[dict[str, dict[str, float]]]:
+    """Fields of the ellipses of force [N] and moment [N m] of machines (:class:`schemas.first_order.FirstOrder`)."""
+    pairs = Phasors(
+        np.array([[pair.co for pair in wrench] for wrench in wrenches]),
+        np.array([[pair.counter for pair in wrench] for wrench in wrenches]),
+    )
     figures = {
         "peak": pairs.peak,
         "minor": pairs.minor,
@@ -119,7 +124,20 @@ def _ellipse(pairs: Phasors) -> dict[str, list[float]]:
         "co_rotating": np.abs(pairs.co),
         "counter_rotating": np.abs(pairs.counter),
     }
-    return {name: values.tolist() for name, values in figures.items()}
+    columns = np.array([*figures.values()]).transpose(1, 2, 0).tolist()
+    return [
+        {
+            name: dict(zip((_in(figure, unit) for figure in figures), values, strict=True))
+            for (name, unit), values in zip((("force", "N"), ("moment", "Nm")), of_one, strict=True)
+        }
+        for of_one in columns
+    ]
+
+
+@cache
+def _in(figure: str, unit: str) -> str:
+    """Field of a figure in a unit."""
+    return figure if figure.endswith("_deg") else f"{figure}_{unit}"
 
 
 RESIDUAL = Output(

@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.formulate import RESPONSES, given_ceilings, limited, weights
-from optimizer.limits import MACHINE_LIMITS, TOUCHED, WEB_LIMITS
+from optimizer.limits import MACHINE_LIMITS, TOUCHED, given_limits
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.response import Response
 from schemas.counterweights import Counterweight
@@ -111,8 +111,7 @@ def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
     """What every limit of mass and place costs that is given, web by web, then of the machine."""
     of_webs = {
         name: (limit.unit, size.tolist(), limit.price(machine, prices).tolist())
-        for name, limit in WEB_LIMITS.items()
-        if ((size := limit.size(machine)) < np.inf).any()
+        for name, (limit, size) in given_limits(machine).items()
     }
     for k, web in enumerate(machine.webs):
         if web.fixed is not None:

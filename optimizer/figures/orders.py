@@ -1,12 +1,14 @@
 """Phasors of force and moment by order, without and with counterweights."""
 
+from typing import Any
+
 from optimizer.arrays import Complex, Real
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS
 from optimizer.figures.output import Columns, Output
-from optimizer.figures.phasors import order_of
+from optimizer.figures.phasors import orders_of
 from optimizer.mechanics.inertia import Wrench
 from optimizer.scene import Prepared
-from schemas.outputs import Order, OrdersComparison
+from schemas.outputs import OrdersComparison
 
 
 def _by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
@@ -21,10 +23,12 @@ def _by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
 def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
 
-    def found(fitted: Complex | None) -> tuple[Order, ...]:
-        return tuple(order_of(order, wrench) for order, wrench in _by_order(scene, fitted).items())
+    def found(fitted: Complex | None) -> list[dict[str, Any]]:
+        return orders_of([*_by_order(scene, fitted).items()])
 
-    return OrdersComparison(before=found(None), after=None if unbalance is None else found(unbalance))
+    return OrdersComparison.model_validate(
+        {"before": tuple(found(None)), "after": None if unbalance is None else tuple(found(unbalance))}
+    )
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

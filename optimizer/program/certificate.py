@@ -179,17 +179,8 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
         return np.zeros(ends.shape)
     minorant = _minorant(statement, multipliers, statement.ceilings.cap)
     # with the rounding of the slopes, as in the bound: at a lower price a web behind this one would gain something
-    return knapsack_price(limits.radius * minorant.support(limits) - mass_cost, limits)
-
-
-def knapsack_price(gain: Real, limits: Limits) -> Real:
-    """Gain per kilogram (..., K) of the web at which the budget ends, at least 0; 0 where it does not end (...)."""
-    if np.isinf(limits.max_total_mass).all():
-        return np.zeros(gain.shape[:-1])
-    order = np.argsort(-gain, axis=-1, kind="stable")
-    most = np.take_along_axis(np.broadcast_to(limits.max_mass, gain.shape), order, axis=-1)
-    unpaid = most > limits.left(most)
-    return np.maximum.reduce(np.where(unpaid, np.take_along_axis(gain, order, axis=-1), 0.0), axis=-1, initial=0.0)
+    _, price = limits.spent(limits.radius * minorant.support(limits) - mass_cost)
+    return price
 
 
 def ceiling_allowance(statement: Statement, multipliers: Multipliers, excess: Real) -> Real:
@@ -282,5 +273,6 @@ def _least_over_limits(minorant: _Minorant, mass_cost: float, limits: Limits) ->
     as far as the limits let the web reach. With a budget the webs are filled in falling order of that gain.
     """
     gain = np.maximum(limits.radius * minorant.support(limits) - mass_cost, 0.0)
-    gained = np.add.reduce(gain * limits.filled(gain), axis=-1)
+    masses, _ = limits.spent(gain)
+    gained = np.add.reduce(gain * masses, axis=-1)
     return -gained * (1.0 + _EPS * (_EACH + 2 * gain.shape[-1]))

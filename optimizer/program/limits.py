@@ -1,10 +1,11 @@
 """Where the counterweights may be: mass, sector, budget."""
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, plain, spread
 from optimizer.program.alike import Alike
 
 #: fields with an entry for each web
@@ -37,27 +38,26 @@ class Limits:
         """Largest m_k that the limits allow, kg (..., K)."""
         return np.minimum(self.max_mass, self.max_total_mass[..., None])
 
-    def filled(self, gain: Real) -> Real:
+    def spent(self, gain: Real) -> tuple[Real, Real]:
         """The masses of largest total gain: webs in falling order of it until the budget is spent, kg (..., K).
 
-        No mass enters that is larger than the budget, so that no digits are lost to a limit that cannot bind.
+        And what a kilogram gains on the web at which the budget ends (...), at least 0; 0 where it does not end.
 
         Parameters
         ----------
-        gain : (..., K) >= 0 per kilogram.
+        gain : (..., K) per kilogram.
         """
-        if np.isinf(self.max_total_mass).all():
-            return np.broadcast_to(self.max_mass, gain.shape)
-        order = np.argsort(-gain, axis=-1, kind="stable")
-        most = np.take_along_axis(np.broadcast_to(self.max_mass, gain.shape), order, axis=-1)
-        return np.take_along_axis(np.minimum(most, self.left(most)), np.argsort(order, axis=-1), axis=-1)
+        # the compiler is loaded when it is first needed
+        from optimizer.kernel.knapsack import filled
 
-    def left(self, most: Real) -> Real:
-        """What is left of the budget for each of the masses (..., K) that it is spent on one after the other, kg."""
-        budget = self.max_total_mass[..., None]
-        spent = np.cumsum(np.minimum(most, budget), axis=-1)
-        before = np.concatenate([np.zeros_like(spent[..., :1]), spent[..., :-1]], axis=-1)
-        return np.maximum(budget - before, 0.0)
+        *leading, webs = gain.shape
+        many = math.prod(leading)
+        masses, price = filled(
+            plain(gain).reshape(many, webs),
+            plain(spread(self.max_mass, gain.shape)).reshape(many, webs),
+            plain(spread(self.max_total_mass, tuple(leading))).reshape(many),
+        )
+        return masses.reshape(gain.shape), price.reshape(leading)
 
     def into_sectors(self, u: Complex) -> Complex:
         """The nearest unbalance inside the sectors, kg m (..., K)."""

@@ -6,6 +6,8 @@ of its projection, over all directions phi, and along one direction every counte
 one angle is left to search, and between finitely many of its values the projection is a sine and a constant: exact.
 """
 
+import math
+
 import numpy as np
 
 from optimizer.arrays import Complex, Real, plain
@@ -21,12 +23,14 @@ def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
 
 def mass_corners(vectors: Complex) -> Complex:
     """Corners of all sums of vectors (..., K), each times a number from -1 to 1: (..., 2 K + 2), some of them twice."""
-    ahead = np.where((vectors.imag < 0) | ((vectors.imag == 0) & (vectors.real < 0)), -vectors, vectors)
-    ahead = np.take_along_axis(ahead, np.argsort(np.angle(ahead), axis=-1), axis=-1)
+    x, y = vectors.real, vectors.imag
+    *leading, webs = vectors.shape
+    rows = np.where((y < 0) | ((y == 0) & (x < 0)), -vectors, vectors).reshape(math.prod(leading), webs)
+    order = np.argsort(np.arctan2(rows.imag, rows.real), axis=-1)
+    ahead = rows[np.arange(len(rows))[:, None], order].reshape(vectors.shape)
     # around half of the outline the vectors change sign one after the other
-    half = np.add.reduce(ahead, axis=-1)[..., None] - 2.0 * np.cumsum(
-        np.concatenate([np.zeros_like(ahead[..., :1], shape=(*ahead.shape[:-1], 1)), ahead], axis=-1), axis=-1
-    )
+    first = np.add.reduce(ahead, axis=-1)[..., None]
+    half = np.concatenate([first, first - 2.0 * np.cumsum(ahead, axis=-1)], axis=-1)
     return np.concatenate([half, -half], axis=-1)
 
 

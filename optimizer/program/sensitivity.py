@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers, knapsack_price, normalised
+from optimizer.program.certificate import Multipliers, normalised
 from optimizer.program.statement import Statement
 
 
@@ -39,7 +39,7 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     worth = limits.radius * limits.support(-slope)
-    budget = knapsack_price(worth, limits)
+    _, budget = limits.spent(worth)
     return ShadowPrices(
         max_mass=np.maximum(worth - budget[..., None], 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),

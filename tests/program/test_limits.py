@@ -38,3 +38,28 @@ def test_support_without_a_sector_is_the_magnitude() -> None:
     one = np.ones(1)
     limits = Limits(one, one, np.array([True]), one + 0j, 0 * one, one, np.asarray(np.inf))
     assert limits.support(np.array([-3.0 - 4.0j]))[0] == 5.0  # analytic
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_budget_is_spent_in_falling_order_of_gain(seed: int) -> None:
+    # independent: sorted by numpy, and what is left told from sums
+    rng = np.random.default_rng(seed)
+    webs, budget = int(rng.integers(1, 9)), float(rng.choice([0.3, 2.0, np.inf]))
+    # of equal gains the first comes first
+    gain, most = rng.integers(-1, 4, (3, webs)).astype(float), rng.random(webs)
+    one = np.ones(webs)
+    masses, price = Limits(one, most, one > 0, one + 0j, 0 * one, one, np.asarray(budget)).spent(gain)
+    for n in range(3):
+        left, ended = budget, 0.0
+        for k in np.argsort(-gain[n], kind="stable"):
+            assert masses[n, k] == pytest.approx(min(most[k], left), rel=1e-14, abs=1e-15)
+            ended = max(ended, gain[n, k]) if most[k] > left else ended
+            left = max(left - most[k], 0.0)
+        assert price[n] == ended
+
+
+def test_without_a_budget_every_web_carries_what_it_may() -> None:
+    one = np.ones(2)
+    masses, price = Limits(one, np.array([2.0, np.inf]), one > 0, one + 0j, 0 * one, one, np.asarray(np.inf)).spent(one)
+    assert masses.tolist() == [2.0, np.inf]  # analytic
+    assert price == 0.0
