@@ -151,6 +151,11 @@ def number(value: float | None) -> Cell:
     return "–" if value is None else Number(value, digits(value))
 
 
+def typeset(figure: str) -> str:
+    """A figure as it is printed, with a true minus; a terminal may not have one and keeps the hyphen."""
+    return figure.replace("-", "\N{MINUS SIGN}")
+
+
 def digits(value: float) -> str:
     """Six significant digits; the integer part is never cut below a thousand million."""
     if 1e5 <= abs(value) < 1e9:

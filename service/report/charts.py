@@ -17,7 +17,7 @@ from service.drawings.svg import (
     Point,
     shortened,
 )
-from service.report.blocks import digits, turns_of
+from service.report.blocks import digits, turns_of, typeset
 
 #: more lines than this cannot be told apart
 MAX_LINES = len(SERIES)
@@ -229,4 +229,4 @@ def _thinned(points: list[Point]) -> list[Point]:
 
 
 def tick(value: float) -> str:
-    return f"{value + 0.0:.6g}".replace("-", "−") if abs(value) > 1e-300 else "0"
+    return typeset(f"{value + 0.0:.6g}") if abs(value) > 1e-300 else "0"

@@ -7,7 +7,7 @@ from markupsafe import Markup
 
 from service.drawings.svg import Drawing
 from service.plain import plain
-from service.report.blocks import Block, Document, Number
+from service.report.blocks import Block, Document, Number, typeset
 
 
 def html(document: Document) -> bytes:
@@ -30,6 +30,7 @@ def _template() -> Template:
     environment.tests["number"] = lambda cell: isinstance(cell, Number)
     environment.tests["formula"] = lambda cell: isinstance(cell, tuple)
     environment.filters["kind"] = _kind
+    environment.filters["typeset"] = typeset
     return environment.get_template("report.html")
 
 

@@ -13,7 +13,7 @@ from importlib.resources import files
 from typing import Any
 
 from service.plain import plain
-from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table
+from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table, typeset
 
 #: comes with the library, so that documents look the same everywhere; other scripts use fonts of the system
 _FONT = "Libertinus Serif"
@@ -102,7 +102,7 @@ def _table(block: Table) -> dict[str, Any]:
 
 def _cell(cell: Cell, narrow: bool) -> Any:
     if isinstance(cell, Number):
-        return cell.text
+        return typeset(cell.text)
     if isinstance(cell, str):
         return _broken(cell, _LONG_WORD) if narrow else cell
     return {"runs": cell}

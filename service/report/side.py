@@ -8,7 +8,7 @@ from schemas.counterweights import Counterweight
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
-from service.report.blocks import digits
+from service.report.blocks import digits, typeset
 
 _LEFT, _RIGHT = 44.0, PAGE_WIDTH - 30.0
 _MIDDLE = 150.0
@@ -140,7 +140,7 @@ def _axis(drawing: Drawing, view: _View, machine: Machine) -> None:
         drawing.line([(place, _BOTTOM - 3), (place, _BOTTOM + 3)], MUTED, 0.8)
         drawing.line([(place, _MIDDLE + 6), (place, _BOTTOM - 4)], FAINT, 0.6)
         if place - last >= _GAP:
-            drawing.text((place, _BOTTOM + 15), digits(position).replace("-", "−"), "middle", 9.5)
+            drawing.text((place, _BOTTOM + 15), typeset(digits(position)), "middle", 9.5)
             last = place
 
 

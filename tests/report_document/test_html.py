@@ -89,6 +89,13 @@ def test_figures_are_there_to_all_their_digits(made: Make) -> None:
     assert any(float(found["value"] or "") == pytest.approx(5003.068, rel=1e-6) for found in answered)
 
 
+def test_a_minus_is_one_where_it_is_read_and_a_hyphen_where_it_is_computed_with(made: Make) -> None:
+    # throw 2 of the 2D12 stands at -0.175 m
+    content = html(made("2d12")).decode()
+    assert '<data value="-0.175">\N{MINUS SIGN}0.175</data>' in content
+    assert not re.search(r"<data[^>]*>[^<]*-", content)
+
+
 def test_names_that_are_markup_are_names(hostile: Document) -> None:
     content = html(hostile)
     page = Page(content)

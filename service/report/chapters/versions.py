@@ -12,7 +12,7 @@ from schemas.counterweights import Counterweight
 from schemas.first_order import FirstOrder
 from schemas.report import DesignVersion, ReportRequest
 from schemas.requests import AnalyzeRequest
-from service.report.blocks import Block, Chapter, Paragraph, Table, digits, table
+from service.report.blocks import Block, Chapter, Paragraph, Table, digits, table, typeset
 from service.report.chapters.balance import shown
 from service.validation import pointer
 
@@ -83,7 +83,7 @@ def _change(was: float | None, now: float | None) -> str:
     if not was:
         return "0 %" if not now else "–"
     # zero has no sign
-    return f"{100 * (now - was) / was + 0.0:+.2f} %".replace("-", "−") if now != was else "0 %"
+    return typeset(f"{100 * (now - was) / was + 0.0:+.2f} %") if now != was else "0 %"
 
 
 def _weights(columns: Sequence[Column]) -> Table:
