@@ -4,16 +4,17 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.arrays import Complex, Real
 from optimizer.certified import Certified, certified
 from optimizer.figures.counterweights import masses_and_angles
 from optimizer.formulate import formulate
 from optimizer.mechanics.layout import stacked
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.program.statement import Statement
 from optimizer.response import Response
 from optimizer.searched import continuous, searched
-from optimizer.semicontinuous.search import Asked, search
+from optimizer.semicontinuous.search import Asked, Found, search
 from schemas.requests import Accuracy, OptimizeRequest
 
 #: of a mass, relative: what is this near to the least is the least
@@ -46,19 +47,26 @@ def certified_fitted(
     best = certified(continuous(request), responses, omega_squared, solver)
     program = formulate(machine, goal, responses, omega_squared)
     statement, size = program.chosen(0), float(best.certificate["yardstick"][0] / omega_squared[0])
-    found = search(
-        statement,
-        least * statement.limits.radius,
-        best.found.unbalance[0],
-        float(best.found.lower_bound[0]),
-        Asked(
-            asked.relative_gap * size,
-            size,
-            OPTIMUM_SHARE * size if goal.least_mass else 0.0,
-            asked.time_limit_s,
-        ),
-        solver,
-    )
-    mass, angle = masses_and_angles(machine, found.unbalance[None], program.limits)
-    mass = np.where(np.abs(mass - least) <= _ROUNDING * least, least, mass)
-    return searched(best, found, mass, angle, asked.relative_gap)
+    bound = float(best.found.lower_bound[0])
+    mass, angle, found = fitted_search(request, statement, best.found.unbalance[0], bound, size, solver)
+    return searched(best, found, mass[None], angle[None], asked.relative_gap)
+
+
+def fitted_search(
+    request: OptimizeRequest, statement: Statement, continuous: Complex, at_least: float, size: float, solver: Solver
+) -> tuple[Real, Real, Found]:
+    """Masses [kg] and angles [deg] (K,) of the best that are heavy enough, and where the search for them ended.
+
+    Parameters
+    ----------
+    statement : one program (no leading axes).
+    continuous : (K,) kg m, its optimum whatever the least, and ``at_least`` the bound of that.
+    size : what gaps are relative to.
+    """
+    machine, asked = request.machine, request.accuracy
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
+    share = OPTIMUM_SHARE * size if request.objective.least_mass else 0.0
+    sought = Asked(asked.relative_gap * size, size, share, asked.time_limit_s)
+    found = search(statement, least * statement.limits.radius, continuous, at_least, sought, solver)
+    mass, angle = masses_and_angles(machine, found.unbalance, statement.limits)
+    return np.where(np.abs(mass - least) <= _ROUNDING * least, least, mass), angle, found

@@ -38,10 +38,22 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
     told = fitted(request, scene, asked, found)
+    assert told.chosen is not None
+    return with_worst_case(robust, told, *_nominal_optimum(robust))
+
+
+def with_worst_case(robust: Robust, told: CertifiedTurn, nominal: Complex | None, late: bool) -> CertifiedTurn:
+    """What is told of counterweights, with what the worst case costs.
+
+    Parameters
+    ----------
+    nominal : (K,) kg m, the best counterweights of the machine as it is given, if any are known.
+    late : the limit of time left them open.
+    """
     u, certificate = told.chosen, told.fields["certificate"]
     assert u is not None
     assert isinstance(certificate, Certificate)
-    price, late = _price(robust, u)
+    price = _price(robust, u, nominal)
     worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": price}
     return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
 
@@ -102,23 +114,26 @@ def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
     yield from bearing_responses(made, machine.request.fidelity, scene.laden, machine.turn)
 
 
-def _price(robust: Robust, u: Complex) -> tuple[PriceOfRobustness, bool]:
-    """What the worst case costs nominally, and the nominal optimum in the worst case; whether the limit of time, of
-    which the search has what is left, leaves that open."""
-    nominal, square = _nominal(robust), robust.scene.omega_squared
-    asked, program = robust.request, nominal.program
-    best, left = None, robust.left_s
-    late = left == 0.0
-    if not late:
-        found = over_turn(program, asked.accuracy.relative_gap, asked.objective.least_mass, nominal.allowances, left)
-        late = isinstance(found, Found) and found.timed_out
-        best = found.point.unbalance if isinstance(found, Found) and not late else None
-    price = PriceOfRobustness(
+def _nominal_optimum(robust: Robust) -> tuple[Complex | None, bool]:
+    """The best counterweights (K,) of the machine as it is given, if any keep its ceilings; whether the limit of time,
+    of which the search has what is left, leaves that open."""
+    nominal, asked, left = _nominal(robust), robust.request, robust.left_s
+    if left == 0.0:
+        return None, True
+    least = asked.objective.least_mass
+    found = over_turn(nominal.program, asked.accuracy.relative_gap, least, nominal.allowances, left)
+    late = isinstance(found, Found) and found.timed_out
+    return found.point.unbalance if isinstance(found, Found) and not late else None, late
+
+
+def _price(robust: Robust, u: Complex, best: Complex | None) -> PriceOfRobustness:
+    """What the worst case costs nominally, and the best of the machine as it is given in the worst case."""
+    program, square = _nominal(robust).program, robust.scene.omega_squared
+    return PriceOfRobustness(
         nominal=float(program.values(u, _CLOSE).goals[-1]) * square,
         nominal_optimum=None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
         nominal_optimum_worst_case=None if best is None else _objective(robust, best),
     )
-    return price, late
 
 
 def _nominal(robust: Robust) -> Goals:

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.balance_shafts import chosen, posed
+from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.effects.registry import run
 from optimizer.figures import sensitivity
 from optimizer.figures.counterweights import masses_and_angles, unbalance
@@ -24,6 +24,7 @@ from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cut_proof import Proof
 from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
 from optimizer.program.deciding import Group, Weighed
+from optimizer.program.limits import Limits
 from optimizer.program.over_turn import Goal, OverTurn, Values
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import CONTRADICTED, INFEASIBLE, Claim, Verdict, mass_resolution, verdict
@@ -86,14 +87,33 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     ----------
     asked : what the counterweights are judged by: the program that was solved, or one with more variants.
     """
+    mass, angle = masses_and_angles(posed(request).machine, found.point.unbalance, found.limits)
+    return told(request, scene, asked, found, mass, angle)
+
+
+def told(
+    request: OptimizeRequest,
+    scene: Prepared,
+    asked: Goals,
+    found: Found,
+    mass: Real,
+    angle: Real,
+    lower_bound: float = -np.inf,
+) -> CertifiedTurn:
+    """The same of counterweights with masses [kg] and angles [deg] (K,).
+
+    Parameters
+    ----------
+    found : whose proof holds for them.
+    lower_bound : of all that may be chosen, over omega^2, where more is proven of these.
+    """
     machine, square = posed(request).machine, scene.omega_squared
-    mass, angle = masses_and_angles(machine, found.point.unbalance, found.limits)
     u = unbalance(mass, angle, found.limits.radius)
     shown = chosen(request, mass, angle)
     there, _ = beside(machine, mass, angle)
     values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
-    judged = _judged(request, asked.program, found, u, values, mass)
+    judged = _judged(request, asked.program, found, u, values, mass, lower_bound)
     late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
     ended = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. " if late else ""
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
@@ -134,7 +154,13 @@ def whole_turn_of(scene: Prepared) -> WholeTurn:
 
 
 def _judged(
-    request: OptimizeRequest, program: OverTurn, found: Found, u: Complex, values: Values, mass: Real
+    request: OptimizeRequest,
+    program: OverTurn,
+    found: Found,
+    u: Complex,
+    values: Values,
+    mass: Real,
+    lower_bound: float,
 ) -> Verdict:
     """What may be said of the counterweights as they are fitted."""
     size = float(program.yardsticks[-1])
@@ -148,7 +174,7 @@ def _judged(
     claimed = Claim(
         values.goals[-1:],
         # a sum of sizes is not below 0, whatever the rounding of a proof
-        np.array([max(bound, 0.0)]),
+        np.array([max(bound, lower_bound, 0.0)]),
         np.array([rounding]),
         np.array([size]),
         np.asarray(values.excess if kept else np.inf),
@@ -221,13 +247,25 @@ def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator
 
 def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
+    mass, angle = masses_and_angles(posed(request).machine, found.closest.unbalance, found.limits)
+    return unreachable(request, scene, asked, chosen(request, mass, angle), found.limits, found)
+
+
+def unreachable(
+    request: OptimizeRequest,
+    scene: Prepared,
+    asked: Goals,
+    shown: Fitted,
+    within: Limits,
+    found: Unkept | None,
+) -> CertifiedTurn:
+    """The same of what is shown as closest, with the proof by multipliers where there is one."""
     machine, square = posed(request).machine, scene.omega_squared
     alone = asked.program.changed(ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
     components = [name for name in groups if name not in RESPONSES]
     # of quantities those that the conflict is about
-    scales = asked.program.excess_scales(found.proof.cuts)
-    at_fault = _at_fault(found)
+    at_fault = [] if found is None else _at_fault(found)
     limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
     limited = {name: each for name, each in limited.items() if name in at_fault}
     for name in limited:
@@ -235,7 +273,7 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
         groups[name] = Group(weighed=tuple(Weighed(q, each.omega_squared / square) for q, each in of_name.items()))
     # one reach for all that is proven here
     least = {name: _least(alone, group) for name, group in groups.items()}
-    most = np.max([found.limits.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
+    most = np.max([within.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
     if np.any(most != alone.limits.max_mass):
         alone = alone.changed(limits=replace(alone.limits, max_mass=most))
         least = {name: _least(alone, group) for name, group in groups.items()}
@@ -267,30 +305,32 @@ def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found:
     impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
     impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
     together = [field for name, field in exact.items() if name in at_fault] + [field for _, field, _ in both]
-    mass, angle = masses_and_angles(machine, found.closest.unbalance, found.limits)
-    shown = chosen(request, mass, angle)
     closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
-    proof = found.proof
+    conflict, scenarios = None, tuple[str, ...]()
+    if found is not None:
+        scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
+        conflict = named_excess(proof.statement, proof.multipliers, scales, square)
+        scenarios = _scenarios(asked.program, found)
     fields: dict[str, object] = {
         "counterweights": (),
         "total_mass_kg": None,
         "certificate": None,
         "infeasibility": Infeasibility(
-            conflict=tuple(dict.fromkeys(impossible or together)),
+            conflict=tuple(dict.fromkeys(impossible or together or exact.values())),
             **smallest_peaks(value, bound),
             smallest=peaks,
             implied_max_mass_kg=implied_max_mass(machine, most[None])[0],
-            scenarios=_scenarios(asked.program, found),
+            scenarios=scenarios,
             closest=Closest(
                 counterweights=shown.counterweights, balance_shafts=shown.balance_shafts, first_order=closest
             ),
             multipliers=InfeasibilityMultipliers(
-                conflict=named_excess(proof.statement, proof.multipliers, scales, square),
+                conflict=conflict,
                 **smallest_proofs({name: _proof(least[name], square) for name in RESPONSES}),
             ),
         ),
     }
-    spent = found.certify_s + sum(each.certify_s for each in least.values())
+    spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
     return CertifiedTurn("infeasible", INFEASIBLE, None, None, None, spent, fields)
 
 

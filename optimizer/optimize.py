@@ -9,6 +9,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
+from optimizer.certified_choice import certified_choice
 from optimizer.certified_one import certified_one
 from optimizer.certified_robust import certified_robust, nothing_off
 from optimizer.certified_turn import certified_turn
@@ -61,7 +62,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     solver = solver or own_solver()
     start = time.perf_counter()
     if request.objective.over_the_turn or request.robust:
-        return _over_the_turn(request, start)
+        return _over_the_turn(request, start, solver)
     scene = prepare(request, _ALWAYS)
     solving = time.perf_counter()
     asked, square = posed(request), np.array([scene.omega_squared])
@@ -95,7 +96,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     )
 
 
-def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
+def _over_the_turn(request: OptimizeRequest, start: float, solver: Solver) -> OptimizeAnswer:
     """The same where bearings, bending or all orders count, or the worst of several cases."""
     counted = ((_OF_THE_SHAFT, request.objective.of_the_shaft), (_ROLL, request.objective.roll_weight > 0))
     always = (*_ALWAYS, *(name for name, counts in counted if counts))
@@ -104,7 +105,10 @@ def _over_the_turn(request: OptimizeRequest, start: float) -> OptimizeAnswer:
         raise MissingInput(lacking)
     scene = prepare(request, always)
     solving = time.perf_counter()
-    best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
+    if request.robust and (request.machine.discrete or request.machine.semicontinuous):
+        best = certified_choice(request, scene, solver)
+    else:
+        best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
     reporting = time.perf_counter()
     figures = answered(replace(scene, shafts=best.shafts), best.unbalance, always, best.fields)
     if request.objective.orders == "all":

@@ -101,7 +101,7 @@ def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_ga
         "nodes": np.array([found.nodes]),
         "method": np.array([found.method], dtype=object),
     }
-    status, reason = _status(found, str(judged.status[0]), str(judged.reason[0]), bool(proven[0]))
+    status, reason = told_status(found, str(judged.status[0]), str(judged.reason[0]), bool(proven[0]))
     return replace(
         best,
         mass_kg=mass,
@@ -115,7 +115,7 @@ def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_ga
     )
 
 
-def _status(found: Found, status: str, reason: str, proven: bool) -> tuple[str, str]:
+def told_status(found: Found, status: str, reason: str, proven: bool) -> tuple[str, str]:
     """What may be said of a set, from what the search and the verdict say."""
     if not proven:
         return status, reason

@@ -19,7 +19,7 @@ from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rule
 from schemas.units import Unit
 
 #: ways round what does not go together, see "What goes together" in docs/api.md
-_FIX_THE_CHOICE = "choose for the first order of one machine, then ask with the choice as fixed weights"
+_FIX_THE_CHOICE = "choose for the first order, then ask with the choice as fixed weights"
 
 
 class Accuracy(Model):
@@ -145,7 +145,7 @@ class OptimizeRequest(Scene, Ruled):
         machine = self.machine
         if not machine.discrete:
             return
-        yield from self.worst_case_rules(f"does not go with a catalogue: {_FIX_THE_CHOICE}")
+        yield Rule(self.tolerances is not None, ("tolerances",), f"does not go with a catalogue: {_FIX_THE_CHOICE}")
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), f"does not go with a catalogue: {_FIX_THE_CHOICE}")
         yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
@@ -159,7 +159,8 @@ class OptimizeRequest(Scene, Ruled):
         machine = self.machine
         if not machine.semicontinuous:
             return
-        yield from self.worst_case_rules(f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
+        message = f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}"
+        yield Rule(self.tolerances is not None, ("tolerances",), message)
         for name in self.objective.over_the_turn:
             yield Rule(True, ("objective", name), f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
         yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")

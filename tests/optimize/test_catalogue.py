@@ -250,7 +250,6 @@ def test_steps_of_angle_need_a_crank_and_a_place_in_the_sector() -> None:
     [
         (OptimizeRequest, {"objective": {"orders": "all"}}, ("objective", "orders")),
         (OptimizeRequest, {"tolerances": {"mass_relative": 0.01}}, ("tolerances",)),
-        (OptimizeRequest, {"scenarios": [{"name": "as it is"}]}, ("scenarios",)),
         (ParetoRequest, {}, ("machine", "catalogue")),
         (AccuracyRequest, {}, ("machine", "catalogue")),
     ],
