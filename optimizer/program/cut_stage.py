@@ -122,7 +122,7 @@ class Search:
         """
         best, proof = self.inside, None if self.of_mass else self._resting()
         attempts, gap = list(FREELY if self.free else WITHIN), np.inf
-        rounds, timed_out, promised = 0, True, None
+        rounds, timed_out, promised = 0, False, None
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
             statement = self.program.statement(self.pool.cuts)
