@@ -60,10 +60,13 @@ class Pacing:
 
     async def _hand_over(self, begin: Message | None, message: Message, who: str, send: Send) -> None:
         """Part of an answer, the first one with its head: what is small and whole at once, all else piece by piece."""
-        whole = len(message.get("body", b"")) <= PIECE_BYTES and not message.get("more_body")
+        if len(message.get("body", b"")) <= PIECE_BYTES and not message.get("more_body"):
+            if begin is not None:
+                await send(begin)
+            await send(message)
+            return
         for piece in _pieces(message):
-            if not whole:
-                await self._rounds.turn(who)
+            await self._rounds.turn(who)
             if begin is not None:
                 await send(begin)
                 begin = None

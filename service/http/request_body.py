@@ -1,9 +1,9 @@
 """The body of a request, up to a size and for a time."""
 
+import asyncio
 import re
 
-from anyio import fail_after
-from starlette.requests import Request
+from starlette.requests import ClientDisconnect, Request
 
 from service.guard.shares import Holding
 
@@ -47,8 +47,13 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float, holding:
         raise too_large
     body = bytearray()
     try:
-        with fail_after(timeout_s):
-            async for chunk in request.stream():
+        async with asyncio.timeout(timeout_s):
+            more = True
+            while more:
+                message = await request.receive()
+                if message["type"] == "http.disconnect":
+                    raise ClientDisconnect
+                chunk, more = message.get("body", b""), message.get("more_body", False)
                 if len(body) + len(chunk) > max_bytes:
                     raise too_large
                 holding.take("bodies", len(chunk))

@@ -1,20 +1,22 @@
 """What browsers are told about every answer."""
 
-from starlette.datastructures import MutableHeaders
+from collections.abc import Iterator
+
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-_HEADERS = {
-    "X-Content-Type-Options": "nosniff",
-    "Referrer-Policy": "no-referrer",
-    "Cross-Origin-Opener-Policy": "same-origin",
-    "Cross-Origin-Resource-Policy": "same-origin",
-    "Permissions-Policy": "camera=(), geolocation=(), microphone=()",
-}
+_HEADERS = (
+    (b"x-content-type-options", b"nosniff"),
+    (b"referrer-policy", b"no-referrer"),
+    (b"cross-origin-opener-policy", b"same-origin"),
+    (b"cross-origin-resource-policy", b"same-origin"),
+    (b"permissions-policy", b"camera=(), geolocation=(), microphone=()"),
+)
+_POLICY = b"content-security-policy"
 #: what is said of a page that some origins may show in a frame
-_FRAMED = "frame-ancestors http"
+_FRAMED = b"frame-ancestors http"
 #: what is no page loads nothing; pages come with a policy of their own
-_NO_PAGE = "default-src 'none'; frame-ancestors 'none'"
-_PAGE = "default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'self'"
+_NO_PAGE = b"default-src 'none'; frame-ancestors 'none'"
+_PAGE = b"default-src 'self'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'; form-action 'self'"
 
 
 class SecurityHeaders:
@@ -36,16 +38,20 @@ class SecurityHeaders:
 
         async def add(message: Message) -> None:
             if message["type"] == "http.response.start":
-                headers = MutableHeaders(scope=message)
-                for name, value in _HEADERS.items():
-                    headers.setdefault(name, value)
-                page = headers.get("content-type", "").startswith(("text/html", "image/svg"))
-                headers.setdefault("Content-Security-Policy", _PAGE if page else _NO_PAGE)
-                # the older header knows no other origins
-                if _FRAMED not in headers["Content-Security-Policy"]:
-                    headers.setdefault("X-Frame-Options", "DENY")
-                if self._hsts_s and scope.get("scheme") == "https":
-                    headers.setdefault("Strict-Transport-Security", f"max-age={self._hsts_s}; includeSubDomains")
+                # names are in small letters (ASGI)
+                headers = message.get("headers", ())
+                message["headers"] = [*headers, *self._missing(dict(headers), scope.get("scheme") == "https")]
             await send(message)
 
         await self._app(scope, receive, add)
+
+    def _missing(self, headers: dict[bytes, bytes], https: bool) -> Iterator[tuple[bytes, bytes]]:
+        page = headers.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
+        policy = headers.get(_POLICY, _PAGE if page else _NO_PAGE)
+        wanted = [*_HEADERS, (_POLICY, policy)]
+        # the older header knows no other origins
+        if _FRAMED not in policy:
+            wanted.append((b"x-frame-options", b"DENY"))
+        if self._hsts_s and https:
+            wanted.append((b"strict-transport-security", b"max-age=%d; includeSubDomains" % self._hsts_s))
+        return (each for each in wanted if each[0] not in headers)

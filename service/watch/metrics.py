@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import asdict
+from functools import cache
 
 from prometheus_client import CollectorRegistry, Counter, Histogram, generate_latest
 from prometheus_client.core import CounterMetricFamily, GaugeMetricFamily, Metric
@@ -24,37 +25,41 @@ class Metrics:
 
     def __init__(self, pool: Pool, sweeps: SweepCounts, job_faults: Callable[[], int]) -> None:
         self._registry = CollectorRegistry()
-        self._requests = Counter(
+        requests = Counter(
             "counterweight_requests", "answered requests", ("method", "route", "status"), registry=self._registry
         )
-        self._request_seconds = Histogram(
+        request_seconds = Histogram(
             "counterweight_request_seconds",
             "time to the end of an answer [s]",
             ("route",),
             buckets=_SECONDS,
             registry=self._registry,
         )
-        self._computation_seconds = Histogram(
+        computation_seconds = Histogram(
             "counterweight_computation_seconds",
             "time of a computation in its worker [s]",
             ("computation",),
             buckets=_SECONDS,
             registry=self._registry,
         )
-        self._solve_seconds = Histogram(
+        solve_seconds = Histogram(
             "counterweight_solve_seconds",
             "time of the convex program [s]",
             ("method",),
             buckets=_SECONDS,
             registry=self._registry,
         )
-        self._gaps = Histogram(
+        gaps = Histogram(
             "counterweight_certified_relative_gap",
             "certified gap over the objective without counterweights",
             ("method",),
             buckets=_GAPS,
             registry=self._registry,
         )
+        # what belongs to some labels is looked for once: they are few
+        self._counted, self._lasted = cache(requests.labels), cache(request_seconds.labels)
+        self._took, self._solved = cache(computation_seconds.labels), cache(solve_seconds.labels)
+        self._gap = cache(gaps.labels)
         self._faults = 0
         self._registry.register(_Faults(lambda: {"request": self._faults, "job": job_faults()}))
         self._registry.register(_Work(pool))
@@ -63,16 +68,16 @@ class Metrics:
     def requested(self, method: str, route: str, status: int, seconds: float) -> None:
         """A request was answered; ``route`` is a template, not a path."""
         known = method if method in _METHODS else "other"
-        self._requests.labels(known, route, str(status)).inc()
-        self._request_seconds.labels(route).observe(seconds)
+        self._counted(known, route, str(status)).inc()
+        self._lasted(route).observe(seconds)
 
     def computed(self, computation: str, answer: Answer) -> None:
         """A worker has answered."""
-        self._computation_seconds.labels(computation).observe(answer.seconds)
+        self._took(computation).observe(answer.seconds)
         self._faults += len(answer.faults)
         if answer.certified is not None:
-            self._solve_seconds.labels(answer.certified.method).observe(answer.certified.solve_s)
-            self._gaps.labels(answer.certified.method).observe(max(0.0, answer.certified.relative_gap))
+            self._solved(answer.certified.method).observe(answer.certified.solve_s)
+            self._gap(answer.certified.method).observe(max(0.0, answer.certified.relative_gap))
 
     def exposition(self) -> bytes:
         """Everything, in the text format of Prometheus."""

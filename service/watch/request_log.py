@@ -6,7 +6,7 @@ import secrets
 import time
 from typing import Any
 
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.watch.logs import REQUEST
@@ -43,10 +43,12 @@ class RequestLog:
         begun = time.perf_counter()
         headers = Headers(scope=scope)
         given = headers.get("x-request-id", "")
-        request_id = given if _ID.fullmatch(given) else secrets.token_hex(16)
+        # two at once: each costs a call of the system
+        fresh = secrets.token_hex(32)
+        request_id = given if _ID.fullmatch(given) else fresh[:32]
         traced = _TRACEPARENT.fullmatch(headers.get("traceparent", ""))
         method = "HEAD" if scope.get("head") else scope["method"]
-        ids = {"request_id": request_id, "trace_id": traced[1] if traced else secrets.token_hex(16)}
+        ids = {"request_id": request_id, "trace_id": traced[1] if traced else fresh[32:]}
         REQUEST.set(ids)
         status = 0
 
@@ -54,7 +56,7 @@ class RequestLog:
             nonlocal status
             if message["type"] == "http.response.start":
                 status = message["status"]
-                MutableHeaders(scope=message)["X-Request-ID"] = request_id
+                message["headers"] = [*message.get("headers", ()), (b"x-request-id", request_id.encode())]
             await send(message)
 
         with self._tracing.request(method, headers) as span:
@@ -74,6 +76,9 @@ class RequestLog:
                 self._say(scope, method, route, status, seconds)
 
     def _say(self, scope: Scope, method: str, route: str, status: int, seconds: float) -> None:
+        level = logging.DEBUG if route in _PROBES and status < 500 else logging.INFO
+        if not _LOG.isEnabledFor(level):
+            return
         state = scope.get("state", {})
         caller = state.get("caller")
         about: dict[str, Any] = {
@@ -87,7 +92,6 @@ class RequestLog:
             about |= {"key": caller.key, "owner": caller.owner}
         if self._bodies and "body" in state:
             about["body"] = bytes(state["body"][:_LONGEST_BODY]).decode("utf-8", "replace")
-        level = logging.DEBUG if route in _PROBES and status < 500 else logging.INFO
         _LOG.log(level, "%s %s %d", method, route, status, extra={**about, "about": about})
 
 

@@ -135,7 +135,7 @@ class Pool:
             async with timeout(self.timeout_s):
                 async with self._turns.turn(owner, task.computation.long):
                     computing = True
-                    return await self._computed(replace(task, behind=self._turns.more(owner)))
+                    return await self._computed(replace(task, behind=True) if self._turns.more(owner) else task)
         except Full:
             self.counts.refused_busy += 1
             raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size))) from None
