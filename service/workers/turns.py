@@ -1,9 +1,15 @@
-"""Whose computation begins next: owner by owner, so that nobody waits behind all that another one asks."""
+"""Whose computation begins next: who has had least, so that nobody waits behind all that another one asks."""
 
 import asyncio
+import time
 from collections import Counter, OrderedDict, deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+
+from service.workers.accounts import Accounts
+
+#: whoever waits and has had no turn for so long is before all who have had less [s]
+PATIENCE_S = 2.0
 
 
 class Full(Exception):
@@ -12,17 +18,23 @@ class Full(Exception):
 
 @dataclass(eq=False)
 class _Turn:
-    """Asked for, waited for and had in an ``async with``."""
+    """Asked for, waited for and had in an ``async with``.
+
+    light : its owner had nothing when it was asked for, and no more so far than anybody who had.
+    one_more : it is the one above the others.
+    """
 
     turns: "Turns"
     owner: str
     long: bool
     decided: asyncio.Event = field(default_factory=asyncio.Event)
+    light: bool = False
     begun: bool = False
+    one_more: bool = False
 
     async def __aenter__(self) -> None:
-        self.turns.ask(self)
         try:
+            self.turns.ask(self)
             await self.decided.wait()
             if not self.begun:
                 raise Full
@@ -35,27 +47,38 @@ class _Turn:
 
 
 class Turns:
-    """So many turns at a time, and one more for an owner who has none.
+    """So many turns at a time, and one more for an owner who comes with nothing and has had least.
 
-    Owners take turns, each in the order in which it asked. When as many wait as may, the owner of whom most wait gives
-    up its last place to one of whom fewer wait.
+    Next is the owner who has had turns for the least time, each in the order in which it asked; but nobody waits for
+    ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
+    last place to one of whom fewer wait.
+
+    The one more is not for who has more waiting already: owners who ask without end would always have it, and whoever
+    asks for little would wait for one of them.
 
     Parameters
     ----------
     size : turns at a time.
     waiting : who may wait altogether.
     each : who may wait of one owner.
+    clock : seconds that only go forward.
     """
 
-    def __init__(self, size: int, waiting: int, each: int) -> None:
+    def __init__(self, size: int, waiting: int, each: int, clock: Callable[[], float] = time.monotonic) -> None:
         self._size = size
         self._most = waiting
         self._each = each
         # those that take seconds never take every turn, if there are two at least
         self._most_long = max(1, size // 2)
+        self._clock = clock
+        self._accounts = Accounts(clock)
         self._running: Counter[str] = Counter()
         self._running_long = 0
+        self._one_more = False
+        # who began last is last
         self._waiting: OrderedDict[str, deque[_Turn]] = OrderedDict()
+        # when they began to wait, or had a turn
+        self._since: dict[str, float] = {}
 
     @property
     def waiting(self) -> int:
@@ -83,13 +106,18 @@ class Turns:
             if not self._running[turn.owner]:
                 del self._running[turn.owner]
             self._running_long -= turn.long
+            self._one_more &= not turn.one_more
+            self._accounts.take(turn.owner, -1)
         else:
             self._leave(turn)
+        if turn.owner in self._accounts and not self._running[turn.owner] and turn.owner not in self._waiting:
+            self._accounts.go(turn.owner)
         if self._waiting:
             self._go_on()
 
     def ask(self, turn: _Turn) -> None:
         """Have it begin, or wait for its decision."""
+        turn.light = turn.owner not in self._accounts and self._accounts.come(turn.owner)
         # whoever waits may not begin, so nobody is overtaken
         if self._may_begin(turn):
             self._begin(turn)
@@ -104,17 +132,25 @@ class Turns:
             given_up = longest[-1]
             self._leave(given_up)
             given_up.decided.set()
-        self._waiting.setdefault(turn.owner, deque()).append(turn)
+        if not own:
+            self._waiting[turn.owner] = deque()
+            self._since[turn.owner] = self._clock()
+        self._waiting[turn.owner].append(turn)
 
     def _may_begin(self, turn: _Turn) -> bool:
         if turn.long and self._running_long >= self._most_long:
             return False
-        return self._running.total() < self._size + (self._running[turn.owner] == 0)
+        return self._is_free() or (turn.light and not self._one_more and not self._running[turn.owner])
+
+    def _is_free(self) -> bool:
+        return self._running.total() - self._one_more < self._size
 
     def _begin(self, turn: _Turn) -> None:
-        turn.begun = True
+        turn.begun, turn.one_more = True, not self._is_free()
+        self._one_more |= turn.one_more
         self._running[turn.owner] += 1
         self._running_long += turn.long
+        self._accounts.take(turn.owner, 1)
         turn.decided.set()
 
     def _leave(self, turn: _Turn) -> None:
@@ -122,15 +158,21 @@ class Turns:
         if place is not None and turn in place:
             place.remove(turn)
             if not place:
-                del self._waiting[turn.owner]
+                del self._waiting[turn.owner], self._since[turn.owner]
 
     def _go_on(self) -> None:
         while (turn := next(self._ready(), None)) is not None:
             self._leave(turn)
             if turn.owner in self._waiting:
                 self._waiting.move_to_end(turn.owner)
+                self._since[turn.owner] = self._clock()
             self._begin(turn)
 
     def _ready(self) -> Iterator[_Turn]:
-        for place in self._waiting.values():
-            yield from (turn for turn in place if self._may_begin(turn))
+        patient_s = self._clock() - PATIENCE_S
+
+        def rank(owner: str) -> tuple[float, float]:
+            return min(self._since[owner], patient_s), self._accounts.had(owner)
+
+        for owner in sorted(self._waiting, key=rank):
+            yield from (turn for turn in self._waiting[owner] if self._may_begin(turn))

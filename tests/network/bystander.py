@@ -92,6 +92,8 @@ def largest(throws: int) -> bytes:
     """A machine with as many throws and webs as asked for, as large as is legal at 500."""
     body: dict[str, Any] = json.loads(json.dumps(MACHINES["2d12"]))
     machine = body["machine"]
+    # one value for each row of the machine as it was
+    del machine["friction"]["indicated_power_W"]
     throw, web = machine["throws"][0], machine["webs"][0]
     machine["throws"] = [
         {**throw, "name": str(k), "position_m": 0.1 * k, "crank_angle_deg": 7.0 * k, "rows": throw["rows"][:1]}
@@ -100,6 +102,11 @@ def largest(throws: int) -> bytes:
     machine["webs"] = [{**web, "name": f"w{k}", "position_m": 0.1 * k + 0.05} for k in range(throws)]
     return json.dumps(body).encode()
 
+
+#: megabytes of torque
+TORQUE = json.dumps(
+    {"machine": MACHINES["2d12"]["machine"], "outputs": ["torque"], "angles": {"step_deg": 0.05}}
+).encode()
 
 Press = Callable[[Aim, int], Awaitable[None]]
 
@@ -115,8 +122,7 @@ async def stalled_body(target: Aim, number: int) -> None:
 
 async def stopped_reader(target: Aim, number: int) -> None:
     """Asks for answers of megabytes, again and again on one connection, and reads nothing."""
-    wanted = json.dumps({"machine": MACHINES["2d12"]["machine"], "outputs": ["torque"], "angles": {"step_deg": 0.05}})
-    asked = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", wanted.encode())
+    asked = request("GET", "/openapi.json") if number % 4 else request("POST", "/v1/analyze", TORQUE)
     async with connected(target.port, target.address(number)) as (reader, writer):
         reader._transport.pause_reading()  # type: ignore[attr-defined]
         writer.write(asked.replace(b"Connection: close", b"Connection: keep-alive") * 5)

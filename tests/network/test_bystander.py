@@ -1,11 +1,17 @@
 """Legal traffic that costs much harms no bystander; ``python -m tests.network.bystander`` is the long form."""
 
 import asyncio
+import json
 from collections.abc import Iterator
 
 import pytest
 
-from tests.network.bystander import CEILING_MB, PRESSES, beside, mixed
+from schemas.base import Model
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from service.guard.sizes import SizeLimits
+from service.settings import Settings
+from service.validation import check
+from tests.network.bystander import CEILING_MB, PRESSES, TORQUE, beside, largest, mixed
 from tests.network.load import start_sweep
 from tests.network.serving import Service, service
 
@@ -20,6 +26,12 @@ def pressed() -> Iterator[Service]:
         made.sweep = asyncio.run(start_sweep(made))  # type: ignore[attr-defined]
         yield made
         asyncio.run(made.ask("DELETE", made.sweep))  # type: ignore[attr-defined]
+
+
+@pytest.mark.parametrize(("model", "body"), [(OptimizeRequest, largest(500)), (AnalyzeRequest, TORQUE)])
+def test_what_presses_is_legal(model: type[Model], body: bytes) -> None:
+    # a refusal costs next to nothing
+    SizeLimits.of(Settings()).require(check(model, json.loads(body)))
 
 
 @pytest.mark.parametrize("press", [PRESSES["stalled bodies"], PRESSES["streams of events"], mixed])

@@ -1,5 +1,7 @@
 """Turns: nobody waits behind all that another one asks, and nobody's place is lost."""
 
+import heapq
+import itertools
 from collections import Counter
 
 import anyio
@@ -7,7 +9,26 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.workers.turns import Full, Turns
+from service.workers.turns import Full
+from service.workers.turns import Turns as _Turns
+
+
+class Clock:
+    """Time that goes by when it is told to."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    def __call__(self) -> float:
+        return self.seconds
+
+
+class Turns(_Turns):
+    """With a clock of its own, which stands."""
+
+    def __init__(self, size: int, waiting: int, each: int) -> None:
+        self.clock = Clock()
+        super().__init__(size, waiting, each, self.clock)
 
 
 class Asked:
@@ -35,8 +56,10 @@ class Asked:
         self._group.start_soon(have)
         await anyio.wait_all_tasks_blocked()
 
-    async def end(self, *names: str) -> None:
+    async def end(self, *names: str, after_s: float = 0.0) -> None:
+        """End turns, each when so much time has gone by."""
         for name in names:
+            self.turns.clock.seconds += after_s
             self._ends[name].set()
             await anyio.wait_all_tasks_blocked()
 
@@ -74,13 +97,80 @@ def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> N
         await asked.ask("b0")
         assert asked.begun == ["a0", "a1", "b0"]
         await asked.ask("b1")
-        await asked.end("a0")
-        # as many as there are to be, and one owner of each
+        # the one more is taken
         assert asked.begun == ["a0", "a1", "b0"]
-        await asked.end("a1")
-        assert asked.begun[3:] == ["a2"]
+        await asked.end("a0", after_s=1.0)
+        # a has had twice as much
+        assert asked.begun[3:] == ["b1"]
+        await asked.end("a1", after_s=1.0)
+        assert asked.begun[4:] == ["a2"]
 
     play(Turns(2, 20, 20), story)
+
+
+def test_owners_who_ask_without_end_leave_the_one_more_to_who_comes_with_nothing() -> None:
+    async def story(asked: Asked) -> None:
+        for name in ("a0", "b0", "c0", "a1", "b1", "c1", "a2", "b2", "c2"):
+            await asked.ask(name)
+        # c came with nothing
+        assert asked.begun == ["a0", "b0", "c0"]
+        await asked.end("c0", after_s=0.1)
+        # c has none now, and has had no more than a and b; but it has more waiting, as they have
+        assert asked.begun[3:] == []
+        for name in ("d0", "e0"):
+            await asked.ask(name)
+        assert asked.begun[3:] == ["d0"]
+        await asked.end("d0", after_s=0.1)
+        assert asked.begun[4:] == ["e0"]
+        await asked.end("a0", after_s=0.1)
+        # what a had is not the one more, which e has
+        assert asked.begun[5:] == ["c1"]
+
+    play(Turns(2, 20, 20), story)
+
+
+def test_who_has_had_least_is_next() -> None:
+    async def story(asked: Asked) -> None:
+        for name in ("a0", "b0", "a1", "a2", "b1", "b2"):
+            await asked.ask(name)
+        await asked.end("b0", "a0", after_s=0.2)
+        # a has had 0.4 s, b 0.2
+        assert asked.begun == ["a0", "b0", "b1"]
+        await asked.end("b1", after_s=1.0)
+        # b has had 1.2 s, for which a has two turns, though it began last in between
+        await asked.end("a1", after_s=0.5)
+        assert asked.begun[3:] == ["a1", "a2"]
+        await asked.end("a2", after_s=0.5)
+        assert asked.begun[5:] == ["b2"]
+
+    play(Turns(1, 10, 10), story)
+
+
+def test_nobody_waits_for_ever_however_many_come() -> None:
+    async def story(asked: Asked) -> None:
+        for name in ("a0", "b0", "a1"):
+            await asked.ask(name)
+        # somebody who has had nothing comes before every end
+        for ends, comes in zip("bacdef", "cdefgh", strict=True):
+            await asked.ask(f"{comes}0")
+            await asked.end(f"{ends}0", after_s=0.5)
+        # after two seconds without any a is before h, who takes the one more when g leaves it
+        assert asked.begun == ["a0", "b0", "c0", "d0", "e0", "f0", "g0", "a1"]
+
+    play(Turns(1, 20, 20), story)
+
+
+def test_a_place_that_was_given_up_leaves_nothing_behind() -> None:
+    async def story(asked: Asked) -> None:
+        for name in ("a0", "a1", "a2", "b0", "b1", "c0", "c1"):
+            await asked.ask(name)
+        for name in ("a0", "b0", "c0", "a1", "b1", "c1"):
+            if name in asked.begun:
+                await asked.end(name, after_s=1.0)
+
+    turns = Turns(1, 2, 2)
+    play(turns, story)
+    assert not [owner for owner in "abc" if owner in turns._accounts]
 
 
 def test_an_owner_has_its_share_of_the_places_and_gives_up_the_last_to_others() -> None:
@@ -151,3 +241,41 @@ def test_everybody_is_served_or_refused_and_never_more_than_there_are(
         assert Counter([*asked.begun, *asked.refused]) == Counter(f"{o}{k}" for k, (o, _, _) in enumerate(steps))
 
     play(turns, story)
+
+
+def test_a_bystander_never_waits_for_owners_who_ask_without_end() -> None:
+    async def story(asked: Asked) -> None:
+        numbers, ends = itertools.count(), list[tuple[float, str]]()
+        waits: list[str] = []
+
+        async def ask(owner: str) -> str:
+            name = f"{owner}{next(numbers)}"
+            await asked.ask(name)
+            return name
+
+        for owner in "aabbccdd" * 4:
+            await ask(owner)
+        # 25 ms of every one of theirs, 8 ms of his, every 60 ms
+        seen, comes = 0, 0.06
+        while asked.turns.clock() < 2.0:
+            for name in asked.begun[seen:]:
+                heapq.heappush(ends, (asked.turns.clock() + (0.008 if name[0] == "e" else 0.025), name))
+            seen = len(asked.begun)
+            if comes <= ends[0][0]:
+                asked.turns.clock.seconds = comes
+                name = await ask("e")
+                waits += [] if name in asked.begun else [name]
+                comes += 0.06
+                continue
+            at, name = heapq.heappop(ends)
+            await asked.end(name, after_s=at - asked.turns.clock())
+            if name[0] != "e":
+                await ask(name[0])
+        begun = Counter(name[0] for name in asked.begun)
+        assert begun["e"] == 33
+        assert waits == []
+        # two of theirs at a time, each a quarter of them
+        assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 2.0 / 0.025, abs=5)
+        assert max(begun[owner] for owner in "abcd") - min(begun[owner] for owner in "abcd") <= 2
+
+    play(Turns(2, 100, 64), story)
