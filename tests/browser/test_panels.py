@@ -229,6 +229,28 @@ def test_any_two_responses_are_traded(portal: Portal, url: str) -> None:
     portal.page.wait_for_url("**trade=mass,force*")
 
 
+def test_numbers_of_counterweights_are_traded_where_there_is_a_catalogue(portal: Portal, url: str) -> None:
+    portal.open("catalogue-twin", ("pareto",))
+    panel = portal.panel("pareto")
+    panel.get_by_text("Point, from fewest to most").wait_for()
+    body = portal.bodies("/v1/pareto")[-1]
+    assert body["counts"] == {"of": "weights", "least": "objective"}
+    # without a ceiling the least mass is none
+    assert [one.get_attribute("value") for one in panel.locator("#count-least option").all()] == ["objective"]
+    points = ask(url, "/v1/pareto", body)["counts"][0]["points"]
+    for key, place in (("Home", 0), ("End", len(points) - 1)):
+        panel.locator("#pareto-point").press(key)
+        panel.get_by_text(f"Point {place + 1} of {len(points)}").wait_for()
+        shown = [float(text.replace(",", "")) for text in cells(panel.locator(".picked table").first)[0][:2]]
+        assert shown == pytest.approx([points[place]["at_most"], points[place]["value"]], rel=1e-4)
+    portal.screenshot("counts")
+    # part numbers in their place; and a link keeps them
+    panel.locator("#count-of").select_option("part_numbers")
+    panel.locator("[role=img][aria-label*='part numbers']").wait_for()
+    assert portal.bodies("/v1/pareto")[-1]["counts"]["of"] == "part_numbers"
+    portal.page.wait_for_url("**count=part_numbers,objective*")
+
+
 def test_the_crank_turns_with_its_force_and_moment(portal: Portal, url: str) -> None:
     portal.open("v60", ("turning",))
     panel = portal.panel("turning")

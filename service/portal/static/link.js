@@ -30,7 +30,7 @@ export async function unpack(text) {
 }
 
 // what panels remember: what is traded, the chosen point of the front, the last sweep, the parts that were weighed
-const KEPT = ["point", "trade", "sweep", "match"];
+const KEPT = ["point", "trade", "count", "sweep", "match"];
 
 // {example, request, open, kept}: an example stands for its request as long as nobody has edited it; "" is the empty machine
 export async function readLink(fragment) {

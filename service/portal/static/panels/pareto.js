@@ -1,9 +1,10 @@
-// The trade-off of any two responses: every point is a set of counterweights.
+// The trade-off of any two responses, or of numbers: every point is a set of counterweights.
 
 import { h, table } from "../dom.js";
 import { front } from "../drawing/front.js";
 import { figure, number, share } from "../format.js";
 import { colours, plot } from "../plots.js";
+import { chosenFrom, counted } from "./counts.js";
 import { counterweightTable } from "./counterweights.js";
 import { missing } from "./panels.js";
 
@@ -24,17 +25,15 @@ export const pareto = {
   about: "Points that no other counterweights beat in both. Choose one to see its counterweights.",
   async draw(body, context) {
     const { request, ask, keep, kept } = context;
-    const names = (await context.schema).options("ParetoRequest", "responses").filter((name) => !missing({ needs: NEEDS[name] }, request.machine).length);
-    const asked = kept.trade?.split(",") ?? USUAL;
-    const pair = new Set(asked).size === 2 && asked.every((name) => names.includes(name)) ? asked : USUAL;
-    const choice = axes(names, pair, (chosen) => {
+    const again = (name, value) => {
       delete kept.point;
-      keep("trade", chosen.join(","));
+      keep(name, value);
       return pareto.draw(body, context);
-    });
+    };
+    const { choice, ends, found: answered } = chosenFrom(request.machine) ? counted(context, again) : await traded(context, again);
     body.replaceChildren(choice);
     const { angles: _angles, fidelity: _fidelity, ...rest } = request;
-    const found = await frontOf(pair, rest, ask);
+    const found = await answered(rest, ask);
     if (!found.points.length) {
       body.append(h("p", {}, "No counterweights satisfy the ceilings: there is no front."));
       return;
@@ -56,12 +55,24 @@ export const pareto = {
       return choose(index);
     };
     body.replaceChildren(...[choice, node,
-      h("div", { class: "slide" }, h("label", { for: "pareto-point" }, `Point, from least ${pair[0]} to least ${pair[1]}`), slider),
-      found.reason ? h("p", { class: "about" }, WHY[found.reason]) : null, picked].filter(Boolean));
+      h("div", { class: "slide" }, h("label", { for: "pareto-point" }, `Point, from ${ends}`), slider),
+      found.reason || found.about ? h("p", { class: "about" }, WHY[found.reason] ?? found.about) : null, picked].filter(Boolean));
     const before = Number(kept.point) - 1;
     await choose(found.points[before] ? before : found.knee ?? 0);
   },
 };
+
+// {choice, ends, found}: two responses, and the front of them
+async function traded({ request, kept, schema }, again) {
+  const names = (await schema).options("ParetoRequest", "responses").filter((name) => !missing({ needs: NEEDS[name] }, request.machine).length);
+  const asked = kept.trade?.split(",") ?? USUAL;
+  const pair = new Set(asked).size === 2 && asked.every((name) => names.includes(name)) ? asked : USUAL;
+  return {
+    choice: axes(names, pair, (chosen) => again("trade", chosen.join(","))),
+    ends: `least ${pair[0]} to least ${pair[1]}`,
+    found: (rest, ask) => frontOf(pair, rest, ask),
+  };
+}
 
 // which is traded for which; the one that is chosen twice makes the other give way
 function axes(names, [x, y], chosen) {
@@ -84,7 +95,7 @@ async function frontOf(pair, request, ask) {
   return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
 }
 
-function picture({ points, titles, bare }, chosen, click) {
+function picture({ points, titles, bare, whole }, chosen, click) {
   const { before, after, mark } = colours();
   const here = points[chosen].values;
   const of = (axis) => points.map(({ values }) => values[axis]);
@@ -96,10 +107,10 @@ function picture({ points, titles, bare }, chosen, click) {
         hovertemplate: "%{x:.5~s}, %{y:.5~s}, %{customdata:.5~s} kg<extra></extra>" },
       { x: [here[0]], y: [here[1]], mode: "markers", name: "chosen", hoverinfo: "skip",
         marker: { size: 17, symbol: "circle-open", color: mark, line: { width: 3 } } },
-      { x: [bare[0]], y: [bare[1]], mode: "markers", name: "without counterweights",
-        marker: { size: 10, symbol: "x", color: before }, visible: "legendonly" },
+      ...bare ? [{ x: [bare[0]], y: [bare[1]], mode: "markers", name: "without counterweights",
+        marker: { size: 10, symbol: "x", color: before }, visible: "legendonly" }] : [],
     ],
-    layout: { height: 340, xaxis: { title: titles[0] }, yaxis: { title: titles[1] } },
+    layout: { height: 340, xaxis: { title: titles[0], ...whole ? { tickvals: of(0) } : {} }, yaxis: { title: titles[1] } },
     label: `Front of ${points.length} points; chosen: ${titles.map((title, axis) => `${title} ${figure(here[axis])}`).join(" and ")}.`,
   };
 }
