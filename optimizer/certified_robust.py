@@ -11,7 +11,8 @@ from optimizer.curve import TurnResponse
 from optimizer.formulate import RESPONSES
 from optimizer.goals import Goals, bearing_responses, goals
 from optimizer.mechanics.shaft_curves import shaking
-from optimizer.program.cut import Quantity, reached
+from optimizer.program.brackets import Brackets
+from optimizer.program.cut import Quantity
 from optimizer.program.cuts import Found, Unkept, over_turn
 from optimizer.robust import Machine, Measure, Robust
 from optimizer.scene import Prepared
@@ -100,7 +101,7 @@ def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u
     most = np.inf
     for width in (_ABOUT, _CLOSE):
         no = [False] * len(quantities)
-        found = reached(quantities, u, np.full(len(quantities), width), no, robust.scatter)
+        found = Brackets(quantities, no, robust.scatter).found(u, np.full(len(quantities), width))
         least = max(each.lower for each in found)
         # a narrow bracket that is not reached may be wider than one that was
         most = min(most, max(each.upper for each in found))

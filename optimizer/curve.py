@@ -88,7 +88,7 @@ class TurnResponse:
 
     def offset(self, unbalance: Complex) -> complex:
         """What counterweights (K,) kg m add to the curve."""
-        return complex(np.sum(self.influence * unbalance))
+        return complex(self.influence @ unbalance)
 
     def influence_at(self, angle: float) -> Real | Complex:
         """Influence (K,) at a shaft angle [rad]."""
@@ -154,16 +154,27 @@ def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Real
     return Bracket(*(np.concatenate(part) for part in zip(*each, strict=True)))
 
 
-def peaks_about(responses: Sequence[TurnResponse], offset: Complex, tolerance: Reals) -> Bracket:
-    """Peaks (responses,) with what is added to each curve (responses,); a response may stand there more than once."""
-    asked = np.broadcast_to(tolerance, len(responses))
+def peaks_about(
+    responses: Sequence[TurnResponse], offset: Complex, tolerance: Reals, group: Index | None = None
+) -> Bracket:
+    """Peaks (responses,) with what is added to each curve (responses,); a response may stand there more than once.
+
+    Parameters
+    ----------
+    group : (responses,) from 0, each of one response, where only the largest of each group is asked for, which costs
+        less: peaks (groups,).
+    """
+    asked, sought = np.broadcast_to(tolerance, len(responses)), np.arange(len(responses)) if group is None else group
     number: Index = np.array([response.number for response in responses], dtype=np.intp)
     together: dict[int, list[int]] = {}
     for k, response in enumerate(responses):
         together.setdefault(id(response.curves), []).append(k)
-    groups = list(together.values())
-    found = [responses[group[0]].curves.pieces.peaks(offset[group], asked[group], number[group]) for group in groups]
-    order = np.argsort(np.concatenate([np.array(group, dtype=np.intp) for group in groups]))
+    groups, found = [], []
+    for some in together.values():
+        labels, of = np.unique(sought[some], return_inverse=True)
+        groups.append(labels)
+        found.append(responses[some[0]].curves.pieces.peaks(offset[some], asked[some], number[some], of))
+    order = np.argsort(np.concatenate(groups))
     return Bracket(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
 
 

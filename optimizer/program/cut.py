@@ -13,8 +13,7 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.astray import peaks_astray
-from optimizer.curve import TurnResponse, peaks
+from optimizer.curve import TurnResponse
 
 #: by this share of them constants differ that are not one
 _ALIKE = 1e-12
@@ -48,7 +47,7 @@ class Cut(NamedTuple):
 
     def at(self, u: Complex, scatter: Scatter) -> float:
         """What it comes to with an unbalance (K,)."""
-        vector = self.constant + np.sum(self.influence * u)
+        vector = self.constant + self.influence @ u
         return self.floor + float(abs(vector.real if self.scalar else vector)) + scatter.of(self.influence, u)
 
     def alike(self, other: "Cut") -> bool:
@@ -159,34 +158,3 @@ class Pool:
         for q, cuts in enumerate(self.cuts):
             if len(cuts) > _MOST_CUTS:
                 self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u, self.scatter))[:_MOST_CUTS]
-
-
-def reached(
-    quantities: Sequence[Quantity], u: Complex, tolerance: Real, cancelled: Sequence[bool], scatter: Scatter
-) -> tuple[Reached, ...]:
-    """What quantities come to with an unbalance (K,) kg m.
-
-    Parameters
-    ----------
-    tolerance : (quantities,) of upper - lower, relative to lower.
-    cancelled : (quantities,) those whose curves are nothing.
-    """
-    scattered = [q for q, each in enumerate(quantities) if each.masses > 0.0]
-    turning = [
-        q for q, each in enumerate(quantities) if each.measure == "peak" and not cancelled[q] and not each.masses
-    ]
-    found: dict[int, Reached] = {}
-    for q, quantity in enumerate(quantities):
-        if quantity.measure == "peak" and cancelled[q]:
-            size = abs(quantity.response.offset(u))
-            found[q] = quantity.peak(u, scatter, size, size, quantity.cut(0.0, 0j))
-    if scattered:
-        some = [quantities[q] for q in scattered]
-        worst = peaks_astray([each.response for each in some], [each.masses for each in some], u, tolerance[scattered])
-        for q, angle, value, lower, upper in zip(scattered, *(part.tolist() for part in worst), strict=True):
-            found[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
-    if turning:
-        bracket = peaks([quantities[q].response for q in turning], u, tolerance[turning])
-        for q, angle, value, lower, upper in zip(turning, *(part.tolist() for part in bracket), strict=True):
-            found[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
-    return tuple(found[q] if q in found else quantity.rms(u, scatter) for q, quantity in enumerate(quantities))

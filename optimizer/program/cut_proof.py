@@ -7,7 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers, mass_lower_bound, nothing_proven, objective_lower_bound
+from optimizer.program.certificate import (
+    Multipliers,
+    best_proof,
+    mass_lower_bound,
+    nothing_proven,
+    objective_lower_bound,
+)
 from optimizer.program.floors import floor_multipliers
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
 from optimizer.program.over_turn import Cuts, OverTurn
@@ -41,16 +47,20 @@ class Proof:
         return replace(self, bound=max(self.bound - self.price * more * _UP, 0.0))
 
 
-def resting_proof(program: OverTurn, cuts: Cuts) -> Proof:
-    """What is proven of the last goal without a solver, whatever the goals before it come to."""
-    statement = program.statement(cuts)
+def resting_proof(program: OverTurn, cuts: Cuts, statement: Statement) -> Proof:
+    """What is proven of the last goal without a solver, whatever the goals before it come to.
+
+    Parameters
+    ----------
+    statement : of the program with these cuts.
+    """
     last = np.flatnonzero(program.goal_of_case == len(program.goals) - 1)
-    count = tuple(map(len, cuts))
-    proofs = [
-        Proof(float(objective_lower_bound(alone, each)), alone, each, 0.0, count)
-        for alone in (times(statement, (program.case_of == case).astype(float)) for case in last)
-        for each in (*resting_multipliers(alone), floor_multipliers(program, cuts, alone))
-    ]
+    proofs = []
+    for case in last:
+        alone = times(statement, (program.case_of == case).astype(float))
+        each = (*resting_multipliers(alone), floor_multipliers(program, cuts, alone))
+        bound, best = best_proof(alone, each)
+        proofs.append(Proof(float(bound), alone, best, 0.0, tuple(map(len, cuts))))
     return max(proofs, key=lambda proof: proof.bound)
 
 

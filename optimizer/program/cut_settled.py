@@ -22,7 +22,7 @@ def settled_turn(
 
     Parameters
     ----------
-    statement : the program with its cuts; of every response one row is left as it was.
+    statement : the program with some cuts; of every response one row is left as it was.
     most : (goals,) what the goals may come to; the point may be above it.
     mass_bound : kg, nothing is lighter; None where the mass does not count.
     width : of the brackets of all figures.

@@ -98,7 +98,7 @@ class Search:
         self.free = not (kept.most.size or program.ceilings or program.limited or program.goals[-1].unit)
         self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
         self.unit = units(program)
-        statement = times(program.statement(program.first), 1.0 / self.unit[program.goal_of])
+        statement = times(program.begun, 1.0 / self.unit[program.goal_of])
         needed = 2.0 * float(np.max(np.abs(inside.unbalance), initial=0.0))
         largest = float(np.max(program.limits.reach, initial=0.0))
         natural = float(natural_reach(statement))
@@ -120,12 +120,12 @@ class Search:
         enough : gap that ends the search, in the goal's unit; of a mass relative to it.
         told : whether a value and its bound are all that has to be known.
         """
-        best, proof = self.inside, None if self.of_mass else self._resting()
+        statement = self._posed()
+        best, proof = self.inside, self._closed(None, statement)
         attempts, gap = list(FREELY if self.free else WITHIN), np.inf
         rounds, timed_out, promised = 0, False, None
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
-            statement = self.program.statement(self.pool.cuts)
             found = self._solved(statement, attempts[0])
             if found is None:
                 attempts = attempts[1:]
@@ -146,6 +146,7 @@ class Search:
                 if lost:
                     # not cuts are missing but digits of the multipliers
                     attempts = [*attempts[1:], attempts[0]]
+                statement = self._posed()
                 continue
             point, promised = self._evaluated(u, self._width(enough, gap)), None
             best = min(best, self._kept(point), key=self.figure)
@@ -153,11 +154,13 @@ class Search:
             if gap <= self._wanted(enough, best) or told(self.figure(best), bound):
                 break
             if not self._learnt([(each,) for each in point.values.reached], u, matters):
-                proof = self._closed(proof)
+                proof = self._closed(proof, statement)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
-            elif lost:
+                continue
+            if lost:
                 attempts = [*attempts[1:], attempts[0]]
+            statement = self._posed()
         else:
             timed_out = self._late()
         if promised is not None:
@@ -178,11 +181,17 @@ class Search:
     def _late(self) -> bool:
         return time.thread_time() >= self.until
 
-    def _closed(self, proof: Proof | None) -> Proof | None:
-        """The better of a proof and of that by the floors of all that is known by now."""
+    def _posed(self) -> Statement:
+        """The program with the cuts that are known."""
+        return self.program.statement(self.pool.cuts)
+
+    def _closed(self, proof: Proof | None, statement: Statement) -> Proof | None:
+        """The better of a proof and of that by the floors of all that is known by now, which needs no solver."""
         if self.of_mass:
             return proof
-        resting = self._resting()
+        began = time.perf_counter()
+        resting = resting_proof(self.program, self.pool.cuts, statement)
+        self.certify_s += time.perf_counter() - began
         return resting if proof is None or resting.bound > proof.bound else proof
 
     def _spare(self, enough: float) -> None:
@@ -268,13 +277,6 @@ class Search:
         proven = list(proofs(program, self.pool.cuts, statement, u, multipliers, self.kept.counted))
         self.certify_s += time.perf_counter() - began
         return u, proven
-
-    def _resting(self) -> Proof:
-        """What is proven of the last goal without a solver."""
-        began = time.perf_counter()
-        proof = resting_proof(self.program, self.pool.cuts)
-        self.certify_s += time.perf_counter() - began
-        return proof
 
     def _matters(self, statement: Statement, u: Complex) -> Real:
         """(quantities,) above which a quantity changes anything."""

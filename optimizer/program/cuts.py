@@ -196,10 +196,10 @@ class _Course:
         return self._run(Kept(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
 
     def found(self, mass_proof: Proof | None, target: float) -> Found:
-        statement, most = self.so_far.statement(self.pool.cuts), self._most(len(self.goals))
+        most = self._most(len(self.goals))
         bound = None if mass_proof is None else mass_proof.bound
         return Found(
-            settled_turn(self.program, statement, self.inside, most, bound, _TOLD),
+            settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _TOLD),
             tuple(self.goals),
             mass_proof,
             target,
@@ -249,7 +249,8 @@ def _again(program: OverTurn, point: Point) -> Point:
 
 def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
     """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
-    statement = times(program.statement(program.telling), 1.0 / program.units[program.goal_of])
+    telling = program.begun if program.telling is program.first else program.statement(program.telling)
+    statement = times(telling, 1.0 / program.units[program.goal_of])
     if not np.any(far_limits(statement)):
         return program
     levels = np.append(most, inside.values.goals[most.size]) / program.units

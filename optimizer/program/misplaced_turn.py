@@ -88,10 +88,7 @@ def _sharper(program: OverTurn, u: Complex, asked: Sequence[tuple[_Kind, int]]) 
         responses += [response] * some.size
         offsets.append(some)
         of += [n] * some.size
-    upper = peaks_about(responses, np.concatenate(offsets), _WIDTH).upper
-    largest = np.zeros(len(asked))
-    np.maximum.at(largest, np.array(of), upper)
-    yield from largest.tolist()
+    yield from peaks_about(responses, np.concatenate(offsets), _WIDTH, np.array(of)).upper.tolist()
 
 
 def _last_goal(program: OverTurn, size: Callable[[Norms], Real], of_quantities: Sequence[float]) -> float:

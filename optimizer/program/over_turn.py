@@ -16,8 +16,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.program.brackets import Brackets
 from optimizer.program.ceilings import Ceilings, limited
-from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Scatter, reached
+from optimizer.program.cut import EXACT, Cut, Quantity, Reached, Scatter
 from optimizer.program.cut_samples import Samples
 from optimizer.program.cut_terms import Terms
 from optimizer.program.deciding import Group, Weighed, deciding, spare
@@ -31,7 +32,7 @@ from optimizer.response import Response
 #: relative width of the brackets by which quantities are known without counterweights
 _FINE = 1e-12
 #: what is known of the quantities alone
-_OF_QUANTITIES = ("samples", "first", "_resting")
+_OF_QUANTITIES = ("samples", "brackets", "first", "_resting")
 #: what is smaller is nothing
 _TINY = 1e-300
 #: of every quantity
@@ -114,6 +115,11 @@ class OverTurn:
         return Samples(self.quantities)
 
     @cached_property
+    def brackets(self) -> Brackets:
+        """The quantities by what is proven of them."""
+        return Brackets(self.quantities, self.samples.cancelled, self.scatter)
+
+    @cached_property
     def first(self) -> Cuts:
         """Cuts to begin with."""
         return self.samples.first()
@@ -121,6 +127,8 @@ class OverTurn:
     @cached_property
     def telling(self) -> Cuts:
         """The same, and what tells all that counterweights change: no two of them alike in these are told apart."""
+        if all(quantity.response.turning is None for quantity in self.quantities):
+            return self.first
         resting = zip(self.quantities, self.first, self._resting[0], strict=True)
         return tuple((*first, *quantity.harmonics(rest.upper)) for quantity, first, rest in resting)
 
@@ -135,7 +143,7 @@ class OverTurn:
         """Brackets without counterweights, and which are coarse (quantities,)."""
         still = np.zeros(self.limits.radius.shape, complex)
         spare = self._spare(self.samples.sizes(still, self.scatter))
-        return self._reached(still, np.maximum(_FINE, spare)), spare > _FINE
+        return self.brackets.found(still, np.maximum(_FINE, spare)), spare > _FINE
 
     @cached_property
     def yardsticks(self) -> Real:
@@ -147,7 +155,7 @@ class OverTurn:
         rest = self.at_rest.goals
         if np.all(rest > 0):
             return rest
-        posed = self.statement(self.first)
+        posed = self.begun
         reach = np.minimum(self.limits.reach, natural_reach(posed))
         of_term = np.sum(np.abs(posed.norms.influence) * reach, axis=-1)
         change = self.of_goals(np.bincount(posed.group[posed.row], of_term, len(self.groups)).astype(float))
@@ -171,6 +179,8 @@ class OverTurn:
     @cached_property
     def _exact_ceilings(self) -> Ceilings:
         """The ceilings on responses."""
+        if not self.ceilings:
+            return self._none
         exact = limited(self.ceilings, self._objective(self.first).norms, self.limits.radius.size)
         norms = replace(exact.norms, scatter=self.scatter.share)
         return replace(exact, norms=norms, cap=exact.cap - self._astray(norms))
@@ -182,6 +192,18 @@ class OverTurn:
     def alone(self, n: int) -> "OverTurn":
         """The program of one of the goals alone."""
         return self.changed(goals=self.goals[n : n + 1])
+
+    @cached_property
+    def _none(self) -> Ceilings:
+        """No ceilings."""
+        webs = self.limits.radius.size
+        norms = Norms(np.zeros(0, complex), np.zeros((0, webs)), self.scatter.share)
+        return limited((), norms, webs)
+
+    @cached_property
+    def begun(self) -> Statement:
+        """The program with the cuts to begin with."""
+        return self.statement(self.first)
 
     def statement(self, cuts: Cuts) -> Statement:
         """The program with finitely many cuts of every quantity: its groups, its ceilings with what is limited last."""
@@ -220,10 +242,10 @@ class OverTurn:
         # what is too small to divide by has no influence
         influence = np.where(np.abs(influence) > SMALLEST, influence, 0.0)
         norms = Norms(np.array(terms.constant, dtype=complex), influence, self.scatter.share, tuple(terms.scalar))
-        none = limited((), norms, self.limits.radius.size)
         owner, group_of = np.array(terms.row), np.array(terms.group)
         floor = np.array(terms.floor) + np.bincount(owner, self._astray(norms)).astype(float)
-        return Statement(norms, owner, group_of, floor, none, self.limits, Names(tuple(terms.names), tuple(terms.rows)))
+        names = Names(tuple(terms.names), tuple(terms.rows))
+        return Statement(norms, owner, group_of, floor, self._none, self.limits, names)
 
     def values(self, u: Complex, width: float) -> Values:
         """What an unbalance (K,) comes to.
@@ -235,7 +257,7 @@ class OverTurn:
         about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
         wanted = np.clip(width * self._shares / about, 1e-15, 1e300)
         spare = self._spare(about)
-        return self._decided(u, wanted, self._reached(u, np.maximum(wanted, spare)), spare > wanted)
+        return self._decided(u, wanted, self.brackets.found(u, np.maximum(wanted, spare)), spare > wanted)
 
     def _spare(self, about: Real) -> Real:
         """Widths of brackets (quantities,) that tell of what decides nothing that it does not; 0 of what is limited."""
@@ -243,19 +265,13 @@ class OverTurn:
         found[[q for q, _ in self.limited]] = 0.0
         return found
 
-    def _reached(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Reached, ...]:
-        """Brackets of quantities, by default all."""
-        some = range(len(self.quantities)) if chosen is None else chosen
-        quantities, cancelled = [self.quantities[q] for q in some], [self.samples.cancelled[q] for q in some]
-        return reached(quantities, u, tolerance[list(some)], cancelled, self.scatter)
-
     def _decided(self, u: Complex, tolerance: Real, found: tuple[Reached, ...], coarse: np.ndarray) -> Values:
         """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
         tolerance (quantities,) where they may decide something."""
         may = deciding(self.groups, found)
         may[[q for q, _ in self.limited]] = True
         again = np.flatnonzero(coarse & may).tolist()
-        closer = dict(zip(again, self._reached(u, tolerance, again), strict=True)) if again else {}
+        closer = dict(zip(again, self.brackets.found(u, tolerance, again), strict=True)) if again else {}
         return self._values(u, tuple(closer.get(q, each) for q, each in enumerate(found)), self.sizes)
 
     @cached_property

@@ -9,6 +9,7 @@ from optimizer.circle import smallest_circle
 from optimizer.curve import TurnResponse, floor, peaks
 from optimizer.goals import bearing_responses
 from optimizer.outputs import prepare
+from optimizer.program.brackets import Brackets
 from optimizer.program.cut import EXACT, Quantity, Scatter
 from optimizer.program.cut_samples import Samples
 from optimizer.program.deciding import deciding, spare
@@ -129,3 +130,20 @@ def test_what_may_be_the_largest_has_no_room() -> None:
     told = bearings(0, count=4).values(np.zeros(6, complex), 1e-9).reached
     most = int(np.argmax([each.upper for each in told]))
     assert deciding((largest(0, 4),), told).tolist() == [q == most for q in range(4)]
+
+
+def test_what_is_known_of_an_unbalance_tells_of_what_is_near_it() -> None:
+    """Property: no narrower than asked, never wrong, and nothing is bracketed again."""
+    every, u = quantities(np.random.default_rng(1), 4, 6), drawn(1, 6)
+    brackets = Brackets(every, [False] * 4, EXACT)
+    known = brackets.found(u, np.full(4, 1e-10))
+    assert brackets.found(u, np.full(4, 1e-10)) == known
+    beside = u * (1.0 + 1e-14)
+    near, bracket = brackets.found(beside, np.full(4, 1e-9)), peaks([each.response for each in every], beside, 1e-12)
+    for each, of, low, high in zip(near, known, bracket.lower, bracket.upper, strict=True):
+        assert each.cut is of.cut
+        assert each.lower <= low
+        assert high <= each.upper <= each.lower * (1.0 + 1e-9)
+    # what is asked more closely, or lies farther away, is bracketed by itself
+    assert brackets.found(u, np.full(4, 1e-13))[0].cut is not known[0].cut
+    assert brackets.found(u * 1.001, np.full(4, 1e-10))[0].cut is not known[0].cut

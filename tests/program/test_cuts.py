@@ -127,6 +127,7 @@ def test_the_least_mass_is_proven(seed: int, measure: str) -> None:
     program = bearings(seed, measure=measure)
     heavy, light = found(program), found(program, least_mass=True)
     assert light.mass_proof is not None
+    assert not any(each.timed_out for each in (heavy, light))
     assert light.point.mass <= heavy.point.mass * (1 + 1e-6)
     rest = float(program.yardsticks[0])
     assert light.point.values.goals[-1] - light.goals[-1].lower_bound <= 1e-6 * rest

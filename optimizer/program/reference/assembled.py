@@ -10,6 +10,7 @@ follows belongs to the program at hand.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -151,8 +152,9 @@ class Assembly:
                 [clarabel.SecondOrderConeT(_PLANE)] * (rows // _PLANE) if plane else [clarabel.NonnegativeConeT(rows)]
             )
         # clarabel: A v + s = b with s in the cones
-        quadratic = _by_columns(np.zeros((self.columns, self.columns)))
-        found = clarabel.DefaultSolver(quadratic, cost, _by_columns(-matrix), constant, cones, settings).solve()
+        found = clarabel.DefaultSolver(
+            _nothing(self.columns), cost, _by_columns(-matrix), constant, cones, settings
+        ).solve()
         v, dual, status = np.array(found.x), np.array(found.z), clarabel.SolverStatus
         if boost is not None:
             dual = boost.of(dual)
@@ -173,6 +175,12 @@ class Assembly:
                 found.append(np.arange(start, start + rows, _PLANE))
             start += rows
         return np.concatenate(found)
+
+
+@cache
+def _nothing(columns: int) -> "sparse.csc_matrix":
+    """No quadratic part of a cost."""
+    return _by_columns(np.zeros((columns, columns)))
 
 
 def _by_columns(matrix: Real) -> "sparse.csc_matrix":
