@@ -35,6 +35,23 @@ ALL_PANELS = (
 )
 
 
+#: in the page: whether there is a newer question, all of whose answer is drawn
+_DRAWN = """(before) => {
+  const { asked, drawn } = document.getElementById("results").dataset;
+  return asked !== (before ?? undefined) && drawn === asked;
+}"""
+#: in the page: whether the part is there, which it opens with the folds of its own fields
+_UNFOLD = """(pointer) => {
+  const part = document.querySelector(`#form details[data-pointer="${CSS.escape(pointer)}"]`);
+  if (!part) return false;
+  part.open = true;
+  part.build();
+  const own = (fold) => fold.closest("[data-pointer]") === part;
+  for (const fold of part.querySelectorAll(".more")) if (own(fold)) fold.open = true;
+  return true;
+}"""
+
+
 @dataclass(frozen=True)
 class Look:
     """Width of the window, px, and the colours that the system has."""
@@ -84,9 +101,10 @@ class Portal:
         return int(self.page.locator("#results").get_attribute("data-drawn") or 0)
 
     def optimise(self) -> None:
-        old = self.runs()
+        """Ask, and wait for everything that this very run draws: one that was asked before may still be drawn first."""
+        before = self.page.locator("#results").get_attribute("data-asked")
         self.page.click("#optimise")
-        self.page.wait_for_selector(f"#results[data-drawn]:not([data-drawn='{old}'])")
+        self.page.wait_for_function(_DRAWN, arg=before)
 
     def panel(self, name: str) -> Locator:
         return self.page.locator(f"#panel-{name}")
@@ -98,11 +116,12 @@ class Portal:
         return panel
 
     def unfold(self, *pointers: str) -> None:
-        """Open parts of the form, from the outside inwards."""
+        """Open parts of the form, from the outside inwards, with all their fields.
+
+        In one step of the page: what opens a part meanwhile, as an error in it does, changes nothing.
+        """
         for pointer in pointers:
-            part = self.page.locator(f"#form details[data-pointer='{pointer}']")
-            if part.get_attribute("open") is None:
-                part.locator("> summary").click()
+            self.page.wait_for_function(_UNFOLD, arg=pointer)
 
     def input(self, pointer: str) -> Locator:
         return self.page.locator(f"#form .field[data-pointer='{pointer}']").locator("input, select, textarea")

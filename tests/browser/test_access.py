@@ -1,6 +1,6 @@
 """A service with keys: the page asks once, keeps the key in its tab, and shows it to nobody."""
 
-from playwright.sync_api import Route
+from playwright.sync_api import Route, expect
 
 from tests.browser.portal import Portal
 
@@ -25,8 +25,10 @@ def test_the_key_is_asked_for_once(portal: Portal) -> None:
     box.wait_for()
     assert "Give a key." in box.inner_text()
     page.fill("#key", "wrong")
-    page.get_by_role("button", name="Use it in this tab").click()
-    page.wait_for_timeout(300)
+    with page.expect_response(lambda answer: answer.request.headers.get("authorization") == "Bearer wrong"):
+        page.get_by_role("button", name="Use it in this tab").click()
+    # the dialog of before is gone: this is the next one
+    expect(page.locator("#key")).to_have_value("")
     page.fill("#key", KEY)
     page.get_by_role("button", name="Use it in this tab").click()
     portal.drawn(1)
@@ -48,8 +50,6 @@ def test_without_a_key_the_refusal_is_shown(portal: Portal) -> None:
     portal.refusals = {401}
     portal.page.route("**/v1/**", _guard)
     portal.page.goto(portal.url)
-    portal.page.get_by_role("dialog").wait_for()
-    while portal.page.get_by_role("dialog").count():
-        portal.page.get_by_role("button", name="Cancel").click()
-        portal.page.wait_for_timeout(200)
-    assert "Unauthorized" in portal.page.locator("#problem").inner_text()
+    portal.page.get_by_role("button", name="Cancel").click()
+    expect(portal.page.locator("#problem")).to_contain_text("Unauthorized")
+    expect(portal.page.get_by_role("dialog")).to_have_count(0)

@@ -91,7 +91,6 @@ def test_what_is_wrong_is_said_above_the_button_and_beside_it(portal: Portal) ->
 def test_what_has_no_ceiling_is_not_named_where_another_cannot_be_met(portal: Portal) -> None:
     portal.open("2d12")
     portal.unfold("/objective")
-    portal.page.locator("#form details[data-pointer='/objective'] .more > summary").click()
     portal.input("/objective/moment_ceiling_Nm").fill("1")
     portal.optimise()
     words = portal.page.locator(".proof").inner_text()

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.browser.portal import Portal
 from tests.browser.test_tables import FOUR, _paste
@@ -144,7 +145,7 @@ def test_a_machine_as_text_is_pasted_anywhere(portal: Portal) -> None:
     portal.open("2d12")
     portal.paste("h1", portal.page.evaluate("fetch('v1/examples/w60').then((answer) => answer.text())"))
     portal.page.wait_for_url("**#r=*")
-    assert portal.page.locator("#form .grid-row tbody tr").count() == 3
+    expect(portal.page.locator("#form .grid-row tbody tr")).to_have_count(3)
 
 
 def test_examples_without_gas_data_come_first(portal: Portal) -> None:

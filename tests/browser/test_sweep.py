@@ -65,4 +65,4 @@ def test_another_field_and_an_end_before_its_time(portal: Portal) -> None:
     cancel = portal.page.get_by_role("button", name="Cancel")
     cancel.wait_for()
     cancel.click()
-    portal.page.get_by_text("Cancelled").wait_for(timeout=30_000)
+    portal.page.get_by_text("Cancelled").wait_for()

@@ -37,7 +37,8 @@ export async function ask(method, path, { body, headers, signal, waiting } = {})
     const sent = new Headers(headers);
     const file = body instanceof Blob;
     if (body !== undefined) sent.set("Content-Type", file ? body.type : "application/json");
-    if (key()) sent.set("Authorization", `Bearer ${key()}`);
+    const used = key();
+    if (used) sent.set("Authorization", `Bearer ${used}`);
     let response;
     try {
       response = await fetch(address(path), { method, headers: sent, body: file ? body : body === undefined ? null : JSON.stringify(body), signal });
@@ -47,7 +48,8 @@ export async function ask(method, path, { body, headers, signal, waiting } = {})
     }
     if (response.ok) return response;
     const found = await problem(response);
-    if (response.status === 401 && await askKey(found.message)) continue;
+    // another call may have been given a key meanwhile
+    if (response.status === 401 && (key() !== used || await askKey(found.message))) continue;
     const again = Number(response.headers.get("retry-after"));
     const worth = response.status === 429 || (response.status === 503 && found.title === "Not ready");
     if (!worth || !again || performance.now() - started > PATIENCE_MS) throw found;

@@ -60,6 +60,7 @@ export function places(body, count) {
 // The plot of `make()`: {traces, layout, label, click}. It is asked again when the colours change. Resolves when it is drawn.
 export function plot(node, make) {
   node.classList.add("plot");
+  node.setAttribute("aria-busy", "true");
   drawn.set(node, make);
   return new Promise((resolve, reject) => {
     const waiting = due.get(node) ?? { done: [], failed: [] };
@@ -99,6 +100,7 @@ async function take(plotly, node) {
   try {
     if (plotly instanceof Error) throw plotly;
     if (node.isConnected) await draw(plotly, node, /** @type {any} */ (drawn.get(node))());
+    if (!due.has(node)) node.removeAttribute("aria-busy");
     for (const done of waiting.done) done();
   } catch (error) {
     for (const failed of waiting.failed) failed(error);

@@ -45,6 +45,7 @@ export class Run {
     const results = byId("results");
     const progress = byId("progress");
     results.setAttribute("aria-busy", "true");
+    results.dataset.asked = String(number);
     progress.textContent = "Computing …";
     const { request } = work;
     const body = { angles: STEP, ...request, outputs: outputs.first(request) };
