@@ -63,6 +63,6 @@ def total(terms: Complex) -> Complex:
     -------
     (...) complex.
     """
-    value = terms.sum(axis=-1)
-    noise = np.maximum(_ROUNDING * np.abs(terms).sum(axis=-1), SMALLEST)
+    value = np.add.reduce(terms, axis=-1)
+    noise = np.maximum(_ROUNDING * np.add.reduce(np.abs(terms), axis=-1), SMALLEST)
     return np.where(np.abs(value) <= noise, 0.0, value)

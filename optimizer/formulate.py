@@ -135,6 +135,7 @@ def with_weights_of(machine: Machine, objective: Objective) -> Objective:
     return objective.model_copy(update={"moment_weight": float(MOMENT.weight(machine, objective))})
 
 
+@remembered
 def given_ceilings(objective: Objective) -> list[tuple[Ceiling, float]]:
     """Hard limits on the peaks that an objective gives, with the largest peaks allowed: N and N m."""
     all_of = ((each, each.allowed(objective)) for response in RESPONSES.values() for each in response.limits)

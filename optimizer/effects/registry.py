@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -25,18 +25,26 @@ from schemas.rules import Rule
 EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}
 
 
+_UNUSED = EffectUse(simulated=False, needed_by=(), time_ms=0.0)
+
+
 def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     """Effects that have to run for these, in the order in which they can; those that do not apply left out."""
     return [name for name in effects_of(needs) if EFFECTS[name].applies(machine)]
 
 
-def effects_of(needs: Sequence[str]) -> list[str]:
+def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
     """These effects and all that they need, in the order in which they can run, whatever the machine."""
+    return _effects_of(tuple(needs))
+
+
+@lru_cache(maxsize=256)
+def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
     wanted = set(needs)
     for name in reversed(EFFECTS):
         if name in wanted:
             wanted.update(EFFECTS[name].needs)
-    return [name for name in EFFECTS if name in wanted]
+    return tuple(name for name in EFFECTS if name in wanted)
 
 
 def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem]:
@@ -94,10 +102,12 @@ def simulate(
     results, times = _run(machine, layout, wanted, fidelity, samples)
     uses = {
         name: EffectUse(
-            simulated=name in times,
+            simulated=True,
             needed_by=tuple(output for output, names in closures.items() if name in names),
-            time_ms=times.get(name, 0.0),
+            time_ms=times[name],
         )
+        if name in times
+        else _UNUSED
         for name in EFFECTS
     }
     return Simulated(results, uses)

@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, total
+from optimizer.arrays import Complex, Real, spread, total
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.response import Phasors, Response
@@ -57,8 +57,8 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    co, counter = (_summed(layout, each, layout.reciprocating.position) for each in (forces.co, forces.counter))
-    return Wrench(Phasors(co[0], counter[0]), Phasors(co[1], counter[1]))
+    force, couple = _summed(layout, np.array([forces.co, forces.counter]), layout.reciprocating.position)
+    return Wrench(Phasors(force[0, ...], force[1, ...]), Phasors(couple[0, ...], couple[1, ...]))
 
 
 def reciprocating_forces(
@@ -85,7 +85,7 @@ def counterweights(layout: Layout, unbalance: Complex) -> Wrench:
     ----------
     unbalance : (..., webs) mass-radius products m R e^{ja}, kg m.
     """
-    force, couple = total(unbalance), total(web_arms(layout) * unbalance)
+    force, couple = _sums(unbalance, web_arms(layout))
     nothing = np.zeros(force.shape, complex)
     return Wrench(Phasors(force, nothing), Phasors(couple, nothing))
 
@@ -118,9 +118,15 @@ def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, C
     Where the sum vanishes the couple is the same about any plane, and is summed about the centre, where the arms are
     short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
     """
-    force = total(forces)
-    about = total((position - layout.reference_plane[..., None]) * forces)
+    force, about = _sums(forces, position - layout.reference_plane[..., None])
     balanced = force == 0
     if not balanced.any():
         return force, about
     return force, np.where(balanced, total((position - layout.centre_plane[..., None]) * forces), about)
+
+
+def _sums(forces: Complex, arm: Real) -> tuple[Complex, Complex]:
+    """Sum of forces (..., n) and of their couples, at once: small sums cost by their number."""
+    couples = arm * forces
+    both = total(np.array([spread(forces, couples.shape), couples]))
+    return both[0, ...], both[1, ...]

@@ -128,7 +128,7 @@ def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
 
 def stacked(values: Sequence[Any]) -> Real:
     """Values side by side on a last axis, (..., len(values)); each is a number or a column (N,)."""
-    if not any(isinstance(value, np.ndarray) for value in values):
+    if np.ndarray not in map(type, values):
         return np.array(values, dtype=float)
     return np.stack(np.broadcast_arrays(*(np.asarray(value, dtype=float) for value in values)), axis=-1)
 

@@ -181,7 +181,8 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         mass_multipliers=mass_proof,
         mass_target=counted,
         certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
-        smallest=best.unbalance,
+        # its own, because others are put in place of some of either
+        smallest=best.unbalance.copy(),
         certified=certified,
     )
 

@@ -85,6 +85,8 @@ class Limits:
         Of alike webs the mean of theirs, with vectors that are alike.
         """
         g = self._nearest(g)
+        if self.free.all():
+            return np.abs(g)
         rotated = g * np.conj(self.centre)
         across = np.abs(rotated.imag)
         inside = across * self.half_angle_cos <= rotated.real * self.half_angle_sin
@@ -93,6 +95,8 @@ class Limits:
 
     def opening(self, g: Complex) -> Real:
         """Growth of :meth:`support` per radian of half-angle, 1/rad (..., K)."""
+        if self.free.all():
+            return np.zeros(g.shape)
         rotated = g * np.conj(self.centre)
         growth = np.abs(rotated.imag) * self.half_angle_cos - rotated.real * self.half_angle_sin
         outwards = np.abs(rotated.imag) * self.half_angle_sin + rotated.real * self.half_angle_cos > 0

@@ -24,6 +24,10 @@ class Points(NamedTuple):
 
     def where(self, kept: np.ndarray, other: "Points") -> "Points":
         """These where ``kept`` (N,), others elsewhere."""
+        if kept.all():
+            return self
+        if not kept.any():
+            return other
         return Points(
             np.where(kept[:, None], self.unbalance, other.unbalance),
             *(np.where(kept, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),

@@ -16,7 +16,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.limits import Limits
 from optimizer.program.norms import scalars
 from optimizer.program.reference.solver import Solver
-from optimizer.program.scaling import natural_reach, single_reach
+from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Statement
 
 #: a limit this many times the unbalance that cancels everything is as far away as none
@@ -40,7 +40,7 @@ def far_limits(statement: Statement) -> np.ndarray:
     limits = statement.limits
     none = np.isinf(limits.max_mass)
     # what one term calls for is no more than what all call for, and cheaper to tell
-    far = none | _beyond(limits, single_reach(statement))
+    far = none | _beyond(limits, statement.single_reach)
     return none | _beyond(limits, natural_reach(statement)) if far.any() else far
 
 

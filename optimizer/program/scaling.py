@@ -50,16 +50,7 @@ def natural_reach(statement: Statement) -> Real:
 
     Far larger counterweights are never needed; limits beyond a multiple of it are as good as none.
     """
-    return np.maximum(np.maximum.reduce(np.abs(cancelling(statement)), axis=-1, initial=0.0), single_reach(statement))
-
-
-def single_reach(statement: Statement) -> Real:
-    """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
-    largest = np.zeros(())
-    for each in (statement.norms, statement.ceilings.norms):
-        apart = np.where((each.influence != 0).any(axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
-        largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
-    return largest
+    return np.maximum(np.maximum.reduce(np.abs(cancelling(statement)), axis=-1, initial=0.0), statement.single_reach)
 
 
 def cancelling(statement: Statement, passes: int = 1) -> Complex:

@@ -82,6 +82,15 @@ class Statement:
         return self.objective(np.zeros(self.limits.radius.shape, complex))
 
     @cached_property
+    def single_reach(self) -> Real:
+        """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
+        largest = np.zeros(())
+        for each in (self.norms, self.ceilings.norms):
+            apart = np.where((each.influence != 0).any(axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
+            largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
+        return largest
+
+    @cached_property
     def first_rows(self) -> np.ndarray:
         """First row of each group (groups,)."""
         return np.searchsorted(self.group, np.arange(self.group[-1] + 1))
