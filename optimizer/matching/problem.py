@@ -68,6 +68,8 @@ class Problem:
     peaks: Minorants  # the weighted peaks
     terms: np.ndarray  # (J,) of a vector that counterweights change: which term of the program it is; -1 of a floor
     row: np.ndarray  # (J,) which row of the program's objective it belongs to
+    start_size: Real  # (J,) what the vectors without the parts are sums of, as lengths: along one axis they cancel
+    size_of_row: Real  # (J, rows) the same of what a kilogram on a row adds
 
     @property
     def rows(self) -> int:
@@ -104,8 +106,11 @@ class Problem:
 
     @property
     def rounding(self) -> float:
-        """What a value is known no better than."""
-        most = np.abs(self.start) + np.abs(self.of_place) @ np.abs(self.listed)
+        """What a value is known no better than, wherever the parts are: a nut may be on any row, or beside them."""
+        heaviest = np.zeros(self.rows)
+        for each in self.classes:
+            heaviest[each.row[each.row >= 0]] += np.max(each.mass)
+        most = self.start_size + self.size_of_row @ heaviest
         return 8 * np.finfo(float).eps * self.listed.size * float(np.max(self.peaks.weight @ most))
 
 
@@ -124,25 +129,39 @@ def stated(request: MatchRequest, fitted: Real, angle_deg: Real) -> Problem:
     one = responses(plan, reciprocating(_of_one_kilogram(plan), 1))
     weighed = [k for k, each in enumerate(base) if wanted[each.name] > 0]
     p, q = 0.5 * (across.x + across.y), 0.5 * (across.x - across.y)
-    start, of_row, terms, row = [], [], [], []
+    start, of_row, start_size, size_of_row, terms, row = [], [], [], [], [], []
     for number, k in enumerate(weighed):
         weight = wanted[base[k].name]
-        start.append(weight * _vectors(base[k], u, p, q))
-        of_row.append(weight * _vectors(one[k], None, p, q))
+        (f, b), (f_one, b_one) = _pair(base[k], u), _pair(one[k], None)
+        start.append(weight * _vectors(f, b, p, q))
+        of_row.append(weight * _vectors(f_one, b_one, p, q))
+        start_size.append(weight * _vectors(np.abs(f), np.abs(b), p, abs(q)).real)
+        size_of_row.append(weight * _vectors(np.abs(f_one), np.abs(b_one), p, abs(q)).real)
         terms += [number, -1] if q == 0 else [2 * number, 2 * number + 1]
         row += [number if goal.combine == "max" else 0] * 2
     owner = np.array(row)
     membership = (owner == np.arange(owner[-1] + 1)[:, None]).astype(float)
     peaks = Minorants(np.zeros(len(membership)), np.zeros(membership.shape, complex), membership)
     return Problem(
-        np.concatenate(start), np.concatenate(of_row, axis=-1).T, _classes(request), peaks, np.array(terms), owner
+        np.concatenate(start),
+        np.concatenate(of_row, axis=-1).T,
+        _classes(request),
+        peaks,
+        np.array(terms),
+        owner,
+        np.concatenate(start_size),
+        np.concatenate(size_of_row, axis=-1).T,
     )
 
 
-def _vectors(response: Response, u: Complex | None, p: float, q: float) -> Complex:
-    """The two weighted vectors whose lengths add up to the peak (..., 2): section 3 of the mathematics."""
+def _pair(response: Response, u: Complex | None) -> tuple[Complex, Complex]:
+    """What goes round with the shaft and against it (...), both counted the same way."""
     pair = response.baseline if u is None else response.to(u)
-    f, b = pair.co, np.conj(pair.counter)
+    return pair.co, np.conj(pair.counter)
+
+
+def _vectors(f: Complex | Real, b: Complex | Real, p: float, q: float) -> Complex:
+    """The two weighted vectors whose lengths add up to the peak (..., 2): section 3 of the mathematics."""
     return np.stack([p * f + q * b, q * f + p * b], axis=-1)
 
 

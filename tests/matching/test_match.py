@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from optimizer.matching.match import match
+from optimizer.matching.problem import stated
 from optimizer.optimize import optimize
 from schemas.match import MatchRequest
 from schemas.requests import OptimizeRequest
@@ -211,3 +212,20 @@ def test_a_rounding_of_the_request_is_none_of_the_answer() -> None:
     first, second = (match(MatchRequest.model_validate(body)) for _ in range(2))
     assert first.assignments == second.assignments
     assert first.certificate == second.certificate
+
+
+def test_a_heavy_nut_that_cancels_along_one_axis_is_rounded_as_what_it_is() -> None:
+    """What turns with the shaft and against it cancels across the row, to the last digit of the nut."""
+    nut = 1e13
+    body = {
+        "machine": machine([10.0, 200.0], [180.0, 75.0]),
+        "parts": parts(1, 2),
+        "balance_nuts_kg": [nut],
+        "objective": {"combine": "sum", "direction_weights": {"x": 0.0, "y": 1.0}},
+    }
+    problem = stated(MatchRequest.model_validate(body), np.zeros(0), np.zeros(0))
+    # analytic: of half a nut on either side
+    assert problem.rounding > np.finfo(float).eps * nut * RADIUS
+    answer = matched(body)
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= answer.certificate.objective
