@@ -146,8 +146,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app = Application(
         (
             Middleware(HeadAsGet),
-            Middleware(Users, chosen.owner_header, chosen.trusted_proxies),
-            Middleware(ProxyHeadersMiddleware, list(chosen.trusted_proxies)),
+            *_behind_proxies(chosen),
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),
@@ -167,6 +166,8 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         description=_DESCRIPTION,
         lifespan=lifespan,
         redirect_slashes=False,
+        # the service traces by itself
+        telemetry={"tracing": False, "metrics": False, "logs": False},
     )
     app.state.frame_origins = chosen.frame_origins
     app.state.readiness = readiness
@@ -185,6 +186,14 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         app.include_router(resource.router)
     reference_page.install(app)
     return app
+
+
+def _behind_proxies(chosen: Settings) -> Sequence[Middleware]:
+    """What believes proxies, where there are any."""
+    if not chosen.trusted_proxies:
+        return ()
+    proxies = Middleware(ProxyHeadersMiddleware, list(chosen.trusted_proxies))
+    return Middleware(Users, chosen.owner_header, chosen.trusted_proxies), proxies
 
 
 class Application(Documented):

@@ -1,6 +1,7 @@
 """What a client accepts: the one reader of the headers Accept and Accept-Encoding."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import lru_cache
 from typing import TypeVar
 
 from starlette.requests import Request
@@ -9,6 +10,8 @@ from service.coding import CODINGS, Coding
 
 Offer = TypeVar("Offer")
 Name = TypeVar("Name", bound=str)
+#: headers that are kept with what they prefer: clients send the same few again and again
+_SHORT, _KEPT = 256, 256
 
 
 class NotAcceptable(ValueError):
@@ -30,10 +33,18 @@ def preferred(header: str, offered: Sequence[Name]) -> Name | None:
     -------
     None where the client accepts none.
     """
+    offered = tuple(offered)
+    return (_known if len(header) <= _SHORT else _preferred)(header, offered)
+
+
+def _preferred(header: str, offered: tuple[Name, ...]) -> Name | None:
     ranges = dict(_range(part) for part in header.split(",") if part.strip()) or {"*/*": 1.0}
     liked = {each: _quality(each, ranges) for each in offered}
     best = max(offered, key=liked.__getitem__)
     return best if liked[best] > 0 else None
+
+
+_known = lru_cache(_KEPT)(_preferred)
 
 
 def liked(request: Request, offered: Mapping[str, Offer]) -> Offer | None:

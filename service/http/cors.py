@@ -3,12 +3,28 @@
 from starlette.datastructures import Headers
 from starlette.middleware.cors import CORSMiddleware
 from starlette.responses import Response
+from starlette.types import Message, Receive, Scope, Send
 
 from service.http.errors import PROBLEM_JSON, Fault, problem
 
 
 class Cors(CORSMiddleware):
     """Refuses as everything else here is refused; the framework does so in plain text."""
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        if scope["type"] != "http" or any(name == b"origin" for name, _ in scope["headers"]):
+            await super().__call__(scope, receive, send)
+            return
+
+        # there is nothing to decide, but it would be answered otherwise with the header
+        async def vary(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                headers = message.get("headers", ())
+                varies = b", ".join([*(value for name, value in headers if name == b"vary"), b"Origin"])
+                message["headers"] = [*(each for each in headers if each[0] != b"vary"), (b"vary", varies)]
+            await send(message)
+
+        await self.app(scope, receive, vary)
 
     def preflight_response(self, request_headers: Headers) -> Response:
         found = super().preflight_response(request_headers)

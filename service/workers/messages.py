@@ -78,9 +78,9 @@ class Listener:
     @property
     def gone(self) -> bool:
         """Whether nobody is there any more."""
-        if not self._gone:
+        if not (self._gone or self._loop is asyncio.get_running_loop()):
+            # no loop reads it yet
             with suppress(BlockingIOError):
-                # its loop may not have come to it yet
                 return not self._from.recv(1, socket.MSG_PEEK | socket.MSG_DONTWAIT)
         return self._gone
 

@@ -4,7 +4,7 @@ import logging
 from asyncio import timeout
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
@@ -135,7 +135,7 @@ class Pool:
             async with timeout(self.timeout_s):
                 async with self._turns.turn(owner, task.computation.long):
                     computing = True
-                    return await self._computed(replace(task, behind=True) if self._turns.more(owner) else task)
+                    return await self._computed(task, self._turns.more(owner))
         except Full:
             self.counts.refused_busy += 1
             raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size))) from None
@@ -143,13 +143,13 @@ class Pool:
             self.counts.ended_late += 1
             raise TooSlow(self.timeout_s, computing) from None
 
-    async def _computed(self, task: Task) -> Outcome:
+    async def _computed(self, task: Task, behind: bool) -> Outcome:
         # the second one is new: the first may have died long before, and the next idle one with it
         for take in (self._free, self._fresh):
             worker = await take()
             self._busy.add(worker)
             try:
-                outcome = await self._asked(worker, task)
+                outcome = await self._asked(worker, task, behind)
             except Dead:
                 if not self._closed:
                     _LOG.warning("a worker died while it computed")
@@ -166,12 +166,12 @@ class Pool:
                 self._busy.discard(worker)
         raise WorkerDied("The process that computed this died; try again later.")
 
-    async def _asked(self, worker: Worker, task: Task) -> Outcome:
+    async def _asked(self, worker: Worker, task: Task, behind: bool) -> Outcome:
         try:
             if len(task.body) < _AT_ONCE_BYTES:
-                worker.send(task)
+                worker.send(task, behind)
             else:
-                await self._in_thread(worker.send, task)
+                await self._in_thread(worker.send, task, behind)
             return await worker.outcome()
         except get_cancelled_exc_class():
             with CancelScope(shield=True):

@@ -69,9 +69,10 @@ class Worker:
     def alive(self) -> bool:
         return not self._says.gone
 
-    def send(self, task: Task) -> None:
+    def send(self, task: Task, behind: bool) -> None:
+        """Have a task computed, behind what others have asked for or not."""
         try:
-            self._connection.sendall(pickle.dumps(task))
+            self._connection.sendall(pickle.dumps((task, behind)))
         except OSError as error:
             raise Dead from error
 

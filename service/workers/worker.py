@@ -49,7 +49,6 @@ class Task:
     """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.
 
     workbook : whether the body is one; else it is JSON.
-    behind : whether it is computed behind what others have asked for.
     """
 
     computation: Computation
@@ -58,7 +57,6 @@ class Task:
     limits: SizeLimits
     coding: Coding | None = None
     workbook: bool = False
-    behind: bool = False
 
 
 @dataclass(frozen=True)
@@ -142,10 +140,10 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
         # a thread is as nice as it says and starts with its first task; a process that was nice once may not go back
-        with connection.makefile("rb") as asked, ThreadPoolExecutor(1, initializer=partial(os.nice, _BEHIND)) as behind:
+        with connection.makefile("rb") as asked, ThreadPoolExecutor(1, initializer=partial(os.nice, _BEHIND)) as nicer:
             while True:
-                task: Task = pickle.load(asked)
-                outcome = behind.submit(perform, task).result() if task.behind else perform(task)
+                task, nicely = pickle.load(asked)
+                outcome = nicer.submit(perform, task).result() if nicely else perform(task)
                 _send(connection, outcome, folder)
                 del task, outcome
     except (EOFError, BrokenPipeError, ConnectionResetError):

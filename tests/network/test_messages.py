@@ -114,11 +114,15 @@ def test_who_stops_waiting_leaves_what_comes_to_the_next(ends: tuple[socket.sock
 def test_what_was_said_before_the_end_is_heard(ends: tuple[socket.socket, socket.socket]) -> None:
     ours, theirs = ends
     listener = Listener(ours)
-    assert not listener.gone
+
+    async def gone() -> bool:
+        return listener.gone
+
+    assert not anyio.run(gone)
     say(theirs, "farewell")
     theirs.close()
     assert anyio.run(listener.heard) == ("farewell", None)
-    assert listener.gone
+    assert anyio.run(gone)
     with pytest.raises(EOFError):
         anyio.run(listener.heard)
 
