@@ -48,7 +48,8 @@ class Brackets:
                 found |= {q: each for q, each in near.items() if each.upper - each.lower <= tolerance[q] * each.lower}
         sought = [q for q in asked if q not in found]
         if sought:
-            new = dict(zip(sought, self._bracketed(u, tolerance, sought), strict=True))
+            # half, so that rounding and what is near leave them as narrow as asked
+            new = dict(zip(sought, self._bracketed(u, 0.5 * tolerance, sought), strict=True))
             self._known = [*self._known[1 - _REMEMBERED :], (u, new)]
             found |= new
         return tuple(found[q] for q in asked)

@@ -121,7 +121,8 @@ class _Curves:
 
     def supports(self) -> _Maxima:
         """What holds the smallest circles, closely of those that are not much smaller than the largest."""
-        circles = [smallest_circle(each.ravel()) for each in self.values]
+        # of a third of the places, to begin with
+        circles = [smallest_circle(each[:, ::3].ravel()) for each in self.values]
         least = np.full(len(circles), np.inf)
         held: list[_Maxima | None] = [None] * len(circles)
         open_ = list(range(len(circles)))

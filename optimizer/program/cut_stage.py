@@ -45,8 +45,8 @@ _MISSED = 1.5
 _NARROWEST = 1e-12
 #: share of a goal below which points do not keep what is aimed at
 _LEAST_MARGIN = 1e-12
-#: relative width of the brackets of a point that may be the answer
-_CLOSE = 1e-12
+#: relative width of the brackets of a point that may be the answer, and of one that only just keeps what it has to
+_JUDGED, _CLOSE = 5e-11, 1e-12
 
 
 @dataclass(frozen=True)
@@ -148,7 +148,11 @@ class Search:
                     attempts = [*attempts[1:], attempts[0]]
                 statement = self._posed()
                 continue
-            point, promised = self._evaluated(u, self._width(enough, gap)), None
+            # what may be the answer is judged once
+            narrow = _COARSE
+            if gap <= self._wanted(enough, best):
+                narrow = _CLOSE if self.of_mass else _JUDGED
+            point, promised = self._evaluated(u, min(self._width(enough, gap), narrow)), None
             best = min(best, self._kept(point), key=self.figure)
             gap = self.figure(best) - bound
             if gap <= self._wanted(enough, best) or told(self.figure(best), bound):

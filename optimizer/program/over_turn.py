@@ -260,9 +260,13 @@ class OverTurn:
         return self._decided(u, wanted, self.brackets.found(u, np.maximum(wanted, spare)), spare > wanted)
 
     def _spare(self, about: Real) -> Real:
-        """Widths of brackets (quantities,) that tell of what decides nothing that it does not; 0 of what is limited."""
+        """Widths of brackets (quantities,) that tell of what decides nothing that it does not.
+
+        0 of what is limited, and of what scatters, whose search wants cells to begin with.
+        """
         found = spare(self.groups, about)
         found[[q for q, _ in self.limited]] = 0.0
+        found[[quantity.masses > 0.0 for quantity in self.quantities]] = 0.0
         return found
 
     def _decided(self, u: Complex, tolerance: Real, found: tuple[Reached, ...], coarse: np.ndarray) -> Values:
