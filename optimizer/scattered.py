@@ -8,10 +8,12 @@ along its directions. Where few are left all their signs are tried, so that cell
 close in on a peak like those of a curve.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
 from optimizer.cells import Cells, Seen, look
@@ -23,8 +25,12 @@ _PARTS, _FINER = 4, 16
 _ENOUGH = 0.125
 #: signs of so many rows are tried one by one
 _FEW = 3
-#: after so many cuts the bracket is told as it is, and after so many coefficients of rows were looked at
-_MOST_CUTS, _MOST_NUMBERS = 60, 4_000_000
+#: after so many rounds, and after so many coefficients of rows were looked at, which take about half a second, the
+#: bracket is told as it is
+_MOST_ROUNDS, _MOST_NUMBERS = 100, 2_000_000
+#: brackets are narrowed step by step to widths relative to the peaks, and at last to the tolerance: what is broken off
+#: has those of the step before
+_LEVELS = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 0.0)
 
 
 class Parts(Protocol):
@@ -56,17 +62,6 @@ class Worst(NamedTuple):
     upper: Real  # no masses come to more, at any angle
 
 
-@dataclass
-class _Best:
-    """The best found of each peak."""
-
-    lower: Real
-    upper: Real
-    angle: Real
-    piece: Index
-    signs: Real  # (m, R)
-
-
 def worst_peaks(pieces: Pieces, parts: Parts, share: float, offset: Complex, curve: Index, tolerance: Real) -> Worst:
     """Peaks (m,) of |d + offset| over the period, with the worst masses.
 
@@ -77,85 +72,153 @@ def worst_peaks(pieces: Pieces, parts: Parts, share: float, offset: Complex, cur
     curve : (m,) which.
     tolerance : (m,) of upper - lower, relative to lower; rounding sets a limit to it.
     """
-    count = offset.size
-    scale = pieces.size[curve] + np.abs(offset) + share * np.max(parts.largest[curve], axis=-1)
-    nowhere = np.zeros(count, dtype=np.intp)
-    best = _Best(np.full(count, -np.inf), np.full(count, -np.inf), np.zeros(count), nowhere, np.zeros((count, 1)))
+    search = _Search(pieces, parts, share, offset, curve, tolerance)
+    proven, best = search.run(), search.best
+    own = parts.values(curve, best.piece, best.angle)
+    value = pieces.source.values(curve, best.piece, best.angle) + share * np.sum(best.signs * own, axis=-1)
+    lower = np.abs(value + offset)
+    return Worst(best.angle, value, lower, np.maximum(proven, lower) + ROUNDING * search.scale)
 
-    def allowed() -> Real:
-        return np.maximum(tolerance * np.maximum(best.lower, 0.0), ROUNDING * scale)
 
-    def still_open(cells: Cells) -> tuple[Cells, Seen]:
-        """Those that may hold a peak above the best found, theirs included; the others are told in the bracket."""
+@dataclass
+class _Best:
+    """The best found of each peak."""
+
+    lower: Real
+    upper: Real  # of all that can hold no peak above it
+    angle: Real
+    piece: Index
+    signs: Real  # (m, R)
+
+
+class _Looked(NamedTuple):
+    """Cells, and what is known of them."""
+
+    cells: Cells
+    seen: Seen
+
+    def chosen(self, keep: NDArray[np.bool_]) -> "_Looked":
+        return _Looked(self.cells.chosen(keep), Seen._make(each[keep] for each in self.seen))
+
+
+class _Search:
+    """Cells that may hold a peak, by brackets that become narrower step by step."""
+
+    def __init__(
+        self, pieces: Pieces, parts: Parts, share: float, offset: Complex, curve: Index, tolerance: Real
+    ) -> None:
+        self.pieces, self.parts, self.share, self.offset, self.curve = pieces, parts, share, offset, curve
+        self.tolerance, self.level = tolerance, _LEVELS[0]
+        self.scale = pieces.size[curve] + np.abs(offset) + share * np.max(parts.largest[curve], axis=-1)
+        self.best, self.first = _first(pieces, parts, share, offset, curve, tolerance)
+        self.later: list[_Looked] = []  # what is wide enough for now
+        self.spent = self.rounds = 0
+
+    def run(self) -> Real:
+        """What no masses come to more than, (m,)."""
+        proven = np.full(self.offset.size, np.inf)
+        cells = self._expanded(self.first) if self.first.member.size else self.first
+        for level in _LEVELS:
+            self.level = level
+            left = self._still_open(cells)
+            while left.cells.member.size and self._afforded(left):
+                left = self._still_open(self._finer(left))
+            # whatever is left may hold a peak as large as it is known to come to at most
+            most = self.best.upper.copy()
+            for each in (left, *self.later):
+                np.maximum.at(most, each.cells.member, each.seen.most)
+            proven = np.minimum(proven, most)
+            if left.cells.member.size or not any(each.cells.member.size for each in self.later):
+                break
+            cells = _together([each.cells for each in self.later])
+            self.later = []
+        return proven
+
+    def _above(self, level: float) -> Real:
+        """(m,) what holds a peak is above this, brackets as wide as a level or as the tolerance."""
+        lower = self.best.lower
+        return lower + np.maximum(np.maximum(self.tolerance, level) * np.maximum(lower, 0.0), ROUNDING * self.scale)
+
+    def _still_open(self, cells: Cells) -> _Looked:
+        """Those that may hold a peak above the best found, theirs included. Of the others those that may hold one by
+        finer brackets wait for these, and the rest is told in the bracket."""
         seen = look(cells)
-        _keep(best, cells, seen)
-        open_ = seen.most > (best.lower + allowed())[cells.member]
-        np.maximum.at(best.upper, cells.member[~open_], seen.most[~open_])
-        kept = cells.chosen(open_)._replace(towards=seen.towards[open_], width=seen.width[open_])
-        return kept, Seen._make(each[open_] for each in seen)
+        _keep(self.best, cells, seen)
+        looked = _Looked(cells._replace(towards=seen.towards, width=seen.width), seen)
+        now, ever = (seen.most > self._above(level)[cells.member] for level in (self.level, 0.0))
+        np.maximum.at(self.best.upper, cells.member[~ever], seen.most[~ever])
+        self.later.append(looked.chosen(ever & ~now))
+        return looked.chosen(now)
 
-    def expanded(cells: Cells) -> Cells:
+    def _ways(self, looked: _Looked) -> tuple[NDArray[np.bool_], ...]:
+        """Which cells are expanded anew, have few signs that are tried, and are cut by direction and by angle."""
+        cells, seen = looked
+        narrow = self._above(self.level) - self.best.lower
+        coarse = seen.rest > _ENOUGH * narrow[cells.member]
+        free = np.count_nonzero(seen.open, axis=-1)
+        few = ~coarse & (free > 0) & (free <= _FEW)
+        turn = ~coarse & ~few & seen.by_direction
+        return coarse, few, turn, ~(coarse | few | turn)
+
+    def _afforded(self, looked: _Looked) -> bool:
+        """Count what one more round makes; False where that is too much."""
+        coarse, few, turn, cut = self._ways(looked)
+        free = np.count_nonzero(looked.seen.open[few], axis=-1)
+        made = _FINER * np.sum(coarse) + np.sum(2**free) + 2 * np.sum(turn) + _PARTS * np.sum(cut)
+        self.spent += int(made) * looked.cells.parts[0].size
+        self.rounds += 1
+        return self.spent <= _MOST_NUMBERS and self.rounds < _MOST_ROUNDS
+
+    def _finer(self, looked: _Looked) -> Cells:
+        cells, (coarse, few, turn, cut) = looked.cells, self._ways(looked)
+        finer = self._still_open(cells.chosen(coarse).cut(_FINER)).cells
+        decided = cells.chosen(few).decided(looked.chosen(few).seen)
+        turned = cells.chosen(turn).turned()
+        return _together([self._expanded(finer), decided, turned, cells.chosen(cut).cut(_PARTS)])
+
+    def _expanded(self, cells: Cells) -> Cells:
         """By polynomials of their own."""
-        of, half = curve[cells.member], cells.half
-        cubic = pieces.source.cubics(of, cells.piece, cells.centre, half)
-        cubic[:, 0] += offset[cells.member]
-        own = share * parts.cubics(of, cells.piece, cells.centre, half)
-        rests = share * parts.fourth(of, cells.piece) * half[:, None] ** 4
+        of, half = self.curve[cells.member], cells.half
+        cubic = self.pieces.source.cubics(of, cells.piece, cells.centre, half)
+        cubic[:, 0] += self.offset[cells.member]
+        own = self.share * self.parts.cubics(of, cells.piece, cells.centre, half)
+        rests = self.share * self.parts.fourth(of, cells.piece) * half[:, None] ** 4
         free = cells.signs == 0.0
         return cells._replace(
             cubic=cubic + np.sum(cells.signs[..., None] * own, axis=1),
             parts=np.where(free[..., None], own, 0.0),
-            rest=pieces.rest[of, cells.piece] * (half / pieces.half[of, cells.piece]) ** 4
+            rest=self.pieces.rest[of, cells.piece] * (half / self.pieces.half[of, cells.piece]) ** 4
             + np.sum(np.where(free, 0.0, rests), axis=-1),
             rests=np.where(free, rests, 0.0),
         )
 
-    cells, seen = still_open(expanded(_first(pieces, parts, share, offset, curve, tolerance, best)))
-    spent = 0
-    for cuts in range(1, _MOST_CUTS):
-        if not cells.member.size:
-            break
-        coarse = seen.rest > _ENOUGH * allowed()[cells.member]
-        count = np.count_nonzero(seen.open, axis=-1)
-        few = ~coarse & (count > 0) & (count <= _FEW)
-        turn = ~coarse & ~few & seen.by_direction
-        cut = ~(coarse | few | turn)
-        # what these make
-        made = _FINER * np.sum(coarse) + np.sum(2 ** count[few]) + 2 * np.sum(turn) + _PARTS * np.sum(cut)
-        spent += int(made) * cells.parts[0].size
-        if spent > _MOST_NUMBERS or cuts == _MOST_CUTS - 1:
-            np.maximum.at(best.upper, cells.member, seen.most)
-            break
-        finer, _ = still_open(cells.chosen(coarse).cut(_FINER))
-        known = Seen._make(each[few] for each in seen)
-        again = [expanded(finer), cells.chosen(few).decided(known), cells.chosen(turn).turned()]
-        again.append(cells.chosen(cut).cut(_PARTS))
-        cells, seen = still_open(Cells._make(map(np.concatenate, zip(*again, strict=True))))
-    signs = best.signs
-    own = parts.values(curve, best.piece, best.angle)
-    value = pieces.source.values(curve, best.piece, best.angle) + share * np.sum(signs * own, axis=-1)
-    lower = np.abs(value + offset)
-    return Worst(best.angle, value, lower, np.maximum(best.upper, lower) + ROUNDING * scale)
+
+def _together(cells: Sequence[Cells]) -> Cells:
+    return Cells._make(map(np.concatenate, zip(*cells, strict=True)))
 
 
 def _first(
-    pieces: Pieces, parts: Parts, share: float, offset: Complex, curve: Index, tolerance: Real, best: _Best
-) -> Cells:
-    """Pieces that may hold a peak, with all directions; the polynomials are left for later."""
+    pieces: Pieces, parts: Parts, share: float, offset: Complex, curve: Index, tolerance: Real
+) -> tuple[_Best, Cells]:
+    """Pieces that may hold a peak, with all directions, beside what is known without them; the polynomials are left
+    for later."""
     there = pieces.half[curve] > 0.0
     centred = np.abs(pieces.cubic[curve, :, 0] + offset[:, None])
     most = np.where(there, centred + pieces.reach[curve] + share * parts.largest[curve], -np.inf)
-    known = np.max(np.where(there, centred - pieces.rest[curve], -np.inf), axis=-1)
-    open_ = most > (known * (1.0 + tolerance))[:, None]
-    best.upper = np.max(np.where(open_, -np.inf, most), axis=-1)
+    known = np.where(there, centred - pieces.rest[curve], -np.inf)
+    # masses as they are, in the middle of the piece that is largest there
+    where, lower = np.argmax(known, axis=-1), np.max(known, axis=-1)
+    open_ = most > (lower * (1.0 + tolerance))[:, None]
     member, piece = np.nonzero(open_)
     none = np.zeros(member.size)
     rows = parts.fourth(curve[:1], np.zeros(1, dtype=np.intp)).shape[-1]
-    best.signs = np.zeros((offset.size, rows))
+    upper, signs = np.max(np.where(open_, -np.inf, most), axis=-1), np.zeros((offset.size, rows))
+    best = _Best(lower, upper, pieces.centre[curve, where], where, signs)
     centre, half = pieces.centre[curve[member], piece], pieces.half[curve[member], piece]
     blank, free = np.zeros((member.size, 4), dtype=complex), np.zeros((member.size, rows))
     every = np.full(member.size, np.pi)
-    return Cells(member, piece, centre, half, blank, blank[:, None], none, none[:, None], none, every, free)
+    cells = Cells(member, piece, centre, half, blank, blank[:, None], none, none[:, None], none, every, free)
+    return best, cells
 
 
 def _keep(best: _Best, cells: Cells, seen: Seen) -> None:

@@ -6,6 +6,7 @@ from functools import cache
 import numpy as np
 import pytest
 
+from optimizer import scattered
 from optimizer.arrays import Complex, Real
 from optimizer.astray import peaks_astray
 from optimizer.cells import worst_masses
@@ -25,7 +26,7 @@ _STEPS = np.linspace(0.0, 2.0 * np.pi, 721)
 @cache
 def _responses(name: str, gas: bool, shaft: str) -> tuple[TurnResponse, ...]:
     """Bearing loads, force and moment, and a component of the force."""
-    body = (machines.SMALL | machines.MEDIUM)[name](gas=gas)
+    body = (machines.SMALL | machines.MEDIUM | machines.LARGE)[name](gas=gas)
     request = OptimizeRequest.model_validate({"machine": body, "fidelity": {"shaft": shaft}})
     scene = prepare(request, ("residual",))
     assert isinstance(request.machine, ReciprocatingMachine)
@@ -63,6 +64,48 @@ def test_no_corner_is_worse_and_one_is_as_bad(name: str, gas: bool, shaft: str, 
         apart = np.min(np.abs(_corners(response, beside, share) - value))
         assert apart <= 1e-6 * upper
         assert abs(value + np.ravel(response.added(u, beside[1:2]))[0]) == pytest.approx(lower, rel=1e-9, abs=1e-12)
+
+
+def test_sixteen_rows_that_may_be_anything_are_bracketed() -> None:
+    """Independent: nothing that is tried by chance comes to more, and the masses that are told come to as much."""
+    responses = _responses("sixteen", True, "continuous")[:3]
+    u = np.full(responses[0].influence.size, 0.02 - 0.01j)
+    worst = peaks_astray(responses, [1.0] * 3, u, np.full(3, 1e-10))
+    assert np.all(worst.upper <= worst.lower * (1.0 + 2e-10))
+    rng = np.random.default_rng(7)
+    for response, upper in zip(responses, worst.upper, strict=True):
+        signs = rng.choice((-1.0, 1.0), size=(200, 16))
+        parts = response.curves.parts.at(response.number, _STEPS)
+        assert np.max(np.abs(response.at(_STEPS) + response.added(u, _STEPS) + signs @ parts.T)) <= upper
+
+
+@pytest.mark.parametrize("most", [1, 5_000, 20_000])
+def test_a_bracket_that_is_broken_off_is_as_wide_as_it_is_known(most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Analytic: the finer bracket lies in every wider one."""
+    responses = _responses("vee", True, "continuous")
+    u = np.full(responses[0].influence.size, 0.02 - 0.01j)
+    share, width = [0.5] * len(responses), np.full(len(responses), 1e-11)
+    fine = peaks_astray(responses, share, u, width)
+    monkeypatch.setattr(scattered, "_MOST_NUMBERS", most)
+    told = peaks_astray(responses, share, u, width)
+    assert np.all(told.lower <= fine.upper)
+    assert np.all(told.upper >= fine.lower)
+    assert np.all(told.lower <= told.upper)
+    assert np.max(told.upper / told.lower) > 1.0 + 1e-10
+    if most == 20_000:
+        # the first step is done
+        assert np.max(told.upper / told.lower) < 1.011
+
+
+def test_a_peak_that_may_be_anything_is_told_by_its_pieces() -> None:
+    """Analytic: a bracket as wide as asked, without a cell that is looked at."""
+    responses = _responses("vee", True, "continuous")
+    u = np.zeros(responses[0].influence.size, dtype=complex)
+    told = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 0.25))
+    fine = peaks_astray(responses, [1e-3] * len(responses), u, np.full(len(responses), 1e-9))
+    assert np.all(told.lower <= fine.upper)
+    assert np.all(told.upper >= fine.lower)
+    assert np.all(told.upper <= 1.25 * told.lower + 1e-12)
 
 
 def test_masses_that_do_not_scatter_leave_the_peak_as_it_is() -> None:
