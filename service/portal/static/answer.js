@@ -3,10 +3,10 @@
 import { beside as tables } from "./beside.js";
 import { h, table } from "./dom.js";
 import { pair } from "./drawing/pair.js";
-import { reports } from "./files.js";
 import { beside, figure, number, share } from "./format.js";
 import { ofTheShaft, refusal, weighed } from "./objective.js";
 import { order } from "./order.js";
+import { reports } from "./report.js";
 import { scales } from "./scales.js";
 
 export function showAnswer(place, request, answer, outputs) {
