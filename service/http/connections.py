@@ -159,9 +159,14 @@ class Connection(H11Protocol):
         if not head.length:
             self.cycle.more_body = False
             self.cycle.message_event.set()
-        task = self.loop.create_task(self.cycle.run_asgi(self.app))
-        task.add_done_callback(self.tasks.discard)
-        self.tasks.add(task)
+        self.tasks.add(self.loop.create_task(self._answer(self.cycle)))
+
+    async def _answer(self, cycle: PlainCycle) -> None:
+        try:
+            await cycle.run_asgi(self.app)
+        finally:
+            # here, as a callback would cost a turn of the loop
+            self.tasks.discard(asyncio.current_task())
 
     def _read_on(self, data: bytes) -> None:
         """More of a plain request, and what its client asks for after it, which waits."""

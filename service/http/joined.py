@@ -28,6 +28,11 @@ class Joined:
         if len(self._held) > _LARGE:
             self.flush()
 
+    def write_last(self, data: bytes) -> None:
+        """Hand over the end of an answer, with what is held; nothing is left for another turn."""
+        self._held += data
+        self.flush()
+
     def flush(self) -> None:
         """Hand over what is held."""
         if self._held:

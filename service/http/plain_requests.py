@@ -62,6 +62,8 @@ class PlainCycle(RequestResponseCycle):
 
     #: of an answer whose length was said what is to come [bytes]; None of one in chunks
     _left: int | None = None
+    #: what is said before the body, and goes out with the first of it
+    _begun = b""
 
     async def send(self, message) -> None:  # type: ignore[no-untyped-def]
         if self.flow.write_paused and not self.disconnected:
@@ -73,11 +75,15 @@ class PlainCycle(RequestResponseCycle):
             raise RuntimeError(f"{message['type']} in place of {wanted}, or after the end of an answer")
         if not self.response_started:
             self.response_started = True
-            self.transport.write(self._head(message["status"], [*self.default_headers, *message.get("headers", ())]))
+            self._begun = self._head(message["status"], [*self.default_headers, *message.get("headers", ())])
             return
         more = message.get("more_body", False)
-        self.transport.write(self._piece(b"" if self._bodiless else message.get("body", b""), more))
-        if not more:
+        said = self._begun + self._piece(b"" if self._bodiless else message.get("body", b""), more)
+        self._begun = b""
+        if more:
+            self.transport.write(said)
+        else:
+            self.transport.write_last(said)  # type: ignore[attr-defined]
             self.response_complete = True
             self.message_event.set()
             if not self.keep_alive:
