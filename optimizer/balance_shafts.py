@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.figures.counterweights import counterweights, places, unbalance, unbalances_of_shaft
-from optimizer.fixed import beside
+from optimizer.fixed import beside, fixed_webs
 from optimizer.formulate import with_weights_of
 from optimizer.mechanics.layout import stacked
 from schemas.counterweights import Counterweight, FittedShaft
@@ -76,14 +76,17 @@ class Fitted(NamedTuple):
         }
 
 
-def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real) -> Fitted:
+def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:
     """What a program has chosen, shaft by shaft, beside the weights that are fixed.
 
     Parameters
     ----------
     mass_kg, angle_deg : (K + S,) of the webs of :func:`posed`.
+    vectors : (K + S,) kg m, their unbalances where they are known.
     """
     machine, shafts = request.machine, balance_shafts(request.machine)
+    if not shafts and not fixed_webs(machine).any():
+        return fitted(machine, mass_kg, angle_deg, vectors)
     mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
     if not shafts:
         return fitted(machine, mass_kg, angle_deg)
@@ -95,10 +98,16 @@ def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real) -> Fitted:
     return fitted(machine, mass_kg, np.mod(angle, 360.0))
 
 
-def fitted(machine: Machine, mass_kg: Real, angle_deg: Real) -> Fitted:
-    """Masses and angles (K + S,), as drawn, of all webs of a machine and of its balance shafts."""
+def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:
+    """Masses and angles (K + S,), as drawn, of all webs of a machine and of its balance shafts.
+
+    Parameters
+    ----------
+    vectors : (K + S,) kg m, their unbalances where they are known.
+    """
     own, shafts = len(machine.webs), balance_shafts(machine)
-    u = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in places(machine)]))
+    if vectors is None:
+        vectors = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in places(machine)]))
     found, first = [], own
     for shaft in shafts:
         there = slice(first, first + len(shaft.webs))
@@ -113,8 +122,8 @@ def fitted(machine: Machine, mass_kg: Real, angle_deg: Real) -> Fitted:
                 counterweights=on_shaft,
             )
         )
-    crank = counterweights(machine, mass_kg[:own], angle_deg[:own], u[:own])
-    return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(found), u[:own], u[own:] if shafts else None)
+    crank = counterweights(machine, mass_kg[:own], angle_deg[:own], vectors[:own])
+    return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(found), vectors[:own], vectors[own:] if shafts else None)
 
 
 def _gearing(shaft: BalanceShaft, fitted_there: Sequence[Counterweight]) -> str:

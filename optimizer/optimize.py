@@ -73,7 +73,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
 
     reporting = time.perf_counter()
     unreachable = bool(best.status[0] == "infeasible")
-    fitted = chosen(request, best.mass_kg[0], best.angle_deg[0])
+    fitted = chosen(request, best.mass_kg[0], best.angle_deg[0], best.unbalance[0])
     scene = scene if fitted.on_shafts is None else replace(scene, shafts=fitted.on_shafts)
     fields = _infeasible(asked, scene, best, fitted, solver) if unreachable else _reached(asked, scene, best, fitted)
     fields |= _nothing_off(request, scene, None if unreachable else best.unbalance[0], fields)

@@ -52,7 +52,7 @@ class Told:
     def sizes(self) -> tuple[float, float]:
         """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
         masses, rows = self.scene.layout.rotating, self.scene.layout.reciprocating
-        unbalance = np.sum(masses.mass * masses.radius) + np.sum(rows.mass * rows.crank_radius)
+        unbalance = np.add.reduce(masses.mass * masses.radius) + np.add.reduce(rows.mass * rows.crank_radius)
         force = float(unbalance) * self.scene.omega_squared
         return force, force * float(span(self.scene.machine))
 

@@ -24,9 +24,10 @@ def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Se
     ----------
     statement : over omega^2.
     """
-    by_angle = largest_objective(statement, worst_by_angle(statement.norms, u, _DEGREE))
-    by_mass = largest_objective(statement, worst_by_mass(statement.norms, u, _PERCENT))
-    return _rises(statement.objective(u).item(), by_angle.item(), by_mass.item(), omega_squared)
+    norms = statement.norms
+    sizes = norms.sizes(u), worst_by_angle(norms, u, _DEGREE), worst_by_mass(norms, u, _PERCENT)
+    as_it_is, by_angle, by_mass = largest_objective(statement, np.array(sizes)).reshape(3).tolist()
+    return _rises(as_it_is, by_angle, by_mass, omega_squared)
 
 
 def over_turn(program: OverTurn, u: Complex, values: Values, omega_squared: float) -> Sensitivity:

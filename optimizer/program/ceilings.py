@@ -43,6 +43,8 @@ def limited(ceilings: Sequence[tuple[Response, Reals]], objective: Norms, webs: 
     """Ceilings on responses beside an objective."""
     leading = objective.constant.shape[:-1]
     none = Norms(np.zeros((*leading, 0), complex), np.zeros((*leading, 0, webs)))
+    if not ceilings:
+        return Ceilings((), none, np.zeros((*leading, 0)), np.zeros((*leading, 0)), scenarios=())
     terms = [Norms(response.baseline.co[..., None], response.influence[..., None, :]) for response, _ in ceilings]
     norms = join([none, *terms])
     # Peak = |f| + |b| <= ceiling is |f| <= ceiling - |b|

@@ -210,15 +210,10 @@ def normalised(statement: Statement, multipliers: Multipliers) -> tuple[Multipli
 def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Minorant:
     """The affine minorant of the Lagrangian under some caps of the ceilings."""
     norms, ceilings = statement.norms, statement.ceilings
-    fixed = np.concatenate(
-        [
-            multipliers.row * statement.floor,
-            (np.conj(multipliers.term) * norms.constant).real,
-            (np.conj(multipliers.ceiling) * ceilings.norms.constant).real,
-            -np.abs(multipliers.ceiling) * cap,
-        ],
-        axis=-1,
-    )
+    parts = [multipliers.row * statement.floor, (np.conj(multipliers.term) * norms.constant).real]
+    if ceilings.names:
+        parts += [(np.conj(multipliers.ceiling) * ceilings.norms.constant).real, -np.abs(multipliers.ceiling) * cap]
+    fixed = np.concatenate(parts, axis=-1)
     size = np.add.reduce(np.abs(fixed), axis=-1)
     slope, rounding = _slope(statement, multipliers, size)
     return _Minorant(np.add.reduce(fixed, axis=-1), size, slope, rounding, spread(statement, multipliers))

@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real, Reals, total
+from optimizer.arrays import SMALLEST, Real, Reals, total
 from optimizer.program.ceilings import limited
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, join
@@ -43,7 +43,9 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     f, b = response.baseline.co, np.conj(response.baseline.counter)
     against = response.counter_influence
     if not q.any() and against is None:
-        alone = total((p * f)[..., None, None])
+        alone = p * f
+        # what is too small to divide by is none, as in `total`
+        alone = np.where(np.abs(alone) <= SMALLEST, 0.0, alone)[..., None]
         norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
     terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex, Real, spread
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
 from optimizer.program.scaling import natural_reach
@@ -124,9 +124,9 @@ def verdict(claim: Claim, asked: float) -> Verdict:
     kept, close = claim.excess <= CEILING_TOLERANCE, relative <= asked
     nothing = false | ~np.isfinite(relative)
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
-    reason = np.where(light, why, NOT_LIGHT)
-    for broken, why_not in ((~close, NOT_CLOSE), (~kept, NOT_KEPT), (false, CONTRADICTED)):
-        reason = np.where(broken, why_not, reason)
+    # the last of these that is so
+    said = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~kept, 4 * false])
+    reason = np.array([why, NOT_LIGHT, NOT_CLOSE, NOT_KEPT, CONTRADICTED])[said]
     return Verdict(
         np.where(~false & kept & close & light, "optimal", "inaccurate"),
         reason,
@@ -175,7 +175,6 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
         [statement.membership @ (np.abs(norms.influence) * radius), np.abs(ceilings.norms.influence) * radius], axis=-2
     )
     most = np.maximum.reduce(does, axis=-1, initial=0.0)
-    rows = yardstick if yardstick.shape == statement.floor.shape else np.broadcast_to(yardstick, statement.floor.shape)
-    size = np.concatenate([rows, ceilings.size], axis=-1)
+    size = np.concatenate([spread(yardstick, statement.floor.shape), ceilings.size], axis=-1)
     least = np.minimum.reduce(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
     return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)
