@@ -22,6 +22,7 @@ MEDIA_TYPES: Mapping[str, str] = {
     ".svg": "image/svg+xml",
 }
 PLOTS = "plotly.min.js"
+SCHEMAS = "schemas.json"
 STATIC = Path(__file__).parent / "static"
 _STYLES = ("theme.css", "form.css", "results.css")
 _FRAMES = b"<!-- frames -->"
@@ -38,7 +39,7 @@ def _schemas() -> str:
 _OWN: Mapping[str, Callable[[], str]] = {
     "page.js": lambda: bundle(STATIC, "main.js"),
     "page.css": lambda: "".join((STATIC / name).read_text(encoding="utf-8") for name in _STYLES),
-    "schemas.json": _schemas,
+    SCHEMAS: _schemas,
     "icon.svg": lambda: (STATIC / "icon.svg").read_text(encoding="utf-8"),
 }
 
