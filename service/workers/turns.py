@@ -169,10 +169,14 @@ class Turns:
             self._begin(turn)
 
     def _ready(self) -> Iterator[_Turn]:
+        # most often the turn that ended has been given to another: who cannot begin is not asked one by one
+        free = self._is_free()
+        if self._one_more and not free:
+            return
         patient_s = self._clock() - PATIENCE_S
 
         def rank(owner: str) -> tuple[float, float]:
             return min(self._since[owner], patient_s), self._accounts.had(owner)
 
         for owner in sorted(self._waiting, key=rank):
-            yield from (turn for turn in self._waiting[owner] if self._may_begin(turn))
+            yield from (turn for turn in self._waiting[owner] if (free or turn.light) and self._may_begin(turn))
