@@ -57,8 +57,8 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    force, couple = _summed(layout, np.array([forces.co, forces.counter]), layout.reciprocating.position)
-    return Wrench(Phasors(force[0, ...], force[1, ...]), Phasors(couple[0, ...], couple[1, ...]))
+    co, counter = (_summed(layout, each, layout.reciprocating.position) for each in (forces.co, forces.counter))
+    return Wrench(Phasors(co[0], counter[0]), Phasors(co[1], counter[1]))
 
 
 def reciprocating_forces(

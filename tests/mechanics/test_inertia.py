@@ -194,3 +194,22 @@ def test_crank_pins_turn_with_the_scroll_analytic() -> None:
     assert rotating(arrays).force.co == pytest.approx(0.005 * (1.2 + 0.06))
     assert rotating(arrays).moment.co == pytest.approx(0.005 * 0.06 * -0.02)
     assert reciprocating(arrays, 1).force.peak == 0.0
+
+
+def test_of_two_designs_that_differ_in_a_place_alone_each_is_as_by_itself() -> None:
+    """Two as many as phasors, and only one array has the leading axis."""
+    one = random_machine(np.random.default_rng(5))
+    first = one.throws[0]
+
+    def moved(position: Any) -> ReciprocatingMachine:
+        there = first.model_copy(update={"position_m": position})
+        return one.model_copy(update={"throws": (there, *one.throws[1:]), "reference_plane_m": 0.1})
+
+    plan = layout(moved(np.array([-1.0, 1.0])))
+    for order in (1, 2):
+        together = reciprocating(plan, order)
+        for n, position in enumerate((-1.0, 1.0)):
+            alone = reciprocating(layout(moved(position)), order)
+            for pair, by_itself in zip(together, alone, strict=True):
+                assert np.broadcast_to(pair.co, 2)[n] == by_itself.co
+                assert np.broadcast_to(pair.counter, 2)[n] == by_itself.counter
