@@ -32,7 +32,7 @@ quick: .venv/development $(kernels)
 	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/figures \
 	    tests/service/test_computations.py tests/optimize/test_optimize.py
 
-# compiled once, in a minute, not by every process that needs them;
+# compiled once, in half a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
 $(kernels): optimizer/compiling.py $(wildcard optimizer/kernel/*.py optimizer/*/kernel/*.py) .venv/runtime
 	rm -f optimizer/kernel/__pycache__/*.nb[ic] optimizer/*/kernel/__pycache__/*.nb[ic]

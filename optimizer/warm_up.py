@@ -1,5 +1,10 @@
 """Load and compile before the first request, which would otherwise wait for seconds."""
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from schemas.requests import OptimizeRequest
+
 #: of the objective, what the reference solver is to reach in its first attempt
 _GAP = 1e-6
 
@@ -13,18 +18,12 @@ def warm_up() -> None:
         if either leaves it open: who cannot solve this solves nothing.
     """
     from optimizer.formulate import formulate
-    from optimizer.optimize import optimize
     from optimizer.outputs import prepare
     from optimizer.program.reference.solver import Solver
     from optimizer.program.solution import CONE_PROGRAM
-    from schemas.requests import OptimizeRequest
 
-    # by the method for any limits, and by that for plain discs
-    for budget in (1.0, None):
-        request = OptimizeRequest.model_validate({"machine": {**_machine(), "max_total_mass_kg": budget}})
-        answer = optimize(request)
-        if answer.status != "optimal":
-            raise RuntimeError(f"the warm-up was answered {answer.status}")
+    _solved(1.0)
+    request = plain_discs()
     follow_a_turn()
     # seldom asked: what the compiled method leaves open
     scene = prepare(request, ("residual",))
@@ -33,6 +32,22 @@ def warm_up() -> None:
     found = Solver().smallest_objective(statement, -1.0, told=lambda best: best.method == CONE_PROGRAM)
     if found.method != CONE_PROGRAM or found.gap > _GAP * found.objective:
         raise RuntimeError(f"the reference solver left a gap of {found.gap:g}")
+
+
+def plain_discs() -> "OptimizeRequest":
+    """Solve a machine whose webs have neither sector nor budget, by the method for such."""
+    return _solved(None)
+
+
+def _solved(budget: float | None) -> "OptimizeRequest":
+    from optimizer.optimize import optimize
+    from schemas.requests import OptimizeRequest
+
+    request = OptimizeRequest.model_validate({"machine": {**_machine(), "max_total_mass_kg": budget}})
+    answer = optimize(request)
+    if answer.status != "optimal":
+        raise RuntimeError(f"the warm-up was answered {answer.status}")
+    return request
 
 
 def follow_a_turn() -> None:

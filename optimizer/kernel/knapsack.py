@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.compiling import kernel
+from optimizer.compiling import inner, kernel
 
 
 @kernel
@@ -27,7 +27,8 @@ def filled(gain, most, budget):  # type: ignore[no-untyped-def]
     order, other = np.zeros(webs, np.int64), np.zeros(webs, np.int64)
     for n in range(number):
         if budget[n] == np.inf:
-            masses[n] = most[n]
+            for k in range(webs):
+                masses[n, k] = most[n, k]
             continue
         _in_falling_order(gain[n], order, other)
         spent = 0.0
@@ -40,7 +41,7 @@ def filled(gain, most, budget):  # type: ignore[no-untyped-def]
     return masses, price
 
 
-@kernel
+@inner
 def _in_falling_order(values, order, other):  # type: ignore[no-untyped-def]
     """Places (K,) of values in falling order, of equal ones the first first: sorted runs, merged two by two."""
     count = values.size

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.compiling import kernel
+from optimizer.compiling import inner, kernel
 from optimizer.polynomials import shifts, to_bernstein
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or to be expanded anew, which leaves out 16^-4
@@ -20,7 +20,7 @@ ENOUGH = 0.125
 #: after so many cuts in a row the bracket is told as it is
 MOST_CUTS = 39
 #: and so it is where so many parts may hold peaks: what is so steep is not worth more time
-MOST_PARTS = 50_000
+MOST_PARTS = np.int64(50_000)
 #: rad, by which an angle may be rounded within two turns
 _ANGLE_ROUNDING = 64 * np.finfo(float).eps
 
@@ -79,19 +79,25 @@ def _none(count):  # type: ignore[no-untyped-def]
     )
 
 
-@kernel
+@inner
+def _place(parts, n, centre, half, rest, fourth):  # type: ignore[no-untyped-def]
+    place = parts.place
+    place[n, _CENTRE], place[n, _HALF], place[n, _REST], place[n, _FOURTH] = centre, half, rest, fourth
+
+
+@inner
 def _allowed(asked, best, group):  # type: ignore[no-untyped-def]
     """How wide a bracket may be."""
     return max(asked.share[group] * abs(best.lower[group]), asked.rounding[group])
 
 
-@kernel
+@inner
 def _open_above(asked, best, group):  # type: ignore[no-untyped-def]
     """What has to be exceeded to be looked at closer."""
     return best.lower[group] + _allowed(asked, best, group)
 
 
-@kernel
+@inner
 def _keep(best, group, value, angle, piece, member):  # type: ignore[no-untyped-def]
     """Keep a value where it beats the best."""
     if not value <= best.lower[group]:
@@ -99,14 +105,14 @@ def _keep(best, group, value, angle, piece, member):  # type: ignore[no-untyped-
         best.piece[group], best.member[group] = piece, member
 
 
-@kernel
+@inner
 def _tell(best, group, most):  # type: ignore[no-untyped-def]
     """What is let go is in the bracket; nan too."""
     if most > best.upper[group] or most != most:
         best.upper[group] = most
 
 
-@kernel
+@inner
 def _size(value, sign):  # type: ignore[no-untyped-def]
     """What a peak is the largest of: a magnitude, or a value times a sign."""
     return abs(value) if sign == 0.0 else sign * value.real
@@ -145,10 +151,11 @@ def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
 def first_open(known, asked, best):  # type: ignore[no-untyped-def]
     """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
     members, pieces = asked.curve.size, known.half.shape[1]
-    most = np.full((members, pieces), -np.inf)
+    most = np.empty((members, pieces))
     for m in range(members):
         curve, group = asked.curve[m], asked.group[m]
         for p in range(pieces):
+            most[m, p] = -np.inf
             if known.half[curve, p] > 0.0:
                 middle = _size(known.cubic[curve, p, 0] + asked.offset[m], asked.sign)
                 most[m, p] = middle + known.reach[curve, p]
@@ -168,8 +175,9 @@ def first_open(known, asked, best):  # type: ignore[no-untyped-def]
             if most[m, p] > above:
                 half, rest = known.half[curve, p], known.rest[curve, p]
                 parts.member[n], parts.piece[n] = m, p
-                parts.place[n] = (known.centre[curve, p], half, rest, rest / half**4)
-                parts.cubic[n] = known.cubic[curve, p]
+                _place(parts, n, known.centre[curve, p], half, rest, rest / half**4)
+                for i in range(4):
+                    parts.cubic[n, i] = known.cubic[curve, p, i]
                 parts.cubic[n, 0] += asked.offset[m]
                 n += 1
     return still_open(parts, asked, best, MOST_PARTS)
@@ -186,17 +194,20 @@ def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
         most[n] = largest + place[_REST]
         angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
         _keep(best, asked.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
-    open_ = np.empty(number, np.bool_)
+    open_, count = np.empty(number, np.bool_), 0
     for n in range(number):
         open_[n] = most[n] > _open_above(asked, best, asked.group[parts.member[n]])
-    count = np.sum(open_)
+        count += open_[n]
     if count > most_parts:
-        open_[:], count = False, 0
+        count = 0
+        for n in range(number):
+            open_[n] = False
     kept, k = _none(count), 0
     for n in range(number):
         if open_[n]:
             kept.member[k], kept.piece[k] = parts.member[n], parts.piece[n]
-            kept.place[k], kept.cubic[k] = parts.place[n], parts.cubic[n]
+            for i in range(4):
+                kept.place[k, i], kept.cubic[k, i] = parts.place[n, i], parts.cubic[n, i]
             k += 1
         else:
             rounding = _ANGLE_ROUNDING * abs(parts.cubic[n, 1]) / parts.place[n, _HALF]
@@ -208,14 +219,17 @@ def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
 def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
     """Some parts, each in so many as there are places, by the same polynomial."""
     share = places.size
-    found, k = _none(share * np.sum(chosen)), 0
+    count = 0
+    for n in range(chosen.size):
+        count += chosen[n]
+    found, k = _none(share * count), 0
     for n in range(chosen.size):
         if chosen[n]:
             for p in range(share):
                 place = parts.place[n]
                 found.member[k], found.piece[k] = parts.member[n], parts.piece[n]
                 centre, half = place[_CENTRE] + place[_HALF] * places[p], place[_HALF] / share
-                found.place[k] = (centre, half, place[_REST], place[_FOURTH])
+                _place(found, k, centre, half, place[_REST], place[_FOURTH])
                 for i in range(4):
                     value = 0j
                     for j in range(i, 4):
@@ -232,13 +246,14 @@ def narrowed(parts, asked, best, cuts):  # type: ignore[no-untyped-def]
     Most of the latter are let go by what is known: an expansion costs far more.
     """
     while parts.member.size > 0 and cuts < MOST_CUTS:
-        coarse = np.empty(parts.member.size, np.bool_)
+        coarse, any_coarse = np.empty(parts.member.size, np.bool_), False
         for n in range(coarse.size):
             group = asked.group[parts.member[n]]
             coarse[n] = parts.place[n, _REST] > ENOUGH * _allowed(asked, best, group)
+            any_coarse = any_coarse or coarse[n]
         fine = _cut(parts, ~coarse, _FINE_PLACES, _TO_FINE)
         cuts += 1
-        if np.any(coarse):
+        if any_coarse:
             coarser = _cut(parts, coarse, _FINER_PLACES, _TO_FINER)
             return fine, still_open(coarser, asked, best, coarser.member.size), cuts
         parts = still_open(fine, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from optimizer.compile_kernels import last_first
-from optimizer.kernel import parts
+from optimizer.compile_kernels import all_else, any_limits
+from optimizer.kernel import knapsack, parts
 from optimizer.mechanics.kernel import rows
-from optimizer.program.kernel import symmetries
+from optimizer.program.kernel import cancelling, discs, interior_point, outlines, symmetries
 from optimizer.warm_up import warm_up
 
 _SOLVERS = {"numba", "cvxpy", "clarabel"}
@@ -26,18 +26,27 @@ def test_both_solvers_are_loaded_and_have_run() -> None:
     assert ran.stdout.strip() == str(sorted(_SOLVERS))
 
 
-def test_what_is_compiled_beside_is_what_answers_need() -> None:
-    """Of other types it would be kept twice: once as it is compiled beside, once as it is called."""
+def test_what_is_compiled_is_what_answers_need() -> None:
+    """Of other types it would be kept twice: once as it is compiled, once as it is called."""
+    any_limits()
+    all_else()
     warm_up()
-    last_first()
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
-    names = ("direction", "longest_step", "second_order", "take_step", "means", "worst_turned", "least_changes")
-    names += ("look", "eliminate", "find_step", "correct", "go")
-    of_turn = (rows, ("row_series",)), (parts, ("first_open", "narrowed"))
-    for module, entries in ((symmetries, names), *of_turn):
-        kept = Path(module.__file__).parent / "__pycache__"
-        for name in entries:
-            assert len(list(kept.glob(f"*.{name}-*.{version}.*.nbc"))) <= 1, name
+    entries = {
+        interior_point: ("run", "_aim"),
+        discs: ("solve",),
+        symmetries: ("means",),
+        outlines: ("worst_turned",),
+        cancelling: ("least_changes",),
+        rows: ("row_series",),
+        knapsack: ("filled",),
+        parts: ("first_open", "narrowed", "still_open"),
+    }
+    for module, names in entries.items():
+        kept = Path(str(module.__file__)).parent / "__pycache__"
+        for name in names:
+            file = Path(str(module.__file__)).stem
+            assert len(list(kept.glob(f"{file}.{name}-*.{version}.*.nbc"))) <= 1, name
 
 
 def test_a_wrong_answer_is_not_ready(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -264,11 +264,15 @@ def test_limits_of_zero(limit: str) -> None:
     assert np.all(found.mass == 0.0)
 
 
+def _signatures() -> list[list[object]]:
+    return [list(method.signatures) for method in (discs.solve, interior_point.run)]
+
+
 @pytest.mark.parametrize("order", ["fortran", "read-only"])
 def test_no_order_in_memory_is_compiled_anew(order: str) -> None:
     """Property: the same bits from what is already compiled, or a request would wait for a minute."""
     problem = _pair()
-    expected, compiled = run(problem), [list(method.solve.signatures) for method in (discs, interior_point)]
+    expected, compiled = run(problem), _signatures()
 
     def changed(values: np.ndarray) -> np.ndarray:
         values = np.array(values, order="F")
@@ -277,7 +281,7 @@ def test_no_order_in_memory_is_compiled_anew(order: str) -> None:
 
     found = run(replace(problem, limits=mapped(problem.limits, changed)))
     assert all(same(expected, n, found, n) for n in range(expected.mass.size))
-    assert [list(method.solve.signatures) for method in (discs, interior_point)] == compiled
+    assert _signatures() == compiled
 
 
 def test_a_web_in_two_halves_is_the_same_web() -> None:

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.compiling import kernel
+from optimizer.compiling import inner, kernel
 from optimizer.mechanics.kernel.taylor import (
     Series,
     between,
@@ -40,10 +40,11 @@ READINGS = (
     "gas",
 )
 PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS = range(len(READINGS))
-#: functions of one row
-_COS, _SIN, _COS_2, _SIN_2, _COS_4, _SIN_4 = range(6)
-_UPRIGHT, _COS_BETA, _SECANT, _SIN_SQUARED = range(6, 10)
-_INERTIA, _GAS, _PISTON, _ALONG, _ACROSS, _PRESSURE, _TRAVEL, _A, _B, _C = range(10, 20)
+#: functions of one row; as numpy's integers, for each Python literal that is handed on is a type of its own, for which
+#: all that takes it is compiled anew
+_COS, _SIN, _COS_2, _SIN_2, _COS_4, _SIN_4 = np.arange(6)
+_UPRIGHT, _COS_BETA, _SECANT, _SIN_SQUARED = np.arange(6, 10)
+_INERTIA, _GAS, _PISTON, _ALONG, _ACROSS, _PRESSURE, _TRAVEL, _A, _B, _C = np.arange(10, 20)
 _FUNCTIONS = 20
 
 
@@ -113,7 +114,7 @@ def row_series(rows, places, reading, order):  # type: ignore[no-untyped-def]
                     _add_inertia(series, motion, rows.exact)
                     if reading != ON_FRAME:
                         series.middle[_INERTIA, 0] += np.sign(inside.sine) * motion[4]
-                if reading not in (ROD_WITHOUT_GAS, ON_FRAME):
+                if reading != ROD_WITHOUT_GAS and reading != ON_FRAME:
                     constant(series, 0.0, _GAS)
                     for c in range(rows.gas.shape[2]):
                         area, trace = rows.gas[design, r, c, 0], rows.given[r, c]
@@ -138,7 +139,7 @@ def row_series(rows, places, reading, order):  # type: ignore[no-untyped-def]
     return middle, radius
 
 
-@kernel
+@inner
 def _read(series, reading, motion):  # type: ignore[no-untyped-def]
     """Numbers of the functions that make a reading."""
     ratio = motion[1]
@@ -183,14 +184,14 @@ class _Turned(NamedTuple):
     fall: float  # 1 + cos
 
 
-@kernel
+@inner
 def _turned(angle):  # type: ignore[no-untyped-def]
     """By the half angle: nothing cancels but what has no digits in the angle either."""
     sine, cosine = np.sin(0.5 * angle), np.cos(0.5 * angle)
     return _Turned(2.0 * sine * cosine, (cosine - sine) * (cosine + sine), 2.0 * sine**2, 2.0 * cosine**2)
 
 
-@kernel
+@inner
 def _move(series, motion, exact, there, angle, half):  # type: ignore[no-untyped-def]
     """What the motion of a row is made of."""
     middle, radius, bounded = series
@@ -219,7 +220,7 @@ def _move(series, motion, exact, there, angle, half):  # type: ignore[no-untyped
     power(series, _UPRIGHT, -0.5, _SECANT)
 
 
-@kernel
+@inner
 def _add_inertia(series, motion, exact):  # type: ignore[no-untyped-def]
     """m a, N."""
     middle, _, bounded = series
@@ -241,7 +242,7 @@ def _add_inertia(series, motion, exact):  # type: ignore[no-untyped-def]
     scaled(series, _INERTIA, motion[3], 0.0, _INERTIA)
 
 
-@kernel
+@inner
 def _given(series, pressure, slope, half):  # type: ignore[no-untyped-def]
     """A pressure as a trace has it, Pa."""
     constant(series, pressure, _PRESSURE)
@@ -250,14 +251,14 @@ def _given(series, pressure, slope, half):  # type: ignore[no-untyped-def]
     series.radius[_PRESSURE, 0] = abs(slope) * half
 
 
-@kernel
+@inner
 def _decide(chambers, motion, exact, inside, process):  # type: ignore[no-untyped-def]
     """First pressure [Pa], exponent, and clearance and first volume over crank radius times area, of every chamber."""
     for c in range(len(chambers)):
         chamber, growing = chambers[c], (inside.sine > 0.0) == (c % 2 == 0)
         low, high, clear = chamber[1], chamber[2], 2.0 * chamber[3]
         if not chamber[6]:
-            process[c] = (low, 0.0, 0.0, 1.0)
+            _kept(process, c, low, 0.0, 0.0, 1.0)
             continue
         volume = _travel_at(motion, exact, c % 2, inside) + clear
         if growing:
@@ -266,10 +267,18 @@ def _decide(chambers, motion, exact, inside, process):  # type: ignore[no-untype
         else:
             exponent, full, first, other = chamber[5], 2.0 + clear, low, high
             acts = low * (full / volume) ** exponent < high
-        process[c] = (first, exponent, clear, full) if acts else (other, 0.0, 0.0, 1.0)
+        if acts:
+            _kept(process, c, first, exponent, clear, full)
+        else:
+            _kept(process, c, other, 0.0, 0.0, 1.0)
 
 
-@kernel
+@inner
+def _kept(process, c, first, exponent, clear, full):  # type: ignore[no-untyped-def]
+    process[c, 0], process[c, 1], process[c, 2], process[c, 3] = first, exponent, clear, full
+
+
+@inner
 def _cycle(series, motion, exact, process, side, there, angle, half, inside):  # type: ignore[no-untyped-def]
     """Pressure of the four processes, Pa: constant, or a power of the volume in units of the crank radius."""
     first, exponent, clear, full = process[0], process[1], process[2], process[3]
@@ -283,7 +292,7 @@ def _cycle(series, motion, exact, process, side, there, angle, half, inside):  #
     scaled(series, _PRESSURE, first, 0.0, _PRESSURE)
 
 
-@kernel
+@inner
 def _travel(series, motion, exact, side, there, angle, half, inside):  # type: ignore[no-untyped-def]
     """Own travel of a chamber of one side over the crank radius."""
     middle, _, bounded = series
@@ -326,7 +335,7 @@ def _travel(series, motion, exact, side, there, angle, half, inside):  # type: i
         middle[_TRAVEL, 0] = _travel_at(motion, exact, side, there)
 
 
-@kernel
+@inner
 def _travel_at(motion, exact, side, there):  # type: ignore[no-untyped-def]
     """The same where a crank stands, as in :func:`kinematics.motion`."""
     ratio = motion[1]

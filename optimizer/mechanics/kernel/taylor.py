@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.compiling import kernel
+from optimizer.compiling import inner
 
 
 class Series(NamedTuple):
@@ -27,7 +27,7 @@ class Series(NamedTuple):
     bounded: bool
 
 
-@kernel
+@inner
 def circular(series, multiple, cos, sin, cosine, sine):  # type: ignore[no-untyped-def]
     """cos and sin of a multiple of an angle, from what these are, or from the middle and radius of their ranges."""
     middle, radius, bounded = series
@@ -43,7 +43,7 @@ def circular(series, multiple, cos, sin, cosine, sine):  # type: ignore[no-untyp
         cos, sin, cos_off, sin_off = -sin, cos, sin_off, cos_off
 
 
-@kernel
+@inner
 def cosine_range(angle, half):  # type: ignore[no-untyped-def]
     """Middle and radius of the range of the cosine over an interval: by its ends, and 1 and -1 where it has them."""
     first, last = np.cos(angle - half), np.cos(angle + half)
@@ -52,20 +52,21 @@ def cosine_range(angle, half):  # type: ignore[no-untyped-def]
     return 0.5 * (low + high), 0.5 * (high - low)
 
 
-@kernel
+@inner
 def _holds(angle, half):  # type: ignore[no-untyped-def]
     """Whether a whole turn is within a half width of an angle."""
     return abs((angle + np.pi) % (2.0 * np.pi) - np.pi) <= half
 
 
-@kernel
+@inner
 def constant(series, value, out):  # type: ignore[no-untyped-def]
     """A number."""
-    series.middle[out], series.radius[out] = 0.0, 0.0
+    for k in range(series.middle.shape[1]):
+        series.middle[out, k], series.radius[out, k] = 0.0, 0.0
     series.middle[out, 0] = value
 
 
-@kernel
+@inner
 def scaled(series, a, factor, plus, out):  # type: ignore[no-untyped-def]
     """factor a + a number; a itself may be what comes out."""
     middle, radius, bounded = series
@@ -76,7 +77,7 @@ def scaled(series, a, factor, plus, out):  # type: ignore[no-untyped-def]
     middle[out, 0] += plus
 
 
-@kernel
+@inner
 def summed(series, a, b, factor, out):  # type: ignore[no-untyped-def]
     """a + factor b; either may be what comes out."""
     middle, radius, bounded = series
@@ -86,7 +87,7 @@ def summed(series, a, b, factor, out):  # type: ignore[no-untyped-def]
             radius[out, k] = radius[a, k] + abs(factor) * radius[b, k]
 
 
-@kernel
+@inner
 def product(series, a, b, out):  # type: ignore[no-untyped-def]
     """Cauchy product, (f g)_k = sum_i f_i g_{k-i}; neither may be what comes out."""
     middle, radius, bounded = series
@@ -103,7 +104,7 @@ def product(series, a, b, out):  # type: ignore[no-untyped-def]
             radius[out, k] = off
 
 
-@kernel
+@inner
 def power(series, a, exponent, out):  # type: ignore[no-untyped-def]
     """f^a for f > 0: k f_0 p_k = sum_{i=1..k} (a i - (k - i)) f_i p_{k-i}; f may not be what comes out."""
     middle, radius, bounded = series
@@ -128,7 +129,7 @@ def power(series, a, exponent, out):  # type: ignore[no-untyped-def]
             radius[out, k] = (abs(value) * spread + error * (inverse + spread)) / k
 
 
-@kernel
+@inner
 def _raised(base, exponent):  # type: ignore[no-untyped-def]
     """base^exponent; halves by roots, which cost a tenth of a power."""
     if exponent == 0.5:
@@ -142,7 +143,7 @@ def _raised(base, exponent):  # type: ignore[no-untyped-def]
     return base**exponent
 
 
-@kernel
+@inner
 def between(series, a, low, high):  # type: ignore[no-untyped-def]
     """Closer bounds of a function itself over the interval."""
     series.middle[a, 0], series.radius[a, 0] = 0.5 * (low + high), 0.5 * (high - low)

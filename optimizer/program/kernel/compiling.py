@@ -1,5 +1,5 @@
 """How the kernels are compiled, as all inner loops are: :mod:`optimizer.compiling`."""
 
-from optimizer.compiling import inlined, kernel
+from optimizer.compiling import in_place, inlined, inner, kernel
 
-__all__ = ["inlined", "kernel"]
+__all__ = ["in_place", "inlined", "inner", "kernel"]

@@ -10,7 +10,7 @@ the compiler turns them into vector instructions.
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import inlined, kernel
+from optimizer.program.kernel.compiling import inlined, inner
 
 
 @inlined
@@ -31,7 +31,7 @@ def step_to_boundary(s0, s1, s2, d0, d1, d2):  # type: ignore[no-untyped-def]
     return inside if (disc < 0.0) | ((a >= 0.0) & (b >= 0.0)) else crossing
 
 
-@kernel
+@inner
 def cholesky(matrix):  # type: ignore[no-untyped-def]
     """In place, lower triangle with the diagonal inverted; pivots that rounding has spoiled become infinite."""
     n, lanes = matrix.shape[1:]
@@ -50,7 +50,7 @@ def cholesky(matrix):  # type: ignore[no-untyped-def]
             matrix[i, i, t] = 1.0 / np.sqrt(pivot) if pivot > 0.0 else 1e-100
 
 
-@kernel
+@inner
 def substitute(factor, vector):  # type: ignore[no-untyped-def]
     """Solve in place, (n, L)."""
     n, lanes = vector.shape
@@ -68,7 +68,7 @@ def substitute(factor, vector):  # type: ignore[no-untyped-def]
             vector[i, t] *= factor[i, i, t]
 
 
-@kernel
+@inner
 def scaling(s, z, w, eta, lam):  # type: ignore[no-untyped-def]
     """Nesterov-Todd scaling W = eta (2 w w' - J)^(1/2) of every cone, and lam = W Z = S / W."""
     for i in range(s.shape[1]):
@@ -94,7 +94,7 @@ def scaling(s, z, w, eta, lam):  # type: ignore[no-untyped-def]
         lam[2, i] = share * ((gamma + z0) * s2 + (gamma + s0) * z2)
 
 
-@kernel
+@inner
 def targets(nu, d, w, eta, lam, s, z, f, ws):  # type: ignore[no-untyped-def]
     """f = -Z + W^-1 (lam \\ (nu e - d)) and W^2 f = -S + W (lam \\ (nu e - d)), of every cone; nu (n,)."""
     for i in range(s.shape[1]):
@@ -114,7 +114,7 @@ def targets(nu, d, w, eta, lam, s, z, f, ws):  # type: ignore[no-untyped-def]
         ws[2, i] = (y2 + w[2, i] * (shift + y0)) * eta[i] - s[2, i]
 
 
-@kernel
+@inner
 def corrector(wanted, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
     """Second-order part (W^-1 dS) o (W dZ) of every cone, times ``wanted`` (n,), 1 or 0."""
     for i in range(ds.shape[1]):
@@ -131,7 +131,7 @@ def corrector(wanted, w, eta, ds, dz, d):  # type: ignore[no-untyped-def]
         d[2, i] = wanted[i] * (a0 * b2 + b0 * a2)
 
 
-@kernel
+@inner
 def multiplier_steps(count, w, eta, f, ds, dz):  # type: ignore[no-untyped-def]
     """dz = f - W^-2 ds of the first cones."""
     for i in range(count):
@@ -143,7 +143,7 @@ def multiplier_steps(count, w, eta, f, ds, dz):  # type: ignore[no-untyped-def]
         dz[2, i] = f[2, i] - scale * (-w2 * along + ds[2, i])
 
 
-@kernel
+@inner
 def cone_steps(s, ds, step):  # type: ignore[no-untyped-def]
     """Largest step of every cone, (n,)."""
     for i in range(s.shape[1]):

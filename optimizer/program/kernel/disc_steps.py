@@ -19,7 +19,7 @@ not depend on their number.
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import inlined, kernel
+from optimizer.program.kernel.compiling import inlined, inner
 
 #: programs side by side: what a step needs of eight webs stays in the nearest cache
 LANES = 16
@@ -67,13 +67,13 @@ def _inverse_step(s0, s1, s2, d0, d1, d2):  # type: ignore[no-untyped-def]
     return crossing if crossing > leaving else leaving
 
 
-@kernel
+@inner
 def _clear(values, begin, end):  # type: ignore[no-untyped-def]
     for i in range(begin, end):
         values[i] = 0.0
 
 
-@kernel
+@inner
 def look(least_mass, webs, web, own):  # type: ignore[no-untyped-def]
     """Where the programs stand: what the matrix is made of, the gap, and the right sides of a step to products of 0."""
     _clear(own, N11, DA1X)
@@ -141,7 +141,7 @@ def look(least_mass, webs, web, own):  # type: ignore[no-untyped-def]
         own[t + R2X], own[t + R2Y] = -(t2 * wx + price * bx), -(t2 * wy + price * by)
 
 
-@kernel
+@inner
 def eliminate(least_mass, own, matrix):  # type: ignore[no-untyped-def]
     """The equations of y_1, y_2 and the price, as L and U in place, the diagonal inverted.
 
@@ -196,7 +196,7 @@ def eliminate(least_mass, own, matrix):  # type: ignore[no-untyped-def]
                     matrix[(5 * j + k) * LANES + t] -= matrix[below + t] * matrix[(5 * i + k) * LANES + t]
 
 
-@kernel
+@inner
 def _solve(least_mass, own, matrix, step):  # type: ignore[no-untyped-def]
     """Steps of y_1, y_2 and the price."""
     for t in range(LANES):
@@ -225,7 +225,7 @@ def _solve(least_mass, own, matrix, step):  # type: ignore[no-untyped-def]
         _clear(step, 4 * LANES, 5 * LANES)
 
 
-@kernel
+@inner
 def find_step(least_mass, webs, web, own, matrix, step):  # type: ignore[no-untyped-def]
     """The step of all unknowns, and how long it may be for slacks (``PRIMAL``) and multipliers (``DUAL``)."""
     _solve(least_mass, own, matrix, step)
@@ -278,7 +278,7 @@ def find_step(least_mass, webs, web, own, matrix, step):  # type: ignore[no-unty
         own[t + PRIMAL], own[t + DUAL] = 1.0 / _larger(own[t + PRIMAL], primal), 1.0 / _larger(own[t + DUAL], dual)
 
 
-@kernel
+@inner
 def correct(least_mass, webs, web, own, step):  # type: ignore[no-untyped-def]
     """Right sides of a step to products ``AIM`` that allows for what the products miss in the direction found last."""
     _clear(own, G1X, DA1X)
@@ -318,7 +318,7 @@ def correct(least_mass, webs, web, own, step):  # type: ignore[no-untyped-def]
         own[t + R_LEFT] += aim + (dt1 + dt2) * d_price
 
 
-@kernel
+@inner
 def go(webs, web, own, step):  # type: ignore[no-untyped-def]
     """Slacks by ``PRIMAL``, multipliers by ``DUAL``."""
     for k in range(webs):

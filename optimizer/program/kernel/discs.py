@@ -12,7 +12,7 @@ nothing, and is for :mod:`optimizer.program.kernel.interior_point`. Notation as 
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import kernel
+from optimizer.program.kernel.compiling import inner, kernel
 from optimizer.program.kernel.disc_steps import (
     AIM,
     C1X,
@@ -36,19 +36,14 @@ from optimizer.program.kernel.disc_steps import (
     go,
     look,
 )
+from optimizer.program.kernel.stages import BLOCK, CENTRALITY, KEPT_BACK, OPEN
 
 _MOST_STEPS = 25
 #: least share of the way to the boundary that a step goes; the rest is the gap at most
 _STEP = 0.99
-#: of the share above the optimum, and of the gap of the first stage, what the least mass does not use
-_KEPT_BACK, _OPEN = 1e-5, 4.0
-#: product of slack and multiplier, in units of the mass, at which the least mass starts
-_CENTRALITY = 5e-3
-#: programs whose states are kept between the stages
-_BLOCK = 1024
 
 
-@kernel
+@inner
 def _load(program, where, t, web, own):  # type: ignore[no-untyped-def]
     """A program and where it stands, (4 K + 7,) numbers each, into lane t."""
     webs = (where.size - 7) // 4
@@ -64,7 +59,7 @@ def _load(program, where, t, web, own):  # type: ignore[no-untyped-def]
     own[MOST + t] = program[3 * webs + 4]
 
 
-@kernel
+@inner
 def _save(t, web, own, where):  # type: ignore[no-untyped-def]
     """Where lane t stands (4 K + 7,)."""
     webs = (where.size - 7) // 4
@@ -147,8 +142,8 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
     number, terms, webs = programs.influence.shape
     v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, terms, 2))
     prices, mass_unit = np.zeros((2, number, 1)), np.ones(number)
-    for begin in range(0, number, _BLOCK):
-        count = min(_BLOCK, number - begin)
+    for begin in range(0, number, BLOCK):
+        count = min(BLOCK, number - begin)
         data, starts = np.zeros((count, 3 * webs + 5)), np.zeros((count, 4 * webs + 7))
         ends, reached = np.zeros((count, 4 * webs + 7)), np.zeros(count)
         middle, ending = np.zeros(count), np.zeros(count)
@@ -168,7 +163,7 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
     return v, p, prices, mass_unit
 
 
-@kernel
+@inner
 def _begin(influence, constant, program, where):  # type: ignore[no-untyped-def]
     """A program, and where the first stage starts: nothing on the webs, sizes above the terms."""
     terms, webs = influence.shape
@@ -183,7 +178,7 @@ def _begin(influence, constant, program, where):  # type: ignore[no-untyped-def]
         where[4 * webs + 4 + j] += np.sqrt(x * x + y * y)
 
 
-@kernel
+@inner
 def _aim(mass, share, gap, end, program, where):  # type: ignore[no-untyped-def]
     """The second stage, from where the first one ended and the middle of the optima; its unit of mass."""
     webs = mass.size
@@ -198,10 +193,10 @@ def _aim(mass, share, gap, end, program, where):  # type: ignore[no-untyped-def]
             y += program[j * webs + k] * end[webs + k]
         value += np.sqrt(x * x + y * y)
     # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
-    most = value + share * (1.0 - _KEPT_BACK) - _OPEN * gap
+    most = value + share * (1.0 - KEPT_BACK) - OPEN * gap
     program[3 * webs + 4] = most
     # every multiplier at the price of the objective
-    price = _CENTRALITY / max(most - where[4 * webs + 4] - where[4 * webs + 5], 1e-300)
+    price = CENTRALITY / max(most - where[4 * webs + 4] - where[4 * webs + 5], 1e-300)
     for i in (0, 1, 2, 3, 6):
         where[4 * webs + i] *= price
     for k in range(webs):
@@ -210,13 +205,13 @@ def _aim(mass, share, gap, end, program, where):  # type: ignore[no-untyped-def]
         py = program[k] * where[4 * webs + 1] + program[webs + k] * where[4 * webs + 3]
         # in the middle between |v| and 1
         x = (1.0 + np.sqrt(1.0 + 3.0 * (vx * vx + vy * vy))) / 3.0
-        z = max(np.sqrt(px * px + py * py), cost) + _CENTRALITY
-        z = max(z, (_CENTRALITY + vx * px + vy * py) / x, cost + _CENTRALITY / (1.0 - x))
+        z = max(np.sqrt(px * px + py * py), cost) + CENTRALITY
+        z = max(z, (CENTRALITY + vx * px + vy * py) / x, cost + CENTRALITY / (1.0 - x))
         program[2 * webs + k], where[2 * webs + k], where[3 * webs + k] = cost, x, z
     return unit
 
 
-@kernel
+@inner
 def _keep(where, v, p, price):  # type: ignore[no-untyped-def]
     """Webs (3, K), multipliers of the terms (J, 2) and of the row (1,)."""
     webs = v.shape[1]

@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.program.kernel.compiling import kernel
-from optimizer.program.kernel.lanes import Lanes, new_work, state_size, views
+from optimizer.program.kernel.compiling import in_place, inner
+from optimizer.program.kernel.lanes import new_course, new_lanes, new_work, state_size, views
 from optimizer.program.kernel.newton import (
     direction,
     factor,
@@ -26,16 +26,13 @@ from optimizer.program.kernel.newton import (
     second_order,
     take_step,
 )
+from optimizer.program.kernel.stages import BLOCK, CENTRALITY, KEPT_BACK, OPEN
 
 #: share of the way to the boundary that a step goes
 _STEP = 0.99
 _MOST_STEPS = 60
-#: of the share above the optimum, and of the gap of the first stage, what the least mass does not use
-_KEPT_BACK, _OPEN = 1e-5, 4.0
-#: product of slack and multiplier, in units of the mass, at which the least mass starts
-_CENTRALITY = 5e-3
-#: programs side by side, and programs whose states are kept between the stages
-_LANES, _BLOCK = 64, 1024
+#: programs side by side
+_LANES = 64
 
 
 class Programs(NamedTuple):
@@ -66,19 +63,19 @@ class Task(NamedTuple):
     reached: Real  # (N,) its gap and residual
 
 
-@kernel
+@inner
 def _to_lane(row, packed, t):  # type: ignore[no-untyped-def]
     for i in range(row.size):
         packed[i, t] = row[i]
 
 
-@kernel
+@inner
 def _from_lane(packed, t, row):  # type: ignore[no-untyped-def]
     for i in range(row.size):
         row[i] = packed[i, t]
 
 
-@kernel
+@inner
 def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
     """Program n into lane t."""
     cones, webs = programs.influence.shape[1:]
@@ -103,7 +100,7 @@ def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
         one.mass[at], one.budget[at] = task.cost[n, k], programs.budget[n, k]
 
 
-@kernel
+@inner
 def start(one, state, t):  # type: ignore[no-untyped-def]
     """Lane t to a point inside all limits, and above all norms; ceilings may be violated."""
     rows, lanes = one.floor.shape
@@ -145,12 +142,12 @@ def start(one, state, t):  # type: ignore[no-untyped-def]
         state.rho[r, t] = state.rest[2, t] - state.rho[r, t]
 
 
-@kernel
+@inner
 def restart(one, state, t):  # type: ignore[no-untyped-def]
     """Lane t from a point of the first stage to the second: every multiplier at the price of the objective."""
     s, z = state.s, state.z
     lanes = one.target.size
-    price = _CENTRALITY / (s[0, t] * z[0, t] + s[1, t] * z[1, t] + s[2, t] * z[2, t])
+    price = CENTRALITY / (s[0, t] * z[0, t] + s[1, t] * z[1, t] + s[2, t] * z[2, t])
     for r in range(state.rho.shape[0]):
         slack = one.target[t] - state.rest[2, t] + state.rho[r, t]
         state.rho[r, t] = max(slack, 0.1 * state.rho[r, t])
@@ -163,35 +160,19 @@ def restart(one, state, t):  # type: ignore[no-untyped-def]
     state.rest[1, t] *= price
 
 
-@kernel
-def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
+@in_place
+def run(least_mass, programs, task, one, course, packed, best, work):  # type: ignore[no-untyped-def]
     """A stage of every program: steps until the gap is at most the tolerance, or no longer falls."""
     number, cones, webs = programs.influence.shape
-    rows, terms = programs.floor.shape[1], programs.row.size
-    lanes, size = min(_LANES, number), state_size(webs, cones, rows)
-    one = Lanes(
-        programs.row,
-        np.zeros((rows, lanes)),
-        np.zeros((cones - terms, lanes)),
-        np.zeros((2, cones * lanes)),
-        np.zeros((cones, webs * lanes)),
-        np.zeros((2, webs * lanes)),
-        np.zeros(webs * lanes),
-        np.zeros(webs * lanes),
-        np.zeros((3, webs * lanes)),
-        np.zeros(webs * lanes),
-        np.zeros(webs * lanes),
-        np.zeros(lanes),
-    )
-    work = new_work(webs, cones, terms, rows, lanes)
-    packed, best = np.ones((size, lanes)), np.ones((size, lanes))
+    rows = programs.floor.shape[1]
+    size, lanes = packed.shape
     state = views(packed, webs, cones, rows)
-    barrier, costs, sigma, wanted = np.zeros(lanes), np.zeros(lanes), np.zeros(lanes), np.zeros(lanes)
-    reached, tolerance, middle, steps = np.zeros(lanes), np.zeros(lanes), np.zeros(lanes), np.zeros(lanes)
-    stalled = np.zeros(lanes)
-    # 1 or 0: the lane has to take a program, its state is the best so far, its last step was short
-    done, better, cautious = np.ones(lanes), np.zeros(lanes), np.zeros(lanes)
-    program = np.zeros(lanes, np.int64) - 1
+    program, done, better, cautious = course.program, course.done, course.better, course.cautious
+    barrier, costs, sigma, wanted = course.barrier, course.costs, course.sigma, course.wanted
+    reached, tolerance, middle, steps = course.reached, course.tolerance, course.middle, course.steps
+    stalled = course.stalled
+    for t in range(lanes):
+        program[t], done[t] = -1, 1.0
     waiting, solved = 0, 0
     while True:
         for t in range(lanes):
@@ -201,8 +182,9 @@ def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
                 solved += 1
                 program[t] = -1
             if program[t] < 0 and waiting < number:
-                program[t] = n = waiting
+                program[t] = waiting
                 waiting += 1
+                n = program[t]
                 load(programs, task, n, one, t)
                 if least_mass:
                     _to_lane(task.way[n], packed, t)
@@ -278,8 +260,9 @@ def run(least_mass, programs, task):  # type: ignore[no-untyped-def]
         take_step(one, state, work)
 
 
-@kernel
-def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
+def solve(
+    programs: Programs, least_mass: bool, share: Real, tolerance: Real, mass_tolerance: float
+) -> tuple[Real, Real, Real, Real]:
     """Both stages of N programs.
 
     Parameters
@@ -296,26 +279,16 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
     and for the second stage; and the unit of mass of the second stage (N,), which is that of the first answer.
     """
     number, cones, webs = programs.influence.shape
-    rows = programs.floor.shape[1]
+    rows, terms = programs.floor.shape[1], programs.row.size
     v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, cones, 2))
     prices, mass_unit = np.zeros((2, number, rows)), np.ones(number)
-    size = state_size(webs, cones, rows)
-    for begin in range(0, number, _BLOCK):
-        end = min(begin + _BLOCK, number)
+    size, lanes = state_size(webs, cones, rows), min(_LANES, number)
+    one, course = new_lanes(programs.row, webs, cones, rows, lanes), new_course(lanes)
+    packed, best, work = np.ones((size, lanes)), np.ones((size, lanes)), new_work(webs, cones, terms, rows, lanes)
+    for begin in range(0, number, BLOCK):
+        end = min(begin + BLOCK, number)
         count = end - begin
-        block = Programs(
-            programs.row,
-            programs.floor[begin:end],
-            programs.cap[begin:end],
-            programs.constant[begin:end],
-            programs.influence[begin:end],
-            programs.centre[begin:end],
-            programs.sine[begin:end],
-            programs.cosine[begin:end],
-            programs.sector[begin:end],
-            programs.mass[begin:end],
-            programs.budget[begin:end],
-        )
+        block = Programs(programs.row, *(each[begin:end] for each in programs[1:]))
         task = Task(
             np.zeros(count),
             np.zeros((count, webs)),
@@ -330,18 +303,18 @@ def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: igno
                 _aim(block, task, share[begin:end], mass_unit[begin:end])
                 task.tolerance[:] = mass_tolerance
                 task.middle[:] = 0.0
-            run(stage > 0, block, task)
-            _keep(task, v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
+            run(stage > 0, block, task, one, course, packed, best, work)
+            _keep(task.best, v[stage, begin:end], p[stage, begin:end], prices[stage, begin:end])
     return v, p, prices, mass_unit
 
 
-@kernel
+@in_place
 def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
     """The unit of mass and the largest value of the second stage, from what the first one found."""
     number, cones, webs = programs.influence.shape
     rows, terms = programs.floor.shape[1], programs.row.size
     for n in range(number):
-        best = views(task.best[n].copy().reshape((-1, 1)), webs, cones, rows)
+        best = views(task.best[n].reshape((-1, 1)), webs, cones, rows)
         total = 0.0
         for k in range(webs):
             total += programs.mass[n, k] * np.sqrt(best.s[1, k] ** 2 + best.s[2, k] ** 2)
@@ -356,19 +329,16 @@ def _aim(programs, task, share, mass_unit):  # type: ignore[no-untyped-def]
                     value += np.sqrt(best.s[1, webs + i] ** 2 + best.s[2, webs + i] ** 2)
             target = max(target, value)
         # what the first stage leaves open is kept back, so that the lightest is an optimum for certain
-        task.target[n] = target + share[n] * (1.0 - _KEPT_BACK) - _OPEN * task.reached[n]
+        task.target[n] = target + share[n] * (1.0 - KEPT_BACK) - OPEN * task.reached[n]
 
 
-@kernel
-def _keep(task, v, p, price):  # type: ignore[no-untyped-def]
-    number, cones = p.shape[:2]
-    webs, rows = v.shape[2], price.shape[1]
-    for n in range(number):
-        best = views(task.best[n].copy().reshape((-1, 1)), webs, cones, rows)
-        for c in range(3):
-            for k in range(webs):
-                v[n, c, k] = best.v[c, k]
-        for i in range(cones):
-            p[n, i, 0], p[n, i, 1] = -best.z[1, webs + i], -best.z[2, webs + i]
-        for r in range(rows):
-            price[n, r] = best.z_rho[r, 0]
+def _keep(best: Real, v: Real, p: Real, price: Real) -> None:
+    """Points of the webs (N, 3, K), multipliers of the cones (N, Q, 2) and of the rows (N, R)."""
+    webs, cones, rows = v.shape[2], p.shape[1], price.shape[1]
+    every = webs + cones
+    v[:] = best[:, : 3 * webs].reshape(v.shape)
+    at_z = 9 * webs + 3 * every
+    z = best[:, at_z : at_z + 3 * every].reshape((-1, 3, every))
+    p[:] = -z[:, 1:, webs:].swapaxes(1, 2)
+    at_price = at_z + 3 * every + rows
+    price[:] = best[:, at_price : at_price + rows]

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.program.kernel.compiling import kernel
+from optimizer.program.kernel.compiling import inner
 
 
 class Lanes(NamedTuple):
@@ -41,6 +41,24 @@ class State(NamedTuple):
     rho: Real  # (R, L) slack of the rows
     z_rho: Real  # (R, L)
     rest: Real  # (3, L) slack of the budget, its multiplier, and the level above all rows
+
+
+class Course(NamedTuple):
+    """What is kept of the program in each lane (L,)."""
+
+    program: np.ndarray  # its number; -1 for none
+    done: Real  # 1 where the lane has to take a program, else 0
+    better: Real  # 1 where its state is the best so far
+    cautious: Real  # 1 where its last step was short
+    barrier: Real  # number of products of slack and multiplier
+    costs: Real  # largest cost of a web
+    sigma: Real  # share of the gap that a step aims at
+    wanted: Real  # 1 where a step has a second-order part
+    reached: Real  # smallest gap and residual
+    tolerance: Real
+    middle: Real
+    steps: Real
+    stalled: Real  # steps since it became clearly smaller
 
 
 class Work(NamedTuple):
@@ -87,8 +105,29 @@ class Work(NamedTuple):
     always: Real  # (L,) 1: limits that are there without any web
 
 
-@kernel
-def new_work(webs, cones, terms, rows, lanes):  # type: ignore[no-untyped-def]
+def new_lanes(row: np.ndarray, webs: int, cones: int, rows: int, lanes: int) -> Lanes:
+    kl = webs * lanes
+    return Lanes(
+        row,
+        np.zeros((rows, lanes)),
+        np.zeros((cones - row.size, lanes)),
+        np.zeros((2, cones * lanes)),
+        np.zeros((cones, kl)),
+        np.zeros((2, kl)),
+        np.zeros(kl),
+        np.zeros(kl),
+        np.zeros((3, kl)),
+        np.zeros(kl),
+        np.zeros(kl),
+        np.zeros(lanes),
+    )
+
+
+def new_course(lanes: int) -> Course:
+    return Course(np.zeros(lanes, np.int64), *(np.zeros(lanes) for _ in range(12)))
+
+
+def new_work(webs: int, cones: int, terms: int, rows: int, lanes: int) -> Work:
     kl, ql, cl = webs * lanes, cones * lanes, (webs + cones) * lanes
     # unknowns: (y_x, y_y) of terms, rows, (mu, y_x, y_y) of ceilings, budget
     n = 2 * terms + rows + 3 * (cones - terms) + 1
@@ -138,12 +177,11 @@ def new_work(webs, cones, terms, rows, lanes):  # type: ignore[no-untyped-def]
     )
 
 
-@kernel
-def state_size(webs, cones, rows):  # type: ignore[no-untyped-def]
+def state_size(webs: int, cones: int, rows: int) -> int:
     return 15 * webs + 6 * cones + 2 * rows + 3
 
 
-@kernel
+@inner
 def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
     """A packed state (S, L) as its parts."""
     lanes, every = packed.shape[1], webs + cones
@@ -161,7 +199,7 @@ def views(packed, webs, cones, rows):  # type: ignore[no-untyped-def]
     )
 
 
-@kernel
+@inner
 def spread(values, every):  # type: ignore[no-untyped-def]
     """The same values (L,) for every web or cone."""
     lanes = values.size
@@ -170,7 +208,7 @@ def spread(values, every):  # type: ignore[no-untyped-def]
             every[k * lanes + t] = values[t]
 
 
-@kernel
+@inner
 def add_products(one, other, total):  # type: ignore[no-untyped-def]
     lanes = total.size
     for k in range(one.size // lanes):
@@ -178,7 +216,7 @@ def add_products(one, other, total):  # type: ignore[no-untyped-def]
             total[t] += one[k * lanes + t] * other[k * lanes + t]
 
 
-@kernel
+@inner
 def raise_to_size(values, largest):  # type: ignore[no-untyped-def]
     lanes = largest.size
     for k in range(values.size // lanes):
@@ -186,7 +224,7 @@ def raise_to_size(values, largest):  # type: ignore[no-untyped-def]
             largest[t] = max(largest[t], abs(values[k * lanes + t]))
 
 
-@kernel
+@inner
 def lower(values, lowest):  # type: ignore[no-untyped-def]
     lanes = lowest.size
     for k in range(values.size // lanes):
@@ -194,13 +232,13 @@ def lower(values, lowest):  # type: ignore[no-untyped-def]
             lowest[t] = min(lowest[t], values[k * lanes + t])
 
 
-@kernel
+@inner
 def move(step, change, value):  # type: ignore[no-untyped-def]
     for k in range(value.size):
         value[k] += step[k] * change[k]
 
 
-@kernel
+@inner
 def product(wanted, one, other, found):  # type: ignore[no-untyped-def]
     for k in range(found.size):
         found[k] = wanted[k] * one[k] * other[k]

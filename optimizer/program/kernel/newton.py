@@ -12,7 +12,7 @@ of the half-angle. A multiplier has the name of its slack with a z, a step that 
 Sizes: L lanes, K webs, Q cones of the peaks (J terms, then ceilings), C = K + Q, R rows, n unknowns that are factored.
 """
 
-from optimizer.program.kernel.compiling import kernel
+from optimizer.program.kernel.compiling import inner
 from optimizer.program.kernel.cones import (
     cholesky,
     cone_steps,
@@ -38,7 +38,7 @@ from optimizer.program.kernel.webs import (
 )
 
 
-@kernel
+@inner
 def residuals(least_mass, one, state, work):  # type: ignore[no-untyped-def]
     """Residuals of the conditions of optimality, their sizes, and the gap, which is the sum of the products."""
     rows, lanes = one.floor.shape
@@ -83,7 +83,7 @@ def residuals(least_mass, one, state, work):  # type: ignore[no-untyped-def]
         add_products(state.rho[r], state.z_rho[r], work.gap)
 
 
-@kernel
+@inner
 def _add_cone(first, at, eta, w0, w1, w2, m):  # type: ignore[no-untyped-def]
     """The block of a cone of a peak, eta^2 (2 w w' - J), with its size at ``first`` and its vector at ``at``."""
     lanes = eta.size
@@ -102,7 +102,7 @@ def _add_cone(first, at, eta, w0, w1, w2, m):  # type: ignore[no-untyped-def]
         m[low_y, high_y, t] += 2.0 * e2 * w0[t] * w2[t]
 
 
-@kernel
+@inner
 def _add_influence(influence, xx, xy, yy, where, m):  # type: ignore[no-untyped-def]
     """H T H', where T are the inverse blocks of the webs, to the block of the peaks."""
     cones, every = influence.shape
@@ -121,7 +121,7 @@ def _add_influence(influence, xx, xy, yy, where, m):  # type: ignore[no-untyped-
                         m[a, b + 1, t] += influence[i, k + t] * influence[j, k + t] * xy[k + t]
 
 
-@kernel
+@inner
 def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
     """The matrix of the step, factored; and the solution for a level that rises by one."""
     rows, lanes = one.floor.shape
@@ -167,13 +167,13 @@ def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
                 border_sum[t] += border[at_row + r, t]
 
 
-@kernel
+@inner
 def first_order(work):  # type: ignore[no-untyped-def]
     """No second-order parts: set, not multiplied away, for a lane may hold what the program before it left."""
     work.d[:], work.cq[:], work.c_rho[:], work.c_rest[:] = 0.0, 0.0, 0.0, 0.0
 
 
-@kernel
+@inner
 def second_order(wanted, work):  # type: ignore[no-untyped-def]
     """What the products miss in the direction found last where ``wanted`` (L,) is 1; nothing where it is 0."""
     spread(wanted, work.each)
@@ -185,13 +185,13 @@ def second_order(wanted, work):  # type: ignore[no-untyped-def]
     product(wanted, work.d_rest[0], work.d_rest[1], work.c_rest[0])
 
 
-@kernel
+@inner
 def _add_targets(ws, rp, keep, right):  # type: ignore[no-untyped-def]
     for t in range(keep.size):
         right[t] += ws[t] + keep[t] * rp[t]
 
 
-@kernel
+@inner
 def _size_of_terms(begin, terms_end, w, eta, f, dz, ds):  # type: ignore[no-untyped-def]
     """Steps of the sizes of the terms, from dZ = f - W^-2 dS."""
     for j in range(begin, terms_end):
@@ -200,7 +200,7 @@ def _size_of_terms(begin, terms_end, w, eta, f, dz, ds):  # type: ignore[no-unty
         ds[0, j] = (eta[j] * eta[j] * (f[0, j] - dz[0, j]) + along) / (2.0 * w0 * w0 - 1.0)
 
 
-@kernel
+@inner
 def _solve(least_mass, one, work):  # type: ignore[no-untyped-def]
     """The steps of the multipliers of the peaks, the rows and the budget, and of the level."""
     right, d_level = work.right, work.d_rest[2]
@@ -224,7 +224,7 @@ def _solve(least_mass, one, work):  # type: ignore[no-untyped-def]
         work.d_rest[1, t] = -right[right.shape[0] - 1, t]
 
 
-@kernel
+@inner
 def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
     """The step towards products ``nu`` that removes the share ``keep`` of the residuals."""
     rows, lanes = one.floor.shape
@@ -309,7 +309,7 @@ def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
             work.d_rho[one.row[i], t] -= ds[0, at_cones + i * lanes + t]
 
 
-@kernel
+@inner
 def _until_zero(present, value, change, step):  # type: ignore[no-untyped-def]
     """Steps at which values reach 0 (n,)."""
     for k in range(value.size):
@@ -317,7 +317,7 @@ def _until_zero(present, value, change, step):  # type: ignore[no-untyped-def]
         step[k] = reached if (change[k] < 0.0) & (present[k] > 0.0) else 1e300
 
 
-@kernel
+@inner
 def longest_step(one, state, work, longest):  # type: ignore[no-untyped-def]
     """The longest step in the direction that stays inside, at most ``longest``, into ``work.step``."""
     step, each = work.step, work.each
@@ -344,7 +344,7 @@ def longest_step(one, state, work, longest):  # type: ignore[no-untyped-def]
         lower(lane, step)
 
 
-@kernel
+@inner
 def take_step(one, state, work):  # type: ignore[no-untyped-def]
     """Add the direction times ``work.step``."""
     step, each = work.step, work.each

@@ -21,7 +21,7 @@ def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
     turn = 2.0 * np.pi
     worst = np.empty(number)
     start, level = np.empty(3 * webs), np.empty(3 * webs)
-    turned = np.empty(3 * webs, np.complex128)
+    turned, order = np.empty(3 * webs, np.complex128), np.empty(3 * webs, np.int64)
     to_ahead, to_behind = np.exp(1j * angle), np.exp(-1j * angle)
     for m in range(number):
         vector, flat = fixed[m], 0.0
@@ -39,7 +39,13 @@ def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
                 vector += ahead if off > 0.0 else behind
         for event in range(3 * webs):
             start[event] = (start[event] + np.pi) % turn - np.pi
-        order = np.argsort(start)
+        for event in range(3 * webs):
+            # few, and a sort of numpy's takes longer to compile than all else
+            at = event
+            while at > 0 and start[order[at - 1]] > start[event]:
+                order[at] = order[at - 1]
+                at -= 1
+            order[at] = event
         worst[m], begin = -np.inf, -np.pi
         for at in range(3 * webs + 1):
             end = start[order[at]] if at < 3 * webs else np.pi

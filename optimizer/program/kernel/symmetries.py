@@ -5,7 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.kernel.compiling import kernel
+from optimizer.program.kernel.compiling import inner, kernel
 
 #: data that agree this closely, relative, are the same
 _SAME = 1e-12
@@ -41,7 +41,9 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
     relative, level = np.empty((terms, webs)), np.empty(terms)
     alike, image = np.empty((webs, webs), np.bool_), np.empty((webs, webs), np.bool_)
     own, counts, moved = np.empty(webs), np.empty(terms, np.bool_), np.empty(webs, np.complex128)
-    ones = np.ones(terms)
+    ones = np.empty(terms)
+    for q in range(terms):
+        ones[q] = 1.0
     for n in range(number):
         _scaled(influence[n], relative, level)
         _same_limits(limits, kinds, n, alike)
@@ -78,11 +80,12 @@ def means(constant, influence, limits, kinds, u):  # type: ignore[no-untyped-def
                     found[n, k] = moved[k] if symmetry == 0 else 0.5 * (found[n, k] + moved[k])
                     changed = changed or found[n, k] != u[n, k]
         if changed and _worse(constant[n], influence[n], limits.radius[n], u[n], found[n]):
-            found[n] = u[n]
+            for k in range(webs):
+                found[n, k] = u[n, k]
     return found
 
 
-@kernel
+@inner
 def _scaled(influence, relative, level):  # type: ignore[no-untyped-def]
     """Influences (Q, K) in units of the largest of their term; -1 where they depend on the place of the web, else 1."""
     terms, webs = influence.shape
@@ -99,12 +102,12 @@ def _scaled(influence, relative, level):  # type: ignore[no-untyped-def]
                 level[q] = -1.0
 
 
-@kernel
+@inner
 def _close(one, other):  # type: ignore[no-untyped-def]
     return one == other or abs(one - other) <= _SAME * abs(one)
 
 
-@kernel
+@inner
 def _same_limits(limits, kinds, n, alike):  # type: ignore[no-untyped-def]
     """Which webs of program n have one radius, one largest mass and are of one kind."""
     webs = kinds.size
@@ -117,7 +120,7 @@ def _same_limits(limits, kinds, n, alike):  # type: ignore[no-untyped-def]
             )
 
 
-@kernel
+@inner
 def _partners(relative, signs, alike):  # type: ignore[no-untyped-def]
     """How many webs have the influences of a web with these signs, itself among them, at least and at most."""
     terms, webs = relative.shape
@@ -137,7 +140,7 @@ def _partners(relative, signs, alike):  # type: ignore[no-untyped-def]
     return least, most
 
 
-@kernel
+@inner
 def _images(relative, signs, limits, n, turn, mirrored, alike, image):  # type: ignore[no-untyped-def]
     """Which webs k may take what another has, turned or mirrored, and have its influences with these signs."""
     terms, webs = relative.shape
@@ -154,7 +157,7 @@ def _images(relative, signs, limits, n, turn, mirrored, alike, image):  # type: 
             image[k, other] = same
 
 
-@kernel
+@inner
 def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
     """The turn that makes of every constant (Q,), times its sign, or of its mirror image, itself; and if there is one.
 
@@ -176,7 +179,7 @@ def _turn(constant, counts, signs, mirrored):  # type: ignore[no-untyped-def]
     return turn, known
 
 
-@kernel
+@inner
 def _size(constant, influence, u):  # type: ignore[no-untyped-def]
     """Size of a term c + H u."""
     vector = 0.0j
@@ -185,7 +188,7 @@ def _size(constant, influence, u):  # type: ignore[no-untyped-def]
     return abs(constant + vector)
 
 
-@kernel
+@inner
 def _done(influence, u):  # type: ignore[no-untyped-def]
     """What counterweights do to a term, one by one."""
     done = 0.0
@@ -194,7 +197,7 @@ def _done(influence, u):  # type: ignore[no-untyped-def]
     return done
 
 
-@kernel
+@inner
 def _worse(constant, influence, radius, u, found):  # type: ignore[no-untyped-def]
     """Whether a term is larger than it was, or the mass, by more than rounding."""
     for q in range(constant.size):

@@ -4,10 +4,10 @@ Their blocks are inverted as sums of squares, without cancellation. Arrays are (
 those of the peaks (..., Q L). Notation as in :mod:`optimizer.program.kernel.newton`.
 """
 
-from optimizer.program.kernel.compiling import kernel
+from optimizer.program.kernel.compiling import inner
 
 
-@kernel
+@inner
 def peaks_of(influence, u, a):  # type: ignore[no-untyped-def]
     """Add the vectors sum_k H_ik u_k of the peaks (2, Q L) to a."""
     cones, every = influence.shape
@@ -20,7 +20,7 @@ def peaks_of(influence, u, a):  # type: ignore[no-untyped-def]
                 a[1, i * lanes + t] += influence[i, k + t] * u[1, k + t]
 
 
-@kernel
+@inner
 def webs_of(influence, y, u):  # type: ignore[no-untyped-def]
     """The vectors sum_i H_ik y_i of the webs (2, K L)."""
     cones, every = influence.shape
@@ -34,7 +34,7 @@ def webs_of(influence, y, u):  # type: ignore[no-untyped-def]
                 u[1, k + t] += influence[i, k + t] * y[1, i * lanes + t]
 
 
-@kernel
+@inner
 def turned(e, sine, centre, u):  # type: ignore[no-untyped-def]
     """Unbalances along and across the sectors (e, 3 rows, the first of which is left out) in the frame, (2, K L)."""
     for k in range(sine.size):
@@ -43,7 +43,7 @@ def turned(e, sine, centre, u):  # type: ignore[no-untyped-def]
         u[1, k] = centre[1, k] * along + centre[0, k] * across
 
 
-@kernel
+@inner
 def web_residuals(zb, mass, budget, sine, cosine, centre, p, z, zq, rd):  # type: ignore[no-untyped-def]
     for k in range(sine.size):
         rd[0, k] = mass[k] - z[0, k] + zq[0, k] + budget[k] * zb[k]
@@ -54,7 +54,7 @@ def web_residuals(zb, mass, budget, sine, cosine, centre, p, z, zq, rd):  # type
         rd[2, k] = -sine[k] * across + cosine[k] * (zq[1, k] - zq[2, k])
 
 
-@kernel
+@inner
 def eliminate_webs(w, eta, q, zq, sector, sine, cosine, centre, block):  # type: ignore[no-untyped-def]
     """Inverse of every web's 3 x 3 block, as sums of squares; all arrays (..., K L).
 
@@ -98,7 +98,7 @@ def eliminate_webs(w, eta, q, zq, sector, sine, cosine, centre, block):  # type:
         block[8, k] = ci * ci * t11 + 2.0 * cr * ci * t12 + cr * cr * t22
 
 
-@kernel
+@inner
 def web_steps(block, cosine, e, edges):  # type: ignore[no-untyped-def]
     """Right sides e (3, K L) into steps (x, a, b), and the changes a -+ c b of the slacks at the edges (2, K L).
 
@@ -117,13 +117,13 @@ def web_steps(block, cosine, e, edges):  # type: ignore[no-untyped-def]
         edges[1, k] = first + c * second + 2.0 * c * p
 
 
-@kernel
+@inner
 def web_targets(nu, present, c, q, zq, fq):  # type: ignore[no-untyped-def]
     for k in range(q.size):
         fq[k] = (present[k] * nu[k] - c[k]) / q[k] - zq[k]
 
 
-@kernel
+@inner
 def web_right_sides(keep, rd, f, fq, sine, cosine, e):  # type: ignore[no-untyped-def]
     for k in range(sine.size):
         e[0, k] = -keep[k] * rd[0, k] + f[0, k] - fq[0, k]
@@ -132,7 +132,7 @@ def web_right_sides(keep, rd, f, fq, sine, cosine, e):  # type: ignore[no-untype
         e[2, k] = -keep[k] * rd[2, k] + sine[k] * f[2, k] - cosine[k] * (fq[1, k] - fq[2, k])
 
 
-@kernel
+@inner
 def with_peaks(dzb, budget, sine, centre, p, e):  # type: ignore[no-untyped-def]
     """What the multipliers of the peaks (p, turned to the webs) and of the budget add to the right sides."""
     for k in range(sine.size):
@@ -141,7 +141,7 @@ def with_peaks(dzb, budget, sine, centre, p, e):  # type: ignore[no-untyped-def]
         e[2, k] += sine[k] * (centre[0, k] * p[1, k] - centre[1, k] * p[0, k])
 
 
-@kernel
+@inner
 def web_slacks(e, edges, sine, ds, dq):  # type: ignore[no-untyped-def]
     for k in range(sine.size):
         ds[0, k], ds[1, k], ds[2, k] = e[0, k], e[1, k], sine[k] * e[2, k]
@@ -149,7 +149,7 @@ def web_slacks(e, edges, sine, ds, dq):  # type: ignore[no-untyped-def]
         dq[0, k], dq[1, k], dq[2, k] = -e[0, k], edges[0, k], edges[1, k]
 
 
-@kernel
+@inner
 def web_multipliers(fq, zq, q, dq, dzq):  # type: ignore[no-untyped-def]
     for k in range(q.size):
         dzq[k] = fq[k] - zq[k] / q[k] * dq[k]
