@@ -111,9 +111,9 @@ def weigh(console: Console) -> None:
         f"{read / 1e3:.0f} kB read; schemas of the form: {len(gzip.compress(schemas.content)) / 1e3:.0f} kB"
     )
     console.print(
-        f"plots, loaded when the first one is drawn: {len(gzip.compress(plots.content)) / 1e3:.0f} kB", end=", "
+        f"plots, loaded when the first one is drawn: {len(gzip.compress(plots.content)) / 1e3:.0f} kB, "
+        f"{len(plots.content) / 1e3:.0f} kB read"
     )
-    console.print(f"{len(plots.content) / 1e3:.0f} kB read")
 
 
 def visits(console: Console, browser: Browser, url: str) -> None:

@@ -45,7 +45,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     "cone programs": ("optimizer.program.cut_stage:solved",),
     "series of the rows": ("optimizer.mechanics.kernel.rows:row_series",),
     "brackets": ("optimizer.pieces:_bracketed",),
-    "smallest circles": ("optimizer.figures.bearings:floors", "optimizer.program.cut:smallest_circle"),
+    "smallest circles": ("optimizer.figures.bearings:floors", "optimizer.program.cut_samples:smallest_circle"),
     "rest of the proofs": ("optimizer.optimize:certified_turn",),
     "figures, warnings": ("optimizer.optimize:answered",),
 }
