@@ -11,6 +11,7 @@ from optimizer.discrete.branch import branch
 from optimizer.discrete.exchange import neighbourhoods, start
 from optimizer.discrete.halves import exhaust
 from optimizer.discrete.options import EQUAL, Incumbent, Options
+from optimizer.discrete.quarters import quarters
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.statement import Statement
 
@@ -19,7 +20,7 @@ TREE = "branch and bound"
 #: sums of a half, and pairs of them, that are searched outright
 _SUMS, _PAIRS = 300_000, 3_000_000
 #: how long neighbourhoods are tried before a tree, and the nodes of that: what it does not close is searched better
-_SEARCHES = ((1, 1_200.0), (6, np.inf))
+_SEARCHES = ((1, 1), (0, 1_200.0), (6, np.inf))
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,7 @@ def search(
     if exhaust(options, every, incumbent, _SUMS, _PAIRS, spent):
         return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
-    nodes = 0
+    nodes, floor = 0, at_least
 
     def enough() -> bool:
         return incumbent.least - at_least <= gap
@@ -87,6 +88,9 @@ def search(
         neighbourhoods(incumbent, relaxed, patience, enough, halfway)
         tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent, most_nodes)
         nodes, at_least = nodes + tree.nodes, max(at_least, tree.lower_bound)
+        if tree.nodes == 1 and tree.lower_bound <= floor + gap:
+            # the options reach what no masses undercut, and no tree tells more
+            quarters(incumbent, enough, halfway)
         bound = min(at_least, incumbent.least)
         closed = incumbent.least - bound <= max(gap, 0.0)
         if closed or spent():

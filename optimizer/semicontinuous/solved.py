@@ -16,6 +16,9 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, interior_point
 from optimizer.program.statement import Statement
 
+#: of an objective at rest: any closer takes a cone program many attempts, and bounds are made of multipliers anyway
+_CLOSE = 1e-7
+
 
 class Solved(NamedTuple):
     """What is found of N programs."""
@@ -43,7 +46,8 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
     for n in range(len(points)):
         one = program.chosen(n)
         one = replace(one, limits=replace(one.limits, alike=alike))
-        asked = Asked(float(share[n]), float(max(gap[n], share[n])), least_mass)
+        near = max(float(share[n]), _CLOSE * float(one.at_rest))
+        asked = Asked(near, max(float(gap[n]), near), least_mass)
         answer = cascade(one, asked, solver, interior_point(one, asked))
         if isinstance(answer, Unreachable):
             points[n], nowhere[n] = answer.closest, answer.excess > CEILING_TOLERANCE
