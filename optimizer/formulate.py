@@ -4,8 +4,9 @@ The only place that translates the fields of the contract that name responses; e
 Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Literal, NamedTuple
 
 import numpy as np
@@ -75,12 +76,16 @@ class Weighable:
     limit: MachineLimit  # what a touched ceiling is called
     components: tuple[Component, ...] = ()  # that have ceilings of their own
 
-    @property
-    def limits(self) -> Iterator[Ceiling]:
+    @cached_property
+    def limits(self) -> tuple[Ceiling, ...]:
         """Its ceilings, that of the whole vector first."""
-        yield Ceiling(self.name, self.unit, self.ceiling, self.ceiling_field, self.limit)
-        for axis, ceiling, field, limit in self.components:
-            yield Ceiling(f"{self.name}:{axis}", self.unit, ceiling, field, limit, axis)
+        return (
+            Ceiling(self.name, self.unit, self.ceiling, self.ceiling_field, self.limit),
+            *(
+                Ceiling(f"{self.name}:{axis}", self.unit, ceiling, field, limit, axis)
+                for axis, ceiling, field, limit in self.components
+            ),
+        )
 
 
 FORCE = Weighable(
@@ -135,7 +140,6 @@ def with_weights_of(machine: Machine, objective: Objective) -> Objective:
     return objective.model_copy(update={"moment_weight": float(MOMENT.weight(machine, objective))})
 
 
-@remembered
 def given_ceilings(objective: Objective) -> list[tuple[Ceiling, float]]:
     """Hard limits on the peaks that an objective gives, with the largest peaks allowed: N and N m."""
     all_of = ((each, each.allowed(objective)) for response in RESPONSES.values() for each in response.limits)
