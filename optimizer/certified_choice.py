@@ -14,13 +14,15 @@ from optimizer.balance_shafts import chosen
 from optimizer.certified_discrete import certified_discrete
 from optimizer.certified_fitted import certified_fitted, fitted_search
 from optimizer.certified_robust import certified_robust, with_worst_case
-from optimizer.certified_turn import CertifiedTurn, told, unreachable
+from optimizer.certified_turn import told
 from optimizer.discrete.search import search
 from optimizer.goals import Goals
 from optimizer.mechanics.layout import stacked
+from optimizer.out_of_reach import unreachable
 from optimizer.program.cuts import Found, Unkept
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
+from optimizer.proven_turn import CertifiedTurn
 from optimizer.robust import Robust
 from optimizer.scene import Prepared
 from optimizer.searched import Found as Searched

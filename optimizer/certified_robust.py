@@ -6,14 +6,16 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.certified_turn import CertifiedTurn, fitted, out_of_reach
+from optimizer.certified_turn import fitted
 from optimizer.curve import TurnResponse
 from optimizer.formulate import RESPONSES
 from optimizer.goals import Goals, bearing_responses, goals
 from optimizer.mechanics.shaft_curves import shaking
+from optimizer.out_of_reach import out_of_reach
 from optimizer.program.brackets import Brackets
 from optimizer.program.cut import Quantity
 from optimizer.program.cuts import Found, Unkept, over_turn
+from optimizer.proven_turn import CertifiedTurn
 from optimizer.robust import Machine, Measure, Robust
 from optimizer.scene import Prepared
 from schemas.answers import Certificate

@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.certified_turn import CertifiedTurn, certified_turn
+from optimizer.certified_turn import certified_turn
 from optimizer.outputs import prepare
 from optimizer.program.cuts import METHOD
+from optimizer.proven_turn import CertifiedTurn
 from schemas.answers import Certificate, GoalReached
 from schemas.infeasibility import Infeasibility
 from schemas.proof import DesignMultipliers
@@ -24,7 +25,9 @@ def optimal_over_turn(requests: Sequence[OptimizeRequest], multipliers: bool) ->
     requests : of one machine with other numbers; none lacks what its objective needs.
     multipliers : whether the proofs are wanted, as text.
     """
-    found = [certified_turn(one, prepare(one.model_copy(update={"outputs": ("residual",)}))) for one in requests]
+    alone = [prepare(one.model_copy(update={"outputs": ("residual",)})) for one in requests]
+    # a row has no column for prices and sensitivities
+    found = [certified_turn(one, scene, in_full=False) for one, scene in zip(requests, alone, strict=True)]
     rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
