@@ -26,4 +26,8 @@ WITHIN = (
     Attempt(1e-10, 20.0, True, 1e-8),
     Attempt(1e-12, 1.0, True, 1e-8),
     Attempt(1e-8, 50.0, True, 1e-8),
+    # goals so steep in one another that what is kept back leaves no room; the second time by what the first missed
+    Attempt(1e-10, 0.1, True, 1e-8),
+    Attempt(1e-10, 0.1, True, 1e-8),
+    Attempt(1e-10, 0.1, True, 1e-8),
 )
