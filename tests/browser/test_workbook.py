@@ -33,6 +33,23 @@ def test_a_workbook_is_optimised_and_comes_back_with_its_answer(portal: Portal, 
     assert [round(float(str(row[column])), 6) for row in masses] == [round(mass, 6) for mass in expected]
 
 
+def test_what_is_worked_on_is_saved_as_a_workbook_that_is_taken_again(portal: Portal, tmp_path: Path) -> None:
+    portal.open("2d12")
+    portal.input("/machine/speed_rpm").fill("777")
+    portal.page.locator("#paste > summary").click()
+    with portal.page.expect_download() as saved:
+        portal.page.click("#save-workbook")
+    saved.value.save_as(tmp_path / "saved.xlsx")
+    with portal.page.expect_download() as answered:
+        portal.page.set_input_files("#workbook", tmp_path / "saved.xlsx")
+    answered.value.save_as(tmp_path / "answered.xlsx")
+    books = [openpyxl.load_workbook(tmp_path / name) for name in ("saved.xlsx", "answered.xlsx")]
+    for book in books:
+        assert 777 in [cell for row in book["machine"].iter_rows(values_only=True) for cell in row]
+    counterweights = [list(book["counterweights"].iter_rows(values_only=True)) for book in books]
+    assert counterweights[0] == counterweights[1]
+
+
 def test_what_is_wrong_is_named_by_its_cell(portal: Portal, tmp_path: Path) -> None:
     portal.refusals = {422}
     portal.open("2d12")

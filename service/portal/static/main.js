@@ -130,7 +130,7 @@ function listen() {
     if (file) opening.text(byId("json").value = await file.text());
     event.target.value = "";
   });
-  workbooks(() => work.example);
+  workbooks(work);
   byId("new").addEventListener("click", () => starter((request, example = null) => take(request, example)));
   byId("undo").addEventListener("click", undo);
   byId("redo").addEventListener("click", redo);

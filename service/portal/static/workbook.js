@@ -1,4 +1,4 @@
-// Workbooks: one to begin with, and one that is optimised and comes back with its answer.
+// Workbooks: one to begin with, the machine that is worked on, and one that is optimised and comes back with its answer.
 
 import { ask } from "./api.js";
 import { byId } from "./dom.js";
@@ -17,10 +17,12 @@ async function fetched(said, method, path, body) {
   }
 }
 
-/** @param {() => string | null} example what the template holds; null is the first */
-export function workbooks(example) {
+/** @param {{ example: string | null, request: any }} work the template holds its example; without one it is the first */
+export function workbooks(work) {
   const said = byId("json-error");
-  byId("template").addEventListener("click", () => fetched(said, "GET", `v1/template.xlsx?example=${encodeURIComponent(example() ?? "2d12")}`));
+  byId("template").addEventListener("click", () => fetched(said, "GET", `v1/template.xlsx?example=${encodeURIComponent(work.example || "2d12")}`));
+  // an answer stands in a workbook behind its request
+  byId("save-workbook").addEventListener("click", () => fetched(said, "POST", "v1/optimize", work.request));
   byId("workbook").addEventListener("change", async (event) => {
     const [file] = event.target.files;
     if (file) await fetched(said, "POST", "v1/optimize", new Blob([file], { type: XLSX }));
