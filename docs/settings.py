@@ -30,7 +30,7 @@ COMPOSE = """
 # image, if it is not built here
 #COUNTERWEIGHT_IMAGE=counterweight:latest
 # most memory and processors of a container
-#COUNTERWEIGHT_MEMORY=8g
+#COUNTERWEIGHT_MEMORY=9g
 #COUNTERWEIGHT_CPUS=2
 # processes of the dask worker
 #COUNTERWEIGHT_DASK_WORKERS=2

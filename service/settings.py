@@ -86,7 +86,7 @@ class _Work(BaseSettings):
     concurrent_solves: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
         ge=1,
-        description="computations at the same time, a process each; one more for a client that has none",
+        description="computations at the same time, a process each; two above them for clients that had little lately",
     )
     queue_length: int = Field(
         128, ge=0, description="requests that wait for a computation; further ones are answered 429"

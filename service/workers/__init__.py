@@ -3,7 +3,7 @@
 A computation runs in a process of its own (:mod:`~service.workers.worker`): it can be ended when its client is gone or
 its time is over, it cannot take more memory than it is given, and it never holds up the event loop. The pool
 (:mod:`~service.workers.pool`) lends processes to requests, in turns (:mod:`~service.workers.turns`) by what each owner
-has had (:mod:`~service.workers.accounts`). They are forked (:mod:`~service.workers.process`) from one that has loaded
-and compiled everything (:mod:`~service.workers.preload`), so a process that was ended is replaced in hundredths of a
-second.
+has had, altogether (:mod:`~service.workers.accounts`) and lately (:mod:`~service.workers.loads`). They are forked
+(:mod:`~service.workers.process`) from one that has loaded and compiled everything (:mod:`~service.workers.preload`), so
+a process that was ended is replaced in hundredths of a second.
 """

@@ -47,11 +47,10 @@ class Accounts:
         self._least_s = max(self._least_s, min((one.now(at) for one in self._here.values()), default=self._least_s))
         return self._least_s
 
-    def come(self, owner: str) -> bool:
-        """Have an owner here who was not; whether none of the others has had less."""
+    def come(self, owner: str) -> None:
+        """Have an owner here who was not."""
         least, before = self.least(), self._left.pop(owner, 0.0)
         self._here[owner] = _Account(max(before, least), 0, self._clock())
-        return before <= least
 
     def go(self, owner: str) -> None:
         """An owner wants no more."""

@@ -11,7 +11,7 @@ from typing import TypeVar
 from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
-from service.workers.turns import Full, Turns
+from service.workers.turns import ABOVE, Full, Turns
 from service.workers.worker import Answer, Crashed, Outcome, Task
 
 _LOG = logging.getLogger(__name__)
@@ -65,7 +65,7 @@ class Pool:
 
     Parameters
     ----------
-    size : computations at a time; one more where somebody has none.
+    size : computations at a time; two above them for owners who had little lately.
     waiting : requests that may wait for one.
     each : requests of one owner that may wait.
     timeout_s : for waiting and computing [s].
@@ -84,8 +84,8 @@ class Pool:
     def __post_init__(self) -> None:
         self._turns = Turns(self.size, self.waiting, self.each)
         # who has no turn while all have one is not to wait for a start
-        self._kept = self.size + 1
-        self._threads = CapacityLimiter(2 * (self.size + 1))
+        self._kept = self.size + ABOVE
+        self._threads = CapacityLimiter(2 * (self.size + ABOVE))
         self._idle: list[Worker] = []
         self._busy: set[Worker] = set()
         # of recent computations, for Retry-After [s]

@@ -7,9 +7,12 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 from service.workers.accounts import Accounts
+from service.workers.loads import Loads
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
+#: turns above the size, for who had little lately
+ABOVE = 2
 
 
 class Full(Exception):
@@ -20,17 +23,15 @@ class Full(Exception):
 class _Turn:
     """Asked for, waited for and had in an ``async with``.
 
-    light : its owner had nothing when it was asked for, and no more so far than anybody who had.
-    one_more : it is the one above the others.
+    above : it is one above the size.
     """
 
     turns: "Turns"
     owner: str
     long: bool
     decided: asyncio.Event = field(default_factory=asyncio.Event)
-    light: bool = False
     begun: bool = False
-    one_more: bool = False
+    above: bool = False
 
     async def __aenter__(self) -> None:
         try:
@@ -47,14 +48,14 @@ class _Turn:
 
 
 class Turns:
-    """So many turns at a time, and one more for an owner who comes with nothing and has had least.
+    """So many turns at a time, and two above them for owners who have none, and had little lately.
 
     Next is the owner who has had turns for the least time, each in the order in which it asked; but nobody waits for
     ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
     last place to one of whom fewer wait.
 
-    The one more is not for who has more waiting already: owners who ask without end would always have it, and whoever
-    asks for little would wait for one of them.
+    Little is at most half of what somebody had who has a turn, and for the second one no more than anybody had who has
+    one: else owners who ask without end would always have them, and whoever asks now and then would wait for one.
 
     Parameters
     ----------
@@ -71,10 +72,10 @@ class Turns:
         # those that take seconds never take every turn, if there are two at least
         self._most_long = max(1, size // 2)
         self._clock = clock
-        self._accounts = Accounts(clock)
+        self._accounts, self._loads = Accounts(clock), Loads(clock)
         self._running: Counter[str] = Counter()
         self._running_long = 0
-        self._one_more = False
+        self._above = 0
         # who began last is last
         self._waiting: OrderedDict[str, deque[_Turn]] = OrderedDict()
         # when they began to wait, or had a turn
@@ -106,8 +107,8 @@ class Turns:
             if not self._running[turn.owner]:
                 del self._running[turn.owner]
             self._running_long -= turn.long
-            self._one_more &= not turn.one_more
-            self._accounts.take(turn.owner, -1)
+            self._above -= turn.above
+            self._take(turn.owner, -1)
         else:
             self._leave(turn)
         if turn.owner in self._accounts and not self._running[turn.owner] and turn.owner not in self._waiting:
@@ -117,7 +118,8 @@ class Turns:
 
     def ask(self, turn: _Turn) -> None:
         """Have it begin, or wait for its decision."""
-        turn.light = turn.owner not in self._accounts and self._accounts.come(turn.owner)
+        if turn.owner not in self._accounts:
+            self._accounts.come(turn.owner)
         # whoever waits may not begin, so nobody is overtaken
         if self._may_begin(turn):
             self._begin(turn)
@@ -140,18 +142,28 @@ class Turns:
     def _may_begin(self, turn: _Turn) -> bool:
         if turn.long and self._running_long >= self._most_long:
             return False
-        return self._is_free() or (turn.light and not self._one_more and not self._running[turn.owner])
+        return self._is_free() or (self._above < ABOVE and self._had_little(turn.owner))
+
+    def _had_little(self, owner: str) -> bool:
+        if self._running[owner]:
+            return False
+        had, others = self._loads.of(owner), tuple(map(self._loads.of, self._running))
+        return had <= 0.5 * max(others) and (not self._above or had <= min(others))
 
     def _is_free(self) -> bool:
-        return self._running.total() - self._one_more < self._size
+        return self._running.total() - self._above < self._size
 
     def _begin(self, turn: _Turn) -> None:
-        turn.begun, turn.one_more = True, not self._is_free()
-        self._one_more |= turn.one_more
+        turn.begun, turn.above = True, not self._is_free()
+        self._above += turn.above
         self._running[turn.owner] += 1
         self._running_long += turn.long
-        self._accounts.take(turn.owner, 1)
+        self._take(turn.owner, 1)
         turn.decided.set()
+
+    def _take(self, owner: str, turns: int) -> None:
+        self._accounts.take(owner, turns)
+        self._loads.take(owner, turns)
 
     def _leave(self, turn: _Turn) -> None:
         place = self._waiting.get(turn.owner)
@@ -171,7 +183,7 @@ class Turns:
     def _ready(self) -> Iterator[_Turn]:
         # most often the turn that ended has been given to another: who cannot begin is not asked one by one
         free = self._is_free()
-        if self._one_more and not free:
+        if self._above >= ABOVE and not free:
             return
         patient_s = self._clock() - PATIENCE_S
 
@@ -179,4 +191,5 @@ class Turns:
             return min(self._since[owner], patient_s), self._accounts.had(owner)
 
         for owner in sorted(self._waiting, key=rank):
-            yield from (turn for turn in self._waiting[owner] if (free or turn.light) and self._may_begin(turn))
+            if free or self._had_little(owner):
+                yield from (turn for turn in self._waiting[owner] if self._may_begin(turn))

@@ -7,6 +7,7 @@ import pytest
 
 from service.app import create_app
 from service.settings import Settings
+from service.workers.turns import ABOVE
 from tests.deploy.files import instructions, manifests, settings_variables
 
 ALL = manifests()
@@ -115,8 +116,8 @@ def test_memory_processors_and_disk_are_limited() -> None:
 def test_memory_suffices_for_the_computations_that_it_allows() -> None:
     limit = int(CONTAINER["resources"]["limits"]["memory"].removesuffix("Gi")) * 2**30
     set_here = ALL["ConfigMap"]["data"]
-    # one more, for a client that has none; docs/operation.md: 300 MB for the service and for each sweep worker
-    solves = int(set_here["COUNTERWEIGHT_CONCURRENT_SOLVES"]) + 1
+    # two above them, for clients that had little lately; docs/operation.md: 300 MB for the service, each sweep worker
+    solves = int(set_here["COUNTERWEIGHT_CONCURRENT_SOLVES"]) + ABOVE
     others = int(set_here["COUNTERWEIGHT_SWEEP_WORKERS"]) + 1
     assert (solves * Settings().solve_memory_mb + others * 300) * 1_000_000 < limit
 

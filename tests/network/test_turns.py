@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.workers.turns import Full
+from service.workers.turns import ABOVE, Full
 from service.workers.turns import Turns as _Turns
 
 
@@ -82,7 +82,7 @@ def test_owners_take_turns() -> None:
     async def story(asked: Asked) -> None:
         for name in ("a1", "b1", "a2", "a3", "a4", "b2", "b3"):
             await asked.ask(name)
-        # b1 has the one more that is for an owner who has none
+        # b1 is above the size, as b has none
         assert asked.begun == ["a1", "b1"]
         await asked.end("a1", "b1", "a2", "b2", "a3", "b3")
         assert asked.begun[2:] == ["a2", "b2", "a3", "b3", "a4"]
@@ -97,7 +97,7 @@ def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> N
         await asked.ask("b0")
         assert asked.begun == ["a0", "a1", "b0"]
         await asked.ask("b1")
-        # the one more is taken
+        # b has one
         assert asked.begun == ["a0", "a1", "b0"]
         await asked.end("a0", after_s=1.0)
         # a has had twice as much
@@ -108,23 +108,26 @@ def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> N
     play(Turns(2, 20, 20), story)
 
 
-def test_owners_who_ask_without_end_leave_the_one_more_to_who_comes_with_nothing() -> None:
+def test_owners_who_ask_without_end_leave_two_to_who_asks_now_and_then() -> None:
     async def story(asked: Asked) -> None:
         for name in ("a0", "b0", "c0", "a1", "b1", "c1", "a2", "b2", "c2"):
             await asked.ask(name)
-        # c came with nothing
+        # nobody has had more than c
         assert asked.begun == ["a0", "b0", "c0"]
-        await asked.end("c0", after_s=0.1)
-        # c has none now, and has had no more than a and b; but it has more waiting, as they have
+        await asked.end("c0", after_s=10.0)
+        # c has none now, but has had as much as a and b
         assert asked.begun[3:] == []
-        for name in ("d0", "e0"):
+        for name in ("d0", "e0", "f0"):
             await asked.ask(name)
-        assert asked.begun[3:] == ["d0"]
+        assert asked.begun[3:] == ["d0", "e0"]
         await asked.end("d0", after_s=0.1)
-        assert asked.begun[4:] == ["e0"]
+        assert asked.begun[5:] == ["f0"]
         await asked.end("a0", after_s=0.1)
-        # what a had is not the one more, which e has
-        assert asked.begun[5:] == ["c1"]
+        # what a had is none of the two, which e and f have
+        assert asked.begun[6:] == ["c1"]
+        await asked.end("e0", "f0", after_s=0.1)
+        # a has none now, and had none for a moment
+        assert asked.begun[7:] == []
 
     play(Turns(2, 20, 20), story)
 
@@ -148,13 +151,13 @@ def test_who_has_had_least_is_next() -> None:
 
 def test_nobody_waits_for_ever_however_many_come() -> None:
     async def story(asked: Asked) -> None:
-        for name in ("a0", "b0", "a1"):
+        for name in ("a0", "b0", "c0", "a1"):
             await asked.ask(name)
         # somebody who has had nothing comes before every end
-        for ends, comes in zip("bacdef", "cdefgh", strict=True):
+        for ends, comes in zip("bacde", "defgh", strict=True):
             await asked.ask(f"{comes}0")
             await asked.end(f"{ends}0", after_s=0.5)
-        # after two seconds without any a is before h, who takes the one more when g leaves it
+        # after two seconds without any a is before h
         assert asked.begun == ["a0", "b0", "c0", "d0", "e0", "f0", "g0", "a1"]
 
     play(Turns(1, 20, 20), story)
@@ -178,10 +181,10 @@ def test_an_owner_has_its_share_of_the_places_and_gives_up_the_last_to_others() 
         for k in range(6):
             await asked.ask(f"a{k}")
         assert asked.refused == ["a5"]
-        for name in ("b0", "b1", "c0", "c1"):
+        for name in ("b0", "b1", "c0", "c1", "c2"):
             await asked.ask(name)
-        # b0 begins, as b has none; b1 and c0 take the places that a has last; then c1 would have as many as a
-        assert asked.refused == ["a5", "a4", "a3", "c1"]
+        # b0 and c0 begin, as b and c have none; b1 and c1 take the places that a has last; c2 would be as many as a has
+        assert asked.refused == ["a5", "a4", "a3", "c2"]
 
     play(Turns(1, 4, 4), story)
 
@@ -232,7 +235,7 @@ def test_everybody_is_served_or_refused_and_never_more_than_there_are(
         for index, (owner, long, end) in enumerate(steps):
             await asked.ask(f"{owner}{index}", long)
             open_turns = [name for name in asked.begun if not asked._ends[name].is_set()]
-            assert len(open_turns) <= size + 1
+            assert len(open_turns) <= size + ABOVE
             assert turns.waiting <= 6
             if end and open_turns:
                 await asked.end(open_turns[0])
@@ -243,7 +246,10 @@ def test_everybody_is_served_or_refused_and_never_more_than_there_are(
     play(turns, story)
 
 
-def test_a_bystander_never_waits_for_owners_who_ask_without_end() -> None:
+@pytest.mark.parametrize("each", [1, 8])
+def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int) -> None:
+    """Whether they ask for all at once, or for the next when they have the last."""
+
     async def story(asked: Asked) -> None:
         numbers, ends = itertools.count(), list[tuple[float, str]]()
         waits: list[str] = []
@@ -253,11 +259,11 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end() -> None:
             await asked.ask(name)
             return name
 
-        for owner in "aabbccdd" * 4:
+        for owner in "abcd" * each:
             await ask(owner)
-        # 25 ms of every one of theirs, 8 ms of his, every 60 ms
-        seen, comes = 0, 0.06
-        while asked.turns.clock() < 2.0:
+        # 25 ms of every one of theirs, 8 ms of his, every 60 ms from when they have pressed for 2 s
+        seen, comes = 0, 2.0
+        while asked.turns.clock() < 4.0:
             for name in asked.begun[seen:]:
                 heapq.heappush(ends, (asked.turns.clock() + (0.008 if name[0] == "e" else 0.025), name))
             seen = len(asked.begun)
@@ -272,10 +278,10 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end() -> None:
             if name[0] != "e":
                 await ask(name[0])
         begun = Counter(name[0] for name in asked.begun)
-        assert begun["e"] == 33
+        assert begun["e"] == 34
         assert waits == []
         # two of theirs at a time, each a quarter of them
-        assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 2.0 / 0.025, abs=5)
+        assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 4.0 / 0.025, rel=0.05)
         assert max(begun[owner] for owner in "abcd") - min(begun[owner] for owner in "abcd") <= 2
 
     play(Turns(2, 100, 64), story)

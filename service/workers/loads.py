@@ -1,0 +1,50 @@
+"""How much each owner has had lately, so that who asks now and then is told from who asks without end."""
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import islice
+
+#: what was so long ago counts for a third of what is now [s]
+LATELY_S = 5.0
+#: of which nothing is remembered
+_NOTHING = 0.001
+
+
+@dataclass(frozen=True)
+class _Load:
+    average: float
+    turns: int
+    at: float
+
+    def now(self, at: float) -> float:
+        return self.turns + (self.average - self.turns) * math.exp((self.at - at) / LATELY_S)
+
+
+class Loads:
+    """Turns that owners had on the average of the last seconds, as systems tell how many processes run.
+
+    Parameters
+    ----------
+    clock : seconds that only go forward.
+    """
+
+    def __init__(self, clock: Callable[[], float]) -> None:
+        self._clock = clock
+        # who changed last is last
+        self._loads: dict[str, _Load] = {}
+
+    def of(self, owner: str) -> float:
+        """The average of an owner, whoever it is."""
+        load = self._loads.get(owner)
+        return 0.0 if load is None else load.now(self._clock())
+
+    def take(self, owner: str, turns: int) -> None:
+        """Have an owner have so many turns more, or fewer."""
+        at = self._clock()
+        load = self._loads.pop(owner, _Load(0.0, 0, at))
+        self._loads[owner] = _Load(load.now(at), load.turns + turns, at)
+        # one comes at most, so they do not become many
+        for name in tuple(islice(self._loads, 2)):
+            if not self._loads[name].turns and self._loads[name].now(at) < _NOTHING:
+                del self._loads[name]
