@@ -31,6 +31,12 @@ class Turns(_Turns):
         super().__init__(size, waiting, each, self.clock)
 
 
+async def settled() -> None:
+    """Whoever can go on has gone on: rounds of the loop; anyio's own waiting sleeps for a tenth of a second."""
+    for _ in range(10):
+        await anyio.lowlevel.checkpoint()
+
+
 class Asked:
     """Turns that are asked for in order, each ended by hand."""
 
@@ -54,14 +60,14 @@ class Asked:
                 self.refused.append(name)
 
         self._group.start_soon(have)
-        await anyio.wait_all_tasks_blocked()
+        await settled()
 
     async def end(self, *names: str, after_s: float = 0.0) -> None:
         """End turns, each when so much time has gone by."""
         for name in names:
             self.turns.clock.seconds += after_s
             self._ends[name].set()
-            await anyio.wait_all_tasks_blocked()
+            await settled()
 
 
 def play(turns: Turns, story: object) -> Asked:
