@@ -71,9 +71,11 @@ def exhaust(
     single = np.ones(options.slots, bool)
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)
-    one, other = (_sums(options, effect, which, side) for side in sides)
+    one, other = (sums_of(options, effect, which, side) for side in sides)
     if max(one.code.size, other.code.size) > most_sums:
         return False
+    if not one.code.size or not other.code.size:
+        return True
 
     def offered(i: np.ndarray, j: np.ndarray) -> None:
         sets = np.tile(fixed, (i.size, 1))
@@ -92,14 +94,15 @@ def exhaust(
     return pairs.near(most_pairs, spent)
 
 
-def _sums(options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int]) -> _Sums:
+def sums_of(options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int]) -> _Sums:
+    """All sums of the slots of a side that the counts of all slots together leave."""
     sums = _Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
     for k in side:
         some = which[k]
         fitted = options.webs[k] * (some > 0) if options.limits_fitted else np.zeros(some.size, np.int64)
         bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
         bits = bits if options.limits_parts else np.zeros_like(bits)
-        sums = _Sums(
+        longer = _Sums(
             (sums.z[:, None] + effect[k, some]).reshape(-1, effect.shape[-1]),
             (sums.mass[:, None] + options.mass[k, some]).ravel(),
             (sums.square[:, None] + options.webs[k] * np.abs(options.unbalance[k, some]) ** 2).ravel(),
@@ -107,8 +110,19 @@ def _sums(options: Options, effect: Complex, which: Sequence[np.ndarray], side: 
             (sums.parts[:, None] | bits).ravel(),
             (sums.code[:, None] * some.size + np.arange(some.size)).ravel(),
         )
-        sums = _merged(sums)
+        within = _counted(options, longer)
+        sums = _merged(_Sums(*(each[within] for each in longer)))
     return sums
+
+
+def _counted(options: Options, sums: _Sums) -> np.ndarray:
+    """Which sums (n,) take no more counterweights and part numbers than all slots together may."""
+    within = np.ones(sums.code.size, bool)
+    if options.limits_fitted:
+        within &= sums.fitted <= options.most_fitted
+    if options.limits_parts:
+        within &= np.bitwise_count(sums.parts) <= options.most_parts
+    return within
 
 
 def _merged(sums: _Sums) -> _Sums:
@@ -116,10 +130,10 @@ def _merged(sums: _Sums) -> _Sums:
     size = float(np.max(np.abs(sums.z), initial=0.0)) or 1.0
     parts = np.concatenate([sums.z.real, sums.z.imag], axis=-1) / (_SAME * size)
     keys = np.column_stack([np.round(parts).astype(np.int64), sums.fitted, sums.parts])
-    mass = np.round(sums.mass / (EQUAL * (float(np.max(sums.mass)) or 1.0)))
+    mass = np.round(sums.mass / (EQUAL * (float(np.max(sums.mass, initial=0.0)) or 1.0)))
     order = np.lexsort((sums.square, mass, *keys.T))
     keys = keys[order]
-    new = np.concatenate([[True], np.any(keys[1:] != keys[:-1], axis=-1)])
+    new = np.concatenate([np.ones(min(order.size, 1), bool), np.any(keys[1:] != keys[:-1], axis=-1)])
     kept = np.sort(order[new])
     return _Sums(*(each[kept] for each in sums))
 

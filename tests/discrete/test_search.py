@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.discrete import branch, search
-from optimizer.discrete.options import EQUAL, Options
+from optimizer.discrete import branch, halves, search
+from optimizer.discrete.options import EQUAL, Incumbent, Options
 from optimizer.discrete.search import EXHAUSTED, TREE, Found
 from optimizer.program.limits import Limits
 from optimizer.program.optima import optima
@@ -154,3 +154,18 @@ def test_the_continuous_optimum_is_never_beaten() -> None:
         found = found_of(problem, options)
         value = float(problem.objective(options.of(options.unbalance, found.chosen)))
         assert value >= optima(problem.alone(), 1e-6, False, SOLVER).lower_bound[0] * (1.0 - 1e-12)
+
+
+@pytest.mark.parametrize(
+    ("fitted", "parts", "count"),
+    # analytic: nothing; one of twelve on either web; one mass on both webs, at any of six angles each
+    [(None, None, 13 * 13), (0, None, 1), (1, None, 1 + 2 * 12), (None, 1, 1 + 2 * 12 + 2 * 6 * 6)],
+)
+def test_halves_hold_no_sums_that_counts_rule_out(fitted: int | None, parts: int | None, count: int) -> None:
+    problem = random_statement(7, "sum", (1.0, 0.7), False, False, False, webs=4)
+    most = float(np.max(problem.limits.max_mass))
+    # no two sums of these are the same
+    options = options_of(problem, [0.11 * most, 0.37 * most], [0.0, 50.0, 110.0, 170.0, 230.0, 310.0], fitted, parts)
+    every = [np.flatnonzero(some) for some in options.exists]
+    _, effect = Incumbent(problem, options, 0.0).coordinates
+    assert len(halves.sums_of(options, effect, every, (0, 1)).code) == count
