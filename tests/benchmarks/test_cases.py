@@ -10,6 +10,7 @@ from schemas.requests import OptimizeRequest
 from tests.benchmarks import discrete, outputs, whole_turn
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
+from tests.matching.cases import mirrored
 
 
 @pytest.mark.parametrize("build", CASES.values(), ids=CASES)
@@ -52,6 +53,13 @@ def test_broadcasting_case_runs() -> None:
 def test_choices_are_those_of_scip_independent() -> None:
     found = discrete.beside(discrete.choice(6, None, masses=3), 1, 1e9)
     assert found.ours_gap <= 1e-4
+    assert abs(found.apart) <= 2e-4
+
+
+@pytest.mark.parametrize("cranks", [discrete.in_some_order(6), mirrored(6)])
+def test_matches_are_those_of_scip_independent(cranks: list[float]) -> None:
+    found = discrete.matched_beside(discrete.rows_matched(cranks), 1, 1e9)
+    assert max(found.ours_gap, found.theirs_gap) <= 1e-4
     assert abs(found.apart) <= 2e-4
 
 
