@@ -60,7 +60,7 @@ def analyzed(request: AnalyzeRequest, answer: AnalyzeAnswer) -> Iterator[Chapter
     if answer.total_mass_kg > 0:
         total = facts("", [("total mass of the counterweights, kg", answer.total_mass_kg)])
         fitted = answer.counterweights
-        yield Chapter("Counterweights", (balance.places(fitted), *balance.outlines(fitted), total))
+        yield Chapter("Counterweights", (*balance.as_made(request.machine, fitted), total))
     yield from worth_knowing(answer)
     yield from balance_quality(request.machine, answer)
     if answer.residual is not None and answer.floor is not None:

@@ -21,6 +21,7 @@ from service.report.blocks import (
     number,
     table,
 )
+from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
 from service.report.first_order import hodographs
 from service.report.formula import formula
@@ -160,8 +161,7 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
             Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
         )
     if fitted:
-        blocks.append(places(fitted))
-        blocks += outlines(fitted)
+        blocks += as_made(request.machine, fitted)
     return Chapter("Counterweights", (*blocks, *shafts, *(_prices(request, answer) if fitted or shafts else ())))
 
 
@@ -173,6 +173,13 @@ def _balance_shafts(answer: OptimizeAnswer) -> Iterator[Block]:
         yield places(shaft.counterweights)
     if answer.balance_shafts_mass_kg is not None:
         yield facts("", [("total mass on the balance shafts, kg", answer.balance_shafts_mass_kg)])
+
+
+def as_made(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
+    """What is on the crankshaft, and what a workshop has to know of it."""
+    yield places(fitted)
+    yield from holding(machine, fitted)
+    yield from outlines(fitted)
 
 
 def places(fitted: Sequence[Counterweight]) -> Table:
@@ -199,24 +206,6 @@ def places(fitted: Sequence[Counterweight]) -> Table:
                 for one in fitted
             ],
     )  # fmt: skip
-
-
-def outlines(fitted: Sequence[Counterweight]) -> Iterator[Block]:
-    """What is cut from plates, one row for each web that has one."""
-    rows = [
-        (
-            one.web, one.shape.half_angle_deg, one.shape.chord_height_m, one.radius_m, one.shape.outer_radius_m,
-            one.shape.inertia_kg_m2, one.centrifugal_force_N,
-        )
-        for one in fitted
-        if one.shape is not None
-    ]  # fmt: skip
-    if rows:
-        heads = [
-            "web", "#half opening, deg", "#chord from the shaft, m", "#centre of mass, m", "#clearance radius, m",
-            "#inertia, kg m²", "#bolts hold, N",
-        ]  # fmt: skip
-        yield table("Cut from their plates", heads, rows)
 
 
 def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]:

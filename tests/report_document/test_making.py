@@ -1,0 +1,64 @@
+"""Planes, radii and what bolts hold: said where that is asked, or where a weight is not where its web has it."""
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.analyze import analyze
+from schemas.requests import AnalyzeRequest
+from service.documents.examples import load
+from service.report.blocks import Document, Number, Table
+from service.report.chapters.answers import analyzed
+from service.report.document import report
+from tests.report_document.conftest import AT, asked
+
+_TITLE = "Where they are, and what holds them at {} rpm"
+
+
+def machine(**changes: Any) -> Any:
+    return {**json.loads(load("m-type-four"))["machine"], **changes}
+
+
+def held(blocks: Any, rpm: str) -> list[tuple[Any, ...]]:
+    """Rows of the table, numbers as they are."""
+    tables = [block for block in blocks if isinstance(block, Table)]
+    (found,) = [each for each in tables if each.title == _TITLE.format(rpm)]
+    return [tuple(cell.value if isinstance(cell, Number) else cell for cell in row) for row in found.rows]
+
+
+def fitted(made: Document) -> Any:
+    (chapter,) = [one for one in made.chapters if one.title == "Counterweights"]
+    return chapter.blocks
+
+
+def test_weights_with_a_radius_and_a_plane_of_their_own() -> None:
+    given = [
+        {"web": "1a", "mass_kg": 10, "angle_deg": 180, "radius_m": 0.21},
+        {"position_m": 0.05, "radius_m": 0.18, "mass_kg": 4, "angle_deg": 30},
+    ]
+    request = AnalyzeRequest.model_validate({"machine": machine(overspeed_rpm=500), "counterweights": given})
+    (chapter,) = [one for one in analyzed(request, analyze(request)) if one.title == "Counterweights"]
+    square = (500 * np.pi / 30) ** 2
+    # analytic: m r omega^2 at the overspeed
+    assert held(chapter.blocks, "500") == [
+        ("1a", 1.43, 0.21, pytest.approx(10 * 0.21 * square)),
+        ("counterweight 2", 0.05, 0.18, pytest.approx(4 * 0.18 * square)),
+    ]
+
+
+@pytest.mark.parametrize("limited", [False, True])
+def test_what_bolts_hold(limited: bool) -> None:
+    changed = machine(**({} if limited else {"overspeed_rpm": 504}))
+    if limited:
+        changed["webs"][0]["max_centrifugal_force_N"] = 5e3
+    rpm = 420 if limited else 504
+    rows = held(fitted(report(asked("m-type-four", machine=changed), AT)), str(rpm))
+    assert {"1a", "4b"} <= {row[0] for row in rows}
+    assert not limited or rows[0][3] <= 5e3 * (1 + 1e-9)
+
+
+def test_nothing_is_said_where_nothing_is_asked() -> None:
+    titles = [block.title for block in fitted(report(asked("m-type-four"), AT)) if isinstance(block, Table)]
+    assert not [title for title in titles if title.startswith("Where they are")]
