@@ -52,12 +52,22 @@ def json_bytes(found: "Model") -> bytes:
     return found.model_dump_json().encode()
 
 
+def given_bytes(asked: "Model") -> bytes:
+    """A request as JSON: what was given, without defaults."""
+    return asked.model_dump_json(exclude_unset=True).encode()
+
+
+def itself(asked: "Model") -> "Model":
+    """The request, where nothing is asked but that it is read and checked."""
+    return asked
+
+
 @dataclass(frozen=True)
 class Computation:
     """A computation.
 
     name : of operation, job and metric; with hyphens, of command and documents.
-    request, answer : models; an answer that is a document has none.
+    request, answer : models; an answer that is a document, or the request itself, has none.
     compute : request -> answer.
     summary, remark : one line and some sentences for OpenAPI.
     help : one line for the command line.
@@ -242,6 +252,22 @@ COMPUTATIONS: dict[str, Computation] = {
             chapters="service.report.chapters.match:matched",
             examples="match",
             later=True,
+        ),
+        Computation(
+            name="convert",
+            path="/v1/convert",
+            request="schemas.requests:OptimizeRequest",
+            answer=None,
+            compute="service.computations:itself",
+            summary="A request itself, checked: a workbook as JSON, or JSON as a workbook",
+            remark="The header `Accept` chooses. Quantities come in the units of their fields, what was not given stays"
+            " away, nothing is solved. What is wrong with a workbook is said with its cell.",
+            tag="examples",
+            workbook="service.workbook.answers:requested",
+            forms=(
+                Form("application/json", "service.computations:given_bytes", ".json"),
+                _workbook("service.workbook.answers:requested", "machine.xlsx"),
+            ),
         ),
         # of answers
         Computation(

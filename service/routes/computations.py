@@ -10,7 +10,7 @@ from service.computations import COMPUTATIONS, Computation
 from service.guard.access import require
 from service.http.computing import computing_of
 from service.http.direct import Endpoint
-from service.http.openapi import BINARY, COMPUTE_PROBLEMS, problems, request_body
+from service.http.openapi import BINARY, COMPUTE_PROBLEMS, example_body, problems, request_body
 
 
 def endpoints() -> dict[str, Endpoint]:
@@ -52,6 +52,8 @@ def _responses(one: Computation) -> dict[int | str, dict[str, Any]]:
         told: dict[int | str, dict[str, Any]] = {200: {"content": others}} if others else {}
         return {**told, **problems(*COMPUTE_PROBLEMS)}
     content = {form.media_type: {"schema": {"type": "string"}} for form in one.forms}
+    # no answer but JSON: the request itself
+    content |= example_body(one.asks)[200]["content"] if "application/json" in content else {}
     # what there is in one form only is answered in that
     more = (406,) if len(one.forms) > 1 else ()
     return {200: {"description": "the document", "content": content}, **problems(*COMPUTE_PROBLEMS, *more)}

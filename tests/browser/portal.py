@@ -2,6 +2,8 @@
 
 import json
 import urllib.request
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
@@ -100,11 +102,17 @@ class Portal:
     def runs(self) -> int:
         return int(self.page.locator("#results").get_attribute("data-drawn") or 0)
 
-    def optimise(self) -> None:
-        """Ask, and wait for everything that this very run draws: one that was asked before may still be drawn first."""
+    @contextmanager
+    def asking(self) -> Iterator[None]:
+        """Wait for everything that a run draws which is asked for within; one asked before may still be drawn first."""
         before = self.page.locator("#results").get_attribute("data-asked")
-        self.page.click("#optimise")
+        yield
         self.page.wait_for_function(_DRAWN, arg=before)
+
+    def optimise(self) -> None:
+        """Ask, and wait for everything that this very run draws."""
+        with self.asking():
+            self.page.click("#optimise")
 
     def panel(self, name: str) -> Locator:
         return self.page.locator(f"#panel-{name}")

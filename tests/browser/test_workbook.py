@@ -1,5 +1,6 @@
 """Workbooks on the page: a template out, a workbook in, its answer out, and what is wrong with one by its cell."""
 
+import json
 from pathlib import Path
 
 import openpyxl
@@ -48,6 +49,44 @@ def test_what_is_worked_on_is_saved_as_a_workbook_that_is_taken_again(portal: Po
         assert 777 in [cell for row in book["machine"].iter_rows(values_only=True) for cell in row]
     counterweights = [list(book["counterweights"].iter_rows(values_only=True)) for book in books]
     assert counterweights[0] == counterweights[1]
+
+
+def test_a_saved_workbook_is_opened_into_the_form(portal: Portal, tmp_path: Path) -> None:
+    portal.open("2d12")
+    portal.input("/machine/speed_rpm").fill("777")
+    portal.page.locator("#paste > summary").click()
+    with portal.page.expect_download() as saved:
+        portal.page.click("#save-workbook")
+    saved.value.save_as(tmp_path / "saved.xlsx")
+    with portal.asking():
+        portal.page.select_option("#example", "v60")
+    expect(portal.input("/machine/speed_rpm")).not_to_have_value("777")
+    with portal.asking():
+        portal.page.set_input_files("#file", tmp_path / "saved.xlsx")
+    expect(portal.input("/machine/speed_rpm")).to_have_value("777")
+    expect(portal.page.locator("#json-error")).to_be_empty()
+    example = ask(portal.url, "/v1/examples/2d12")
+    example["machine"]["speed_rpm"] = 777
+    for throw in example["machine"]["throws"]:
+        assert throw["crank_radius_m"] == "140 mm"
+        throw["crank_radius_m"] = 0.14
+    portal.page.locator("#paste > summary").click()
+    portal.page.click("#write")
+    # independent: the example as it is published, with the speed that was typed
+    assert json.loads(portal.page.locator("#json").input_value()) == example
+
+
+def test_what_cannot_be_opened_is_named_by_its_cell_and_the_form_stays(portal: Portal, tmp_path: Path) -> None:
+    portal.refusals = {422}
+    portal.open("2d12")
+    file = _template(portal, tmp_path / "machine.xlsx")
+    book = openpyxl.load_workbook(file)
+    (place,) = [row[1] for row in book["machine"].iter_rows() if row[0].value == "machine.speed_rpm"]
+    place.value = "fast"
+    book.save(file)
+    portal.page.set_input_files("#file", file)
+    expect(portal.page.locator("#json-error")).to_contain_text(f"machine!{place.coordinate}")
+    expect(portal.input("/machine/speed_rpm")).to_have_value("500")
 
 
 def test_what_is_wrong_is_named_by_its_cell(portal: Portal, tmp_path: Path) -> None:

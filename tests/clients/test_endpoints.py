@@ -43,6 +43,7 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
         (service.drawings, {}, tmp_path / "drawings.zip"),
         *((service.picture, path.rpartition("/")[2], {}) for _, path in described if path.startswith("/v1/pictures/")),
         (service.template, tmp_path / "machine.xlsx"),
+        (service.request_of, __file__),
         (service.later, "v1/match", {}),
         (lambda: next(service.sweeps()),),
         *((call, job) for call in (service.state, service.result, service.metadata, service.resume, service.end)),
@@ -79,6 +80,12 @@ def test_an_answer_is_verified(counterweight: ModuleType, url: str) -> None:
     service = counterweight.Service(url)
     request = service.example("single-horizontal")
     assert service.verify(request, service.optimize(request))["verdict"] == "held"
+
+
+def test_a_workbook_holds_the_request_that_was_written(counterweight: ModuleType, url: str, tmp_path: Any) -> None:
+    service = counterweight.Service(url)
+    # independent: an example as it is published, whose quantities are numbers
+    assert service.request_of(service.template(tmp_path / "machine.xlsx", "w60")) == service.example("w60")
 
 
 def test_the_effects_and_the_version_are_told(counterweight: ModuleType, url: str) -> None:

@@ -29,6 +29,7 @@ OPERATIONS = {
     ("post", "/v1/pictures/moment"): "picture_moment",
     ("post", "/v1/pictures/bearings"): "picture_bearings",
     ("post", "/v1/verify"): "verify",
+    ("post", "/v1/convert"): "convert",
     ("post", "/v1/scroll/pin-loads"): "pin_loads",
     ("post", "/v1/sweeps"): "start_sweep",
     ("get", "/v1/sweeps"): "list_sweeps",
@@ -93,6 +94,7 @@ def test_it_is_the_same_every_time(document: dict[str, Any]) -> None:
         ("/v1/rating", COMPUTED),
         ("/v1/match", COMPUTED),
         ("/v1/verify", COMPUTED),
+        ("/v1/convert", COMPUTED | {"406"}),
         ("/v1/scroll/pin-loads", COMPUTED),
         ("/v1/sweeps/{id}/metadata", KEYED | {"404", "503"}),
         ("/v1/effects", KEYED),
@@ -129,8 +131,9 @@ def test_answers_and_bodies_have_schemas(document: dict[str, Any]) -> None:
         assert body["schema"] == {"$ref": f"#/components/schemas/{name}Request"}
         answer = operation["responses"]["200"]["content"]["application/json"]
         assert answer["schema"] == {"$ref": f"#/components/schemas/{name}Answer"}
-    example = document["paths"]["/v1/examples/{name}"]["get"]["responses"]["200"]["content"]["application/json"]
-    assert example["schema"] == {"$ref": "#/components/schemas/OptimizeRequest"}
+    for one in (document["paths"]["/v1/examples/{name}"]["get"], document["paths"]["/v1/convert"]["post"]):
+        schema = one["responses"]["200"]["content"]["application/json"]["schema"]
+        assert schema == {"$ref": "#/components/schemas/OptimizeRequest"}
 
 
 def test_every_reference_leads_somewhere(document: dict[str, Any]) -> None:

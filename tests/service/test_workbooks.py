@@ -8,13 +8,16 @@ from zipfile import ZIP_DEFLATED, ZipFile
 
 import openpyxl
 import pytest
+from openpyxl.utils import get_column_letter
 from starlette.testclient import TestClient
 
+from schemas.requests import OptimizeRequest
 from service.computations import XLSX
+from service.documents.examples import bodies
 from service.workbook.files import workbook, workbook_sheets
 from service.workbook.sheets import written
 
-OPTIMIZE = "/v1/optimize"
+OPTIMIZE, CONVERT = "/v1/optimize", "/v1/convert"
 
 
 @pytest.fixture
@@ -181,3 +184,53 @@ def test_there_is_a_template_of_every_example_and_of_nothing_else(client: TestCl
     assert client.get("/v1/template.xlsx", params={"example": "no-such"}).status_code == 404
     assert client.get("/v1/template.xlsx", params={"example": "x" * 65}).status_code == 422
     assert workbook_sheets(client.get("/v1/template.xlsx").content)["machine"]
+
+
+@pytest.mark.parametrize("name", sorted(bodies()))
+def test_the_request_in_a_workbook_is_the_one_that_was_written(
+    client: TestClient, post_workbook: Callable[..., Any], name: str
+) -> None:
+    template = client.get("/v1/template.xlsx", params={"example": name}).content
+    read = post_workbook(template, CONVERT)
+    assert (read.status_code, read.headers["content-type"]) == (200, "application/json")
+    # independent: the example as it is published, with its quantities as numbers
+    published = client.get(f"/v1/examples/{name}").json()
+    assert OptimizeRequest.model_validate(read.json()) == OptimizeRequest.model_validate(published)
+    # and as a workbook again
+    written_again = client.post(CONVERT, json=read.json(), headers={"Accept": XLSX})
+    assert written_again.headers["content-type"] == XLSX
+    assert 'filename="machine.xlsx"' in written_again.headers["content-disposition"]
+    assert post_workbook(written_again.content, CONVERT).json() == read.json()
+
+
+def test_the_sheets_of_an_answer_are_no_part_of_the_request(
+    post_workbook: Callable[..., Any], body: dict[str, Any]
+) -> None:
+    sent = workbook(written(body))
+    answered = post_workbook(sent, Accept=XLSX).content
+    assert {"answer", "counterweights"} <= workbook_sheets(answered).keys()
+    assert post_workbook(answered, CONVERT).json() == post_workbook(sent, CONVERT).json()
+
+
+def test_a_quantity_is_read_in_the_unit_of_its_field(post_workbook: Callable[..., Any], body: dict[str, Any]) -> None:
+    body["machine"]["speed_rpm"] = "12 Hz"
+    # analytic: 12 turns a second
+    assert post_workbook(workbook(written(body)), CONVERT).json()["machine"]["speed_rpm"] == pytest.approx(720)
+
+
+def test_what_is_wrong_is_said_by_its_cell_where_nothing_is_solved(
+    client: TestClient, post_workbook: Callable[..., Any], body: dict[str, Any]
+) -> None:
+    sheets = written(body)
+    column = sheets["throws"][0].index("crank_radius_m")
+    sheets["throws"][1][column] = "long"
+    refused = post_workbook(workbook(sheets), CONVERT)
+    assert (refused.status_code, refused.headers["content-type"]) == (422, "application/problem+json")
+    (error,) = refused.json()["errors"]
+    assert error["pointer"] == "/machine/throws/0/crank_radius_m"
+    assert error["message"].startswith(f"throws!{get_column_letter(column + 1)}2: ")
+    assert post_workbook(b"no workbook", CONVERT).status_code == 400
+    bomb = with_part(workbook(written(body)), "xl/worksheets/sheet1.xml", many_lines)
+    assert post_workbook(bomb, CONVERT).status_code == 400
+    assert client.post(CONVERT, content="x", headers={"Content-Type": "text/plain"}).status_code == 415
+    assert post_workbook(workbook(written(body)), CONVERT, Accept="text/html").status_code == 406

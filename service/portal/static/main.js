@@ -127,7 +127,7 @@ function listen() {
   byId("write").addEventListener("click", () => { byId("json").value = JSON.stringify(work.request, null, 2); });
   byId("file").addEventListener("change", async (event) => {
     const [file] = event.target.files;
-    if (file) opening.text(byId("json").value = await file.text());
+    if (file) await opening.file(file);
     event.target.value = "";
   });
   workbooks(work);

@@ -6,6 +6,7 @@ import { Sheet } from "./grid/sheet.js";
 import { readLink } from "./link.js";
 import { forget, last, ofTab } from "./session.js";
 import { blank } from "./starter.js";
+import { requestIn, told } from "./workbook.js";
 
 export class Opening {
   /** @param {any} page {take, complain, open, fresh, work, form} */
@@ -33,6 +34,20 @@ export class Opening {
     } catch (error) {
       said.textContent = `This is not a machine in JSON: ${error.message}.`;
     }
+  }
+
+  // a workbook, or a text
+  async file(file) {
+    if (!/\.xlsx$/i.test(file.name)) {
+      this.text(byId("json").value = await file.text());
+      return;
+    }
+    const said = byId("json-error");
+    said.textContent = "";
+    const request = await requestIn(file).catch((error) => { said.textContent = told(error); });
+    if (!request) return;
+    this.page.take(request, null);
+    byId("paste").open = false;
   }
 
   async link(fragment) {

@@ -1,10 +1,19 @@
-// Workbooks: one to begin with, the machine that is worked on, and one that is optimised and comes back with its answer.
+// Workbooks: one to begin with, the machine that is worked on, one that is opened, and one that is optimised and comes back
+// with its answer.
 
-import { ask } from "./api.js";
+import { ask, post } from "./api.js";
 import { byId } from "./dom.js";
 import { named, save } from "./files.js";
 
 const XLSX = "application/vnd.openxmlformats-officedocument.spreadsheetml.sheet";
+
+const typed = (file) => new Blob([file], { type: XLSX });
+
+// the request that a workbook holds
+export const requestIn = (file) => post("v1/convert", typed(file));
+
+// errors of a workbook name their cells
+export const told = (error) => [error.message, ...(error.errors ?? []).map((one) => one.message)].join(" ");
 
 async function fetched(said, method, path, body) {
   said.textContent = "";
@@ -12,8 +21,7 @@ async function fetched(said, method, path, body) {
     const answer = await ask(method, path, { body, headers: { Accept: XLSX } });
     save(await answer.blob(), named(answer) ?? "answer.xlsx");
   } catch (error) {
-    // errors of a workbook name their cells
-    said.textContent = [error.message, ...(error.errors ?? []).map((one) => one.message)].join(" ");
+    said.textContent = told(error);
   }
 }
 
@@ -25,7 +33,7 @@ export function workbooks(work) {
   byId("save-workbook").addEventListener("click", () => fetched(said, "POST", "v1/optimize", work.request));
   byId("workbook").addEventListener("change", async (event) => {
     const [file] = event.target.files;
-    if (file) await fetched(said, "POST", "v1/optimize", new Blob([file], { type: XLSX }));
+    if (file) await fetched(said, "POST", "v1/optimize", typed(file));
     event.target.value = "";
   });
 }

@@ -166,6 +166,13 @@ class Service:
             target.write_bytes(answer.read())
         return target
 
+    def request_of(self, machine: str | Path) -> Document:
+        """The request that a workbook holds; what is refused names the cells."""
+        headers = {"Content-Type": _WORKBOOK, "Accept": "application/json"}
+        with self._send("POST", "v1/convert", Path(machine).read_bytes(), headers) as answer:
+            found: Document = json.load(answer)
+        return found
+
     def sweep(self, request: Mapping[str, Any]) -> Document:
         """Start a sweep, exactly once however often this has to be tried; its state, with its ``id``."""
         return self._json("POST", "v1/sweeps", request, {"Idempotency-Key": str(uuid.uuid4())})
