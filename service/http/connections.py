@@ -61,7 +61,8 @@ class Connection(H11Protocol):
         self.left: Callable[[], None] = _nothing
 
     def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
-        super().connection_made(Joined(transport, self.loop))  # type: ignore[arg-type]
+        joined = Joined(transport, self.loop, self._still_sent, self.headers_timeout_s)
+        super().connection_made(joined)  # type: ignore[arg-type]
         transport.set_write_buffer_limits(high=_UNREAD_BYTES)
         # what is read at a time: a client that sends more than is asked for fills no more than this
         transport.max_size = _READ_BYTES  # type: ignore[attr-defined]
@@ -99,11 +100,10 @@ class Connection(H11Protocol):
 
     def _look_at(self, data: bytes) -> None:
         self._waits = False
-        if self.transport.is_closing():
-            # lost, or refused, while it waited
-            return
         self.transport.go_on()  # type: ignore[attr-defined]
-        self._read(data)
+        if not self.transport.is_closing():
+            # else lost, refused or answered while it waited
+            self._read(data)
 
     def _read(self, data: bytes) -> None:
         if self._plain:
@@ -209,6 +209,11 @@ class Connection(H11Protocol):
             return self.cycle.response_complete and self._missing > 0
         return self.conn.our_state in (h11.DONE, h11.MUST_CLOSE) and self.conn.their_state is h11.SEND_BODY
 
+    def _still_sent(self) -> bool:
+        # h11 has said that it closes before the transport is told
+        closed = not self._plain and self.conn.our_state is h11.CLOSED and self.conn.their_state is h11.SEND_BODY
+        return self._answered_early or closed
+
     def _headers_late(self) -> None:
         self._headers_timer = None
         if self._waits:
@@ -218,7 +223,7 @@ class Connection(H11Protocol):
         if self.transport.is_closing() or not self._owes_headers():
             return
         if self._answered_early:
-            self.transport.close()
+            self.transport.end()  # type: ignore[attr-defined]
         else:
             self._refuse(Fault(408, "Headers too slow", f"No whole header came within {self.headers_timeout_s:g} s."))
 

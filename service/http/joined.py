@@ -1,6 +1,7 @@
 """A transport that puts the head and the body of an answer into one segment, and reads no more than is looked at."""
 
 import asyncio
+from collections.abc import Callable
 from typing import Any
 
 #: more than this is not held back [bytes]
@@ -8,11 +9,23 @@ _LARGE = 16_000
 
 
 class Joined:
-    """What is written within one turn of the event loop goes out together; all else is as the transport does it."""
+    """What is written within one turn of the event loop goes out together; all else is as the transport does it.
 
-    def __init__(self, transport: asyncio.Transport, loop: asyncio.AbstractEventLoop) -> None:
+    unread : whether the client still sends what has been answered already.
+    patience_s : for which that is read when the connection is closed.
+    """
+
+    def __init__(
+        self,
+        transport: asyncio.Transport,
+        loop: asyncio.AbstractEventLoop,
+        unread: Callable[[], bool],
+        patience_s: float,
+    ) -> None:
         self._transport = transport
         self._loop = loop
+        self._unread, self._patience_s = unread, patience_s
+        self._lingers: asyncio.TimerHandle | None = None
         self._held = bytearray()
         self._full = self._held_back = False
 
@@ -64,11 +77,29 @@ class Joined:
     def get_write_buffer_size(self) -> int:
         return len(self._held) + self._transport.get_write_buffer_size()
 
+    def is_closing(self) -> bool:
+        return self._lingers is not None or self._transport.is_closing()
+
     def close(self) -> None:
+        """End it, when the client has sent all and read the answer: who closes on unread bytes takes it from him."""
+        if self.is_closing() or not self._unread():
+            self.end()
+            return
+        self.flush()
+        self._lingers = self._loop.call_later(self._patience_s, self._transport.close)
+        self._transport.write_eof()
+        self._full = self._held_back = False
+        self._read_on()
+
+    def end(self) -> None:
+        """Close it, whatever the client does."""
         self.flush()
         self._transport.close()
 
     def ended(self) -> None:
-        """Its connection has ended. The transport holds a method of its own, and would stay with all it has until the
-        next collection of garbage."""
+        """Its connection has ended. The transport holds a method of its own, and this one of the connection: both would
+        stay with all they have until the next collection of garbage."""
+        if self._lingers is not None:
+            self._lingers.cancel()
+        self._unread = bool
         vars(self._transport).pop("_read_ready_cb", None)

@@ -1,6 +1,8 @@
 """How answers go over the wire: at once, and in one piece with their head."""
 
 import asyncio
+import json
+import select
 import socket
 from typing import Any
 
@@ -14,7 +16,7 @@ from service.http.joined import Joined
 from service.http.rounds import Rounds
 from service.http.server import listen
 from service.settings import Settings
-from tests.network.serving import read, request
+from tests.network.serving import Service, read, request
 
 SETTINGS = Settings(port=0)
 
@@ -59,3 +61,25 @@ def test_a_kept_connection_waits_for_no_acknowledgement(monkeypatch: pytest.Monk
     assert gathers_not != 0
     assert answers == [b"hello"] * 3
     assert len([size for size in written if size]) == 3
+
+
+@pytest.mark.parametrize("coding", [{"Content-Length": "9" * 15}, {"Transfer-Encoding": "chunked"}])
+def test_an_early_answer_is_not_taken_from_who_still_sends(target: Service, coding: dict[str, str]) -> None:
+    block = b" " * 50_000
+    piece = block if "Content-Length" in coding else f"{len(block):x}\r\n".encode() + block + b"\r\n"
+    with socket.create_connection(("127.0.0.1", target.port), timeout=180) as asking:
+        asking.sendall(request("POST", "/v1/optimize", headers=coding))
+        selectable = select.poll()
+        selectable.register(asking, select.POLLIN)
+        while not selectable.poll(0):
+            asking.sendall(piece)
+        # it was answered, and closes: who goes on sending is read, not reset
+        for _ in range(20):
+            asking.sendall(piece)
+            assert not any(event & select.POLLERR for _, event in selectable.poll(10))
+        said = b""
+        while found := asking.recv(65_536):
+            said += found
+    assert said.startswith(b"HTTP/1.1 413 ")
+    assert said.count(b"\r\n\r\n") == 1
+    assert json.loads(said.partition(b"\r\n\r\n")[2])["status"] == 413
