@@ -138,10 +138,10 @@ function listen() {
   document.addEventListener("keydown", keys);
   document.addEventListener("paste", (event) => opening.pasted(event));
   addEventListener("beforeunload", (event) => work.unsaved && parent === self && event.preventDefault());
-  addEventListener("hashchange", (event) => {
+  // before anything is written: what comes later would be written into the place that was gone to
+  addEventListener("popstate", () => {
     work.leave();
-    // a link that was being written may have come before us
-    opening.link(new URL(event.newURL).hash);
+    opening.link(location.hash);
   });
 }
 

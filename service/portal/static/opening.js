@@ -9,14 +9,17 @@ import { blank } from "./starter.js";
 import { requestIn, told } from "./workbook.js";
 
 export class Opening {
+  #links = 0;
+
   /** @param {any} page {take, complain, open, fresh, work, form} */
   constructor(page) {
     this.page = page;
   }
 
-  async example(name, kept, how) {
+  async example(name, kept, how, wanted = () => true) {
     try {
-      await this.page.take(await get(`v1/examples/${encodeURIComponent(name)}`), name, kept, how);
+      const request = await get(`v1/examples/${encodeURIComponent(name)}`);
+      if (wanted()) await this.page.take(request, name, kept, how);
     } catch (error) {
       await this.page.complain(error);
     }
@@ -52,8 +55,12 @@ export class Opening {
 
   async link(fragment) {
     const { take, open, fresh } = this.page;
+    const number = (this.#links += 1);
+    const wanted = () => number === this.#links;
     /** @type {any} */
     const link = await readLink(fragment).catch(() => ({ broken: true }));
+    // the reader went on meanwhile
+    if (!wanted()) return;
     const how = { push: false };
     if (link.open) open(link.open);
     // what was typed after the link was last written
@@ -63,7 +70,7 @@ export class Opening {
     else {
       if (fresh()) this.offer(last());
       // nobody begins with a machine that he has not chosen
-      if (link.example) await this.example(link.example, link.kept, how);
+      if (link.example) await this.example(link.example, link.kept, how, wanted);
       else await this.blank(how);
       if (link.broken) byId("trouble").textContent = "The machine in this link cannot be read.";
     }

@@ -23,6 +23,8 @@ export class Work {
   #later = new Later(() => this.keep(), LATER_MS);
   #links = 0;
   #pushing = false;
+  // the reader went elsewhere, and what is there has not come yet
+  #left = false;
 
   /** @param {() => string[]} open the panels that the link names */
   constructor(open) {
@@ -35,6 +37,7 @@ export class Work {
   // another machine
   begin(request, example, kept) {
     Object.assign(this, { request, example, kept });
+    this.#left = false;
     this.#edits.record(request, example);
   }
 
@@ -61,6 +64,7 @@ export class Work {
 
   changed() {
     this.unsaved = true;
+    this.#left = false;
     this.changes += 1;
     // a sweep goes on and is still to be found; the points of the front are no longer the same
     delete this.kept.point;
@@ -72,6 +76,7 @@ export class Work {
   // one counts. `push`: Back leads to what was there before.
   async keep({ push = false } = {}) {
     this.#later.cancel();
+    if (this.#left) return;
     this.unkept = true;
     this.#pushing ||= push;
     const number = (this.#links += 1);
@@ -82,9 +87,10 @@ export class Work {
     this.#store();
   }
 
-  // the reader went elsewhere: what is being packed is no longer the link of this place
+  // the reader went elsewhere: what is being packed, or is answered yet, is no longer the link of this place
   leave() {
     this.#later.cancel();
+    this.#left = true;
     this.#links += 1;
   }
 
