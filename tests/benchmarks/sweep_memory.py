@@ -19,13 +19,14 @@ from service.jobs.desk import Desk
 from service.jobs.formats import FORMATS
 from service.settings import Settings
 from tests.benchmarks.sweep_case import sweep
+from tests.processes import children
 
 _MB = 1e6
 
 
 def workers() -> list[psutil.Process]:
     """The processes that compute, not the one that tracks their semaphores."""
-    return [child for child in psutil.Process().children() if "spawn_main" in " ".join(child.cmdline())]
+    return children(os.getpid(), "spawn_main")
 
 
 def measure(console: Console, request: SweepRequest, processes: int, marks: int = 10) -> None:

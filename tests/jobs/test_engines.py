@@ -11,6 +11,7 @@ import pytest
 
 from service.jobs.engines import Processes, engine
 from service.jobs.piece import Piece
+from tests.processes import children
 
 
 @pytest.mark.parametrize("name", ["threads", "dask", "dask:", "processes:2", ""])
@@ -45,9 +46,10 @@ def test_workers_that_are_killed_while_they_hand_over() -> None:
         futures = [running.submit(content_of, 20_000_000) for _ in range(8)]
         futures[0].result(180)
         time.sleep(moment_s)
-        for child in psutil.Process().children():
-            if "spawn_main" in " ".join(child.cmdline()):
-                child.kill()
+        # where the first is seen to have ended, the pool ends the others by itself: they may be gone already
+        for worker in children(os.getpid(), "spawn_main"):
+            with suppress(psutil.NoSuchProcess):
+                worker.kill()
         ended = threading.Thread(target=running.end, daemon=True)
         ended.start()
         ended.join(180)

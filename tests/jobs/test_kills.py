@@ -1,9 +1,8 @@
 """SIGKILL of the service and of workers, two services on one database, and an orderly end."""
 
-import os
-import signal
 import socket
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import psutil
@@ -14,6 +13,7 @@ from schemas.sweep import SweepRequest
 from tests.jobs.kills import kill
 from tests.jobs.process import service
 from tests.jobs.sweeps import analyses
+from tests.processes import children
 
 SWEEP = analyses(20, 50)
 
@@ -21,13 +21,6 @@ SWEEP = analyses(20, 50)
 def expected() -> "object":
     request = SweepRequest.model_validate(SWEEP)
     return run_chunk(request.model_dump_json().encode(), 0, request.total)
-
-
-def computes(child: psutil.Process) -> bool:
-    try:
-        return "spawn_main" in " ".join(child.cmdline())
-    except psutil.Error:  # it has just ended
-        return False
 
 
 def test_kills_at_random_moments(tmp_path: Path) -> None:
@@ -43,10 +36,11 @@ def test_a_killed_worker(tmp_path: Path) -> None:
         path = headers["location"]
         killed = 0
         while killed < 2 and running.read(path)["state"] in ("queued", "running"):
-            for child in psutil.Process(running.process.pid).children():
-                if computes(child) and running.read(path)["done"] > 100 * killed:
-                    os.kill(child.pid, signal.SIGKILL)
-                    killed += 1
+            for worker in children(running.process.pid, "spawn_main"):
+                if running.read(path)["done"] > 100 * killed:
+                    with suppress(psutil.NoSuchProcess):
+                        worker.kill()
+                        killed += 1
                     time.sleep(0.5)
                     break
         assert killed == 2

@@ -15,6 +15,8 @@ from typing import IO
 
 import psutil
 
+from tests.processes import children
+
 ROOT = Path(__file__).parents[2]
 _MB = 1e6
 
@@ -48,9 +50,7 @@ class Service:
 
     def workers(self) -> list[psutil.Process]:
         """The processes that compute answers: children of the one that they are forked from."""
-        children = psutil.Process(self.process.pid).children()
-        servers = [child for child in children if "forkserver" in " ".join(child.cmdline())]
-        return [worker for server in servers for worker in server.children()]
+        return [worker for server in children(self.process.pid, "forkserver") for worker in server.children()]
 
     def memory_mb(self) -> tuple[float, float]:
         """Resident memory of the service, and of its largest worker [MB]."""

@@ -9,7 +9,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 
 import anyio
-import psutil
 import pytest
 
 from service.workers.pool import Busy, Pool, TooSlow, WorkerDied
@@ -17,6 +16,7 @@ from service.workers.process import WorkersFailed
 from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused
 from tests.network import tasks
 from tests.network.tasks import task
+from tests.processes import children
 
 
 @pytest.fixture
@@ -196,7 +196,7 @@ def stopped(pid: int) -> None:
 
 
 def fork_server() -> int:
-    [found] = [child for child in psutil.Process().children() if "forkserver" in " ".join(child.cmdline())]
+    [found] = children(os.getpid(), "forkserver")
     return found.pid
 
 
