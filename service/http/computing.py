@@ -1,8 +1,7 @@
 """A computation behind a route: bytes in, bytes out, in a worker process and only so many at a time."""
 
-import asyncio
 import logging
-from collections.abc import AsyncIterator, Awaitable, Callable
+from collections.abc import AsyncIterator
 from contextlib import ExitStack
 from typing import Annotated, BinaryIO, TypeVar
 
@@ -18,7 +17,7 @@ from service.guard.sizes import SizeLimits
 from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, coding_of, liked
 from service.http.file_names import file_name
-from service.http.leaving import on_leaving
+from service.http.leaving import Waited
 from service.http.request_body import announced, read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
@@ -27,19 +26,15 @@ from service.watch.metrics import Metrics
 from service.watch.readiness import Readiness
 from service.watch.tracing import Tracing
 from service.workers.pool import Pool
-from service.workers.worker import Answer, Crashed, Outcome, Refused, Task
+from service.workers.task import Task
+from service.workers.worker import Answer, Crashed, Outcome, Refused
 
 Question = TypeVar("Question", bound=Model)
-Result = TypeVar("Result")
 
 _LOG = logging.getLogger(__name__)
 #: of a large answer that is in a file, read at a time [bytes], by so many threads
 _PIECE_BYTES = 65_536
 _READERS = 4
-
-
-class ClientGone(Exception):
-    """The client closed its connection; nobody waits for the answer."""
 
 
 class ComputationFailed(Exception):
@@ -113,8 +108,8 @@ class Computing:
             return await threads_of(request).run(holding(request).who, accept)
 
         task = Task(asked_for, form, body, self.limits, coding_of(request), workbook)
-        with self._tracing.span(asked_for.name):
-            outcome = await _while_connected(request, lambda: self._pool.run(task, holding(request).who))
+        with self._tracing.span(asked_for.name), Waited(request):
+            outcome = await self._pool.run(task, holding(request).who)
         found = self._judged(outcome, asked_for.name)
         varies = "Accept, Accept-Encoding" if len(asked_for.forms) > 1 else "Accept-Encoding"
         headers = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
@@ -165,18 +160,6 @@ def _form(request: Request, asked_for: Computation) -> Form:
         # as it was answered before there were other forms
         return first
     return form
-
-
-async def _while_connected(request: Request, work: Callable[[], Awaitable[Result]]) -> Result:
-    """The result of some work, which is cancelled when the client goes away."""
-    try:
-        async with asyncio.timeout(None) as connected:
-            with on_leaving(request, lambda: connected.reschedule(0.0)):
-                return await work()
-    except TimeoutError:
-        if connected.expired():
-            raise ClientGone from None
-        raise
 
 
 def computing_of(request: Request) -> Computing:

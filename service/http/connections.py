@@ -15,6 +15,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from service.guard.addresses import client_network
 from service.guard.refusals import TooManyConnections
 from service.http.errors import PROBLEM_JSON, Fault, fault, problem
+from service.http.idleness import Idleness
 from service.http.joined import Joined
 from service.http.leaving import CLIENT, Client
 from service.http.plain_requests import Head, PlainCycle, plain_head
@@ -57,6 +58,7 @@ class Connection(H11Protocol):
         self._missing = 0
         self._next = b""
         self._asks: Client | None = None
+        self._idle = Idleness(self.loop, self.timeout_keep_alive, self.timeout_keep_alive_handler)
         #: called when it has ended
         self.left: Callable[[], None] = _nothing
 
@@ -84,6 +86,7 @@ class Connection(H11Protocol):
     def connection_lost(self, exc: Exception | None) -> None:
         _stop(self._headers_timer)
         _stop(self._write_timer)
+        self._idle.stop()
         self.left()
         super().connection_lost(exc)
         if self._asks is not None:
@@ -182,6 +185,8 @@ class Connection(H11Protocol):
             self.cycle.body += body
             self.cycle.more_body = self._missing > 0
             self.cycle.message_event.set()
+        if self._asks is not None:
+            self._asks.sent_all = not self._missing
         if self._next or len(self.cycle.body) > HIGH_WATER_LIMIT:
             self.flow.pause_reading()
 
@@ -237,7 +242,13 @@ class Connection(H11Protocol):
         self._write_timer = None
 
     def on_response_complete(self) -> None:
-        super().on_response_complete()
+        if self._plain:
+            self.server_state.total_requests += 1
+            if not self.transport.is_closing():
+                self.flow.resume_reading()
+                self._idle.begin()
+        else:
+            super().on_response_complete()
         if self._waits:
             # it is not idle: what comes next has come
             self._unset_keepalive_if_required()
@@ -249,6 +260,10 @@ class Connection(H11Protocol):
             self._watch_writing()
         if self._plain and not self._missing:
             self._end()
+
+    def _unset_keepalive_if_required(self) -> None:
+        self._idle.end()
+        super()._unset_keepalive_if_required()
 
     def _watch_writing(self) -> None:
         if self._write_timer is None:

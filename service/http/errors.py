@@ -20,7 +20,8 @@ from service.guard.rates import TooManyRequests
 from service.guard.refusals import BadHeader, Forbidden, ForeignHost, TooManyConnections, Unauthorized
 from service.guard.shares import OverShare
 from service.http.accept import NotAcceptable
-from service.http.computing import ClientGone, ComputationFailed
+from service.http.computing import ComputationFailed
+from service.http.leaving import ClientGone
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.files import FilesUnavailable

@@ -1,61 +1,95 @@
-"""That a client goes away while its answer is made."""
+"""Whether a client has sent all and still waits: that it goes away while its answer is made."""
 
 import asyncio
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
+from types import TracebackType
 
 from starlette.requests import Request
 from uvicorn.protocols.http.flow_control import FlowControl
 
 #: of the state of a request: its client, where the server says itself when it goes
 CLIENT = "client"
-Leave = Callable[[], None]
+Leave = Callable[[], object]
+
+
+class ClientGone(Exception):
+    """The client closed its connection; nobody waits for the answer."""
 
 
 class Client:
-    """Who waits for an answer: told by the server that it has gone, without a task that waits for that."""
+    """Who waits for an answer: told by the server that it has gone, without a task that waits for that.
+
+    sent_all : whether its whole body has come.
+    """
 
     def __init__(self, flow: FlowControl) -> None:
+        self.sent_all = False
+        self.gone = False
         self._flow = flow
-        self._gone = False
-        self._told: list[Leave] = []
+        self._told: Leave | None = None
 
     def leave(self) -> None:
         """It has gone."""
-        self._gone = True
-        for tell in tuple(self._told):
-            tell()
+        self.gone = True
+        if self._told is not None:
+            self._told()
 
-    @contextmanager
-    def watched(self, leave: Leave) -> Iterator[None]:
-        """Have something called when it goes, at once if it has gone."""
+    def tell(self, leave: Leave | None) -> None:
+        """Have something called when it goes, or nothing any more."""
         # what is not read does not end
         self._flow.resume_reading()
-        if self._gone:
-            leave()
-        self._told.append(leave)
-        try:
-            yield
-        finally:
-            self._told.remove(leave)
+        self._told = leave
 
 
-@contextmanager
-def on_leaving(request: Request, leave: Leave) -> Iterator[None]:
-    """Have something called if the client goes away meanwhile, after its body has been read."""
-    client: Client | None = request.scope.get("state", {}).get(CLIENT)
-    if client is not None:
-        with client.watched(leave):
-            yield
-        return
+def client_of(request: Request) -> Client | None:
+    """The client of a request, where the server says itself when it goes."""
+    found: Client | None = request.scope.get("state", {}).get(CLIENT)
+    return found
 
-    async def watch() -> None:
-        while (await request.receive())["type"] != "http.disconnect":
+
+class Waited:
+    """Work for a client, in a ``with``: it is cancelled when the client goes away, after its body has been read.
+
+    Raises
+    ------
+    ClientGone
+    """
+
+    def __init__(self, request: Request) -> None:
+        self._request = request
+        self._gone = False
+        self._stop: Leave = _nothing
+
+    def __enter__(self) -> None:
+        task = asyncio.current_task()
+        assert task is not None
+        self._task, self._cancelling = task, task.cancelling()
+        client = client_of(self._request)
+        if client is None:
+            self._stop = asyncio.create_task(self._watch()).cancel
+        elif client.gone:
+            raise ClientGone
+        else:
+            client.tell(self._leave)
+            self._stop = lambda: client.tell(None)
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._stop()
+        # as asyncio.timeout does it: others may have cancelled it too, and it ends for them then
+        if self._gone and self._task.uncancel() <= self._cancelling and kind is asyncio.CancelledError:
+            raise ClientGone from None
+
+    def _leave(self) -> None:
+        self._gone = True
+        self._task.cancel()
+
+    async def _watch(self) -> None:
+        while (await self._request.receive())["type"] != "http.disconnect":
             pass
-        leave()
+        self._leave()
 
-    watching = asyncio.create_task(watch())
-    try:
-        yield
-    finally:
-        watching.cancel()
+
+def _nothing() -> None:
+    pass

@@ -11,8 +11,9 @@ from typing import TypeVar
 from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
+from service.workers.task import Task
 from service.workers.turns import ABOVE, Full, Turns
-from service.workers.worker import Answer, Crashed, Outcome, Task
+from service.workers.worker import Answer, Crashed, Outcome
 
 _LOG = logging.getLogger(__name__)
 #: a request whose client is gone may end within this time, which is cheaper than another worker

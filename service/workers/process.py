@@ -15,7 +15,8 @@ from pathlib import Path
 from threading import Lock, Timer
 
 from service.workers.messages import Listener
-from service.workers.worker import Outcome, Task, serve
+from service.workers.task import Task
+from service.workers.worker import Outcome, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -72,7 +73,7 @@ class Worker:
     def send(self, task: Task, behind: bool) -> None:
         """Have a task computed, behind what others have asked for or not."""
         try:
-            self._connection.sendall(pickle.dumps((task, behind)))
+            self._connection.sendall(task.said(behind))
         except OSError as error:
             raise Dead from error
 

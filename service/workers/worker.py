@@ -22,11 +22,10 @@ from typing import BinaryIO
 
 from optimizer.errors import NotComputable
 from service.coding import SMALL_BYTES, Coding, coded
-from service.computations import Computation, Form
 from service.faults import kept
-from service.guard.sizes import SizeLimits
 from service.validation import InvalidRequest, UnreadableBody, check, read_json
 from service.workers.messages import say
+from service.workers.task import Task
 
 #: below the event loop, above the workers of sweeps; and so much more for a client of whom more is computed or waits
 _NICENESS, _BEHIND = 2, 3
@@ -42,21 +41,6 @@ class OutOfMemory(Exception):
 
 class NoRoom(Exception):
     """There is no room on disk for a large answer; a retry may help."""
-
-
-@dataclass(frozen=True)
-class Task:
-    """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.
-
-    workbook : whether the body is one; else it is JSON.
-    """
-
-    computation: Computation
-    form: Form
-    body: bytes
-    limits: SizeLimits
-    coding: Coding | None = None
-    workbook: bool = False
 
 
 @dataclass(frozen=True)
@@ -142,7 +126,7 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
         # a thread is as nice as it says and starts with its first task; a process that was nice once may not go back
         with connection.makefile("rb") as asked, ThreadPoolExecutor(1, initializer=partial(os.nice, _BEHIND)) as nicer:
             while True:
-                task, nicely = pickle.load(asked)
+                task, nicely = Task.heard(asked)
                 outcome = nicer.submit(perform, task).result() if nicely else perform(task)
                 _send(connection, outcome, folder)
                 del task, outcome

@@ -14,7 +14,7 @@ from service.computations import COMPUTATIONS, JSON
 from service.documents.examples import load
 from service.guard.sizes import SizeLimits
 from service.settings import Settings
-from service.workers.worker import Task
+from service.workers.task import Task
 
 _DONE = Problem(type="t", title="t", status=200, detail="d", instance="", errors=())
 

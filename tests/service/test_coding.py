@@ -14,7 +14,8 @@ from service.computations import COMPUTATIONS, Computation
 from service.guard.sizes import SizeLimits
 from service.http.kept import Kept
 from service.settings import Settings
-from service.workers.worker import Answer, Task, perform
+from service.workers.task import Task
+from service.workers.worker import Answer, perform
 from tests.service.toy import TOY
 
 

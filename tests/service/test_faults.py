@@ -16,7 +16,8 @@ from service.guard.sizes import SizeLimits
 from service.jobs import worker as jobs
 from service.settings import Settings
 from service.watch.metrics import Metrics
-from service.workers.worker import Answer, Task, perform
+from service.workers.task import Task
+from service.workers.worker import Answer, perform
 
 BODY = bodies("")["v90-equal"]
 
