@@ -94,7 +94,10 @@ const redo = () => go("redo", "Done again: press Optimise.");
 
 // `push`: Back leads to what was there before
 async function take(request, example, kept = {}, { push = true } = {}) {
+  const { places } = work;
   if (push && work.unkept && work.request) await work.keep();
+  // the reader went elsewhere while that was being packed
+  if (places !== work.places) return;
   work.begin(request, example, kept);
   tools();
   work.keep({ push: push && run.count > 0 && parent === self });

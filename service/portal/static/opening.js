@@ -9,19 +9,25 @@ import { blank } from "./starter.js";
 import { requestIn, told } from "./workbook.js";
 
 export class Opening {
-  #links = 0;
+  #asked = 0;
 
   /** @param {any} page {take, complain, open, fresh, work, form} */
   constructor(page) {
     this.page = page;
   }
 
-  async example(name, kept, how, wanted = () => true) {
+  // whether nothing was asked for since: what comes late is neither shown nor written into another place
+  #last() {
+    const number = (this.#asked += 1);
+    return () => number === this.#asked;
+  }
+
+  async example(name, kept, how, wanted = this.#last()) {
     try {
       const request = await get(`v1/examples/${encodeURIComponent(name)}`);
       if (wanted()) await this.page.take(request, name, kept, how);
     } catch (error) {
-      await this.page.complain(error);
+      if (wanted()) await this.page.complain(error);
     }
   }
 
@@ -41,22 +47,23 @@ export class Opening {
 
   // a workbook, or a text
   async file(file) {
+    const wanted = this.#last();
     if (!/\.xlsx$/i.test(file.name)) {
-      this.text(byId("json").value = await file.text());
+      const text = await file.text();
+      if (wanted()) this.text(byId("json").value = text);
       return;
     }
     const said = byId("json-error");
     said.textContent = "";
     const request = await requestIn(file).catch((error) => { said.textContent = told(error); });
-    if (!request) return;
+    if (!request || !wanted()) return;
     this.page.take(request, null);
     byId("paste").open = false;
   }
 
   async link(fragment) {
     const { take, open, fresh } = this.page;
-    const number = (this.#links += 1);
-    const wanted = () => number === this.#links;
+    const wanted = this.#last();
     /** @type {any} */
     const link = await readLink(fragment).catch(() => ({ broken: true }));
     // the reader went on meanwhile

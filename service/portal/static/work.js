@@ -19,6 +19,8 @@ export class Work {
   unsaved = false;
   // changed since link and session were written
   unkept = false;
+  // how often the reader went elsewhere
+  places = 0;
   #edits = new Edits();
   #later = new Later(() => this.keep(), LATER_MS);
   #links = 0;
@@ -91,7 +93,9 @@ export class Work {
   leave() {
     this.#later.cancel();
     this.#left = true;
+    this.#pushing = false;
     this.#links += 1;
+    this.places += 1;
   }
 
   #store() {
