@@ -28,7 +28,7 @@ from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data
-from optimizer.mechanics.turn import fluctuation, mean, panels
+from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from schemas.base import FieldProblem
 from schemas.machine import Machine
@@ -36,8 +36,6 @@ from schemas.reciprocating import ReciprocatingMachine
 from schemas.rules import Rule
 
 _WIDEST_PANEL = np.deg2rad(10.0)
-#: rows times angles that are worked on at once, which bounds the memory
-_AT_ONCE = 500_000
 
 
 def _reciprocating(machine: Machine) -> ReciprocatingMachine:
@@ -106,7 +104,8 @@ def _gas(context: Context) -> GasCycle:
     layout = context.layout
     data = chambers(_reciprocating(context.machine), layout.omega.shape)
     given = traces(_reciprocating(context.machine), layout)
-    return GasCycle(data, layout, gas_forces(data, context.given["kinematics"], layout, given), given)
+    forces = gas_forces(data, context.given["kinematics"], layout, given)
+    return GasCycle(data, layout, forces, context.fidelity.kinematics == "exact", given)
 
 
 def _friction(context: Context) -> FrictionForces:
@@ -156,13 +155,11 @@ def _torque(context: Context) -> TorqueSeries:
     return TorqueSeries(rows, np.sum(rows, axis=-2) + friction[..., None], friction)
 
 
-def _torque_at(context: Context, angle: Real) -> tuple[Real, Real]:
-    """Torque of the rows (..., rows, T) and with the friction of the shaft (..., T) at shaft angles (..., T) rad."""
+def _torque_at(context: Context, turn: Turn) -> tuple[Real, Real]:
+    """Torque of the rows (..., rows, T) and with the friction of the shaft (..., T) at the nodes of panels."""
     whole: WholeTurn = context.given["whole_turn"]
     leading, radius = context.layout.omega.shape, context.layout.reciprocating.crank_radius[..., None]
-    nodes = np.broadcast_to(angle, (*leading, angle.shape[-1])).reshape(-1, angle.shape[-1])
-    pieces = np.array_split(nodes, max(1, radius.size * nodes.shape[-1] // _AT_ONCE), axis=-1)
-    force = np.concatenate([whole.tangential(piece) for piece in pieces], axis=-1)
+    force = whole.tangential(turn)
     rows = radius * force.reshape(*leading, *force.shape[1:])
     friction = context.given["friction"].torque[..., None] if "friction" in context.given else 0.0
     return rows, np.sum(rows, axis=-2) + friction
@@ -183,7 +180,7 @@ def _turns(context: Context) -> int:
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:
     fine = panels(_breaks(context), _WIDEST_PANEL, halved=True, turns=_turns(context))
-    rows, total = _torque_at(context, fine.angle)
+    rows, total = _torque_at(context, fine)
     omega = context.layout.omega
     friction_power = np.zeros(omega.shape)
     if "friction" in context.given:
@@ -205,7 +202,7 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
 def _torque_errors(context: Context) -> TorqueErrors:
     coarse = panels(_breaks(context), _WIDEST_PANEL, turns=_turns(context))
     fine = context.given["torque_integrals"]
-    _, total = _torque_at(context, coarse.angle)
+    _, total = _torque_at(context, coarse)
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))
     )

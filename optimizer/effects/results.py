@@ -18,12 +18,13 @@ class GasCycle:
     chambers: Chambers
     layout: Layout
     forces: GasForces
+    exact: bool  # kinematics, or cut off after the second order
     traces: tuple[Trace, ...] = ()  # of the chambers whose pressure is given
 
     @cached_property
     def opens(self) -> tuple[Real, Real]:
         """Own crank angles at which suction and discharge open, (..., rows, C) rad each."""
-        return switching_angles(self.chambers, self.layout)
+        return switching_angles(self.chambers, self.layout, self.exact)
 
     @cached_property
     def work(self) -> Real:

@@ -7,7 +7,6 @@ from optimizer.curve import TurnResponse, peaks
 from optimizer.figures.output import Columns, Output
 from optimizer.figures.peaks import TOLERANCE, bracket, of_torque
 from optimizer.mechanics.roll import roll as roll_response
-from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.scene import Prepared
 from schemas.roll import Roll, RollMoment
 
@@ -36,8 +35,15 @@ def _moment(scene: Prepared, response: TurnResponse, unbalance: Complex) -> Roll
 
 
 def _columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    whole: WholeTurn = scene.results["whole_turn"]
-    return {"peak_roll_Nm": of_torque(scene, -np.real(whole.torque.mean)).lower}
+    # friction of the shaft does not reach the frame
+    mean = np.sum(scene.results["torque_integrals"].row_mean, axis=-1)
+    return {"peak_roll_Nm": of_torque(scene, -mean).lower}
 
 
-ROLL = Output("roll", "roll moment on the frame, before and after", ("whole_turn",), _figure, Columns(_columns))
+ROLL = Output(
+    "roll",
+    "roll moment on the frame, before and after",
+    ("whole_turn",),
+    _figure,
+    Columns(_columns, needs=("torque_integrals", "whole_turn")),
+)

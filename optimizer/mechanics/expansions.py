@@ -42,12 +42,12 @@ class Expansions:
         def bounds(some: Places) -> Real:
             series = self._series(some, 4)
             assert series.radius is not None  # enclosures have one
-            return np.stack([series.middle[4], series.radius[4]])
+            return np.stack([series.middle[0], series.radius])
 
         return self._fourths.found((design, piece, angle, half), bounds)
 
     def _series(self, places: Places, order: int) -> Taylor:
-        """About places (m,): coefficients (order + 1, m, R)."""
+        """About places (m,): coefficients (order + 1, m, R), or bounds of the last (m, R)."""
         design, piece, angle, *half = places
         within = self._middle[design, piece]
         # places of one design side by side, those of many as so many designs
@@ -57,7 +57,7 @@ class Expansions:
         found = RowSeries(rows, angle, half[0] if half else None, within, order).of(self._reading)
 
         def of_places(values: NDArray[Any]) -> NDArray[Any]:
-            return np.swapaxes(values[:, 0], 1, 2) if one else values[..., 0]
+            return np.swapaxes(values[..., 0, :, :], -1, -2) if one else values[..., 0]
 
         return Taylor(of_places(found.middle), None if found.radius is None else of_places(found.radius))
 

@@ -118,8 +118,13 @@ def _log_ratio(chambers: Chambers) -> Real:
     return np.log1p(np.where(chambers.closed, chambers.discharge - chambers.suction, 0.0) / low)
 
 
-def switching_angles(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
-    """Own crank angles in [0, 2 pi) at which suction and discharge open, (..., rows, C) rad; nan where never."""
+def switching_angles(chambers: Chambers, layout: Layout, exact: bool = True) -> tuple[Real, Real]:
+    """Own crank angles in [0, 2 pi) at which suction and discharge open, (..., rows, C) rad; nan where never.
+
+    Parameters
+    ----------
+    exact : kinematics, or cut off after the second order.
+    """
     rows = layout.reciprocating
     radius, lam, margin = rows.crank_radius[..., None], rows.rod_ratio[..., None], rows.rod_margin[..., None]
     stroke = 2.0 * radius
@@ -128,7 +133,8 @@ def switching_angles(chambers: Chambers, layout: Layout) -> tuple[Real, Real]:
     # the head chamber grows over 0..pi and shrinks over pi..2 pi; the crank chamber the other way round
 
     def own_angle(travel: Real, left: Real) -> Real:
-        return angle_at(np.where(from_head, travel, left), radius, lam, np.where(from_head, left, travel), margin)
+        moved, rest = np.where(from_head, travel, left), np.where(from_head, left, travel)
+        return angle_at(moved, radius, lam, rest, margin, exact)
 
     opens, closes = own_angle(suction, stroke - suction), own_angle(discharge, before)
     return (

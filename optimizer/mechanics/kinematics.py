@@ -103,24 +103,32 @@ def angle_at(
     rod_ratio: Real,
     remaining: Real | None = None,
     rod_margin: Real | None = None,
+    exact: bool = True,
 ) -> Real:
-    """Own crank angle in [0, pi] at which the piston has moved so far, rad; exact.
+    """Own crank angle in [0, pi] at which the piston has moved so far, rad.
 
     With t = x/r and u = 2 - t the cosine rule gives 1 - cos phi = t (2 (1 - lam) + lam u) / (2 (1 - lam + lam u)) and
     1 + cos phi = u (2 + lam u) / (2 (1 - lam + lam u)), so that tan^2(phi/2) is their quotient. Each is as good as its
-    own distance, so the angle keeps its digits at both dead centres.
+    own distance, so the angle keeps its digits at both dead centres. Cut off after the second order the travel is
+    t = (1 + lam) (1 - cos phi) - lam (1 - cos phi)^2 / 2, whose roots for 1 - cos phi and 1 + cos phi do not cancel.
 
     Parameters
     ----------
     displacement : (...) m, within the stroke.
     remaining : (...) m, stroke - displacement, where it is known better than by the difference.
     rod_margin : (...) 1 - lam, likewise.
+    exact : or cut off after the second order, as :func:`motion`.
     """
     t = displacement / crank_radius
     u = 2.0 - t if remaining is None else remaining / crank_radius
     margin = 1.0 - rod_ratio if rod_margin is None else rod_margin
     t, u = np.maximum(t, 0.0), np.maximum(u, 0.0)
-    rise, fall = t * (2.0 * margin + rod_ratio * u), u * (2.0 + rod_ratio * u)
+    if exact:
+        rise, fall = t * (2.0 * margin + rod_ratio * u), u * (2.0 + rod_ratio * u)
+    else:
+        # one root: (1 + lam)^2 - 2 lam t = (1 - lam)^2 + 2 lam u
+        root = np.sqrt(margin**2 + 2.0 * rod_ratio * u)
+        rise, fall = t / (1.0 + rod_ratio + root), u / (margin + root)
     return 2.0 * np.arctan2(np.sqrt(rise), np.sqrt(fall))
 
 

@@ -45,9 +45,8 @@ class RowData:
         from optimizer.mechanics.kernel.rows import Rows
 
         count = self.crank_radius.shape[-1]
-        motion = _together(
-            [self.ahead, self.rod_ratio, self.rod_margin, self.inertia, self.friction, self.sense], (count,)
-        )
+        motion = _together([self.ahead, self.rod_ratio, self.rod_margin, self.sense], (count,))
+        scale = _together([self.inertia, self.friction], (count,))
         chambers = 0 if self.area is None else self.area.shape[-1]
         gas, given = np.zeros((len(motion), count, 0, 7)), np.full((count, chambers), -1)
         if self.area is not None:
@@ -59,7 +58,7 @@ class RowData:
             given[trace.row, trace.side] = number
         designs = max(len(motion), len(gas))
         motion, gas = (compact(np.broadcast_to(each, (designs, *each.shape[1:]))) for each in (motion, gas))
-        return Rows(motion, gas, given, self.exact)
+        return Rows(motion, scale, gas, given, self.exact)
 
     def chosen(self, design: np.ndarray) -> "RowData":
         """Those of some designs, as often as named."""

@@ -1,18 +1,25 @@
 """Forces of the rows as Taylor series in the shaft angle, at points or bounded over pieces of the turn.
 
-What they are made of is compiled: :mod:`optimizer.mechanics.kernel.rows`.
+What they are made of, once however many forces are read from it, is compiled: :mod:`optimizer.mechanics.kernel.rows`.
 
 Shapes: N designs or places, R rows, P angles.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal, NamedTuple
+from typing import TYPE_CHECKING, Literal, NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.row_data import RowData, compact
+
+if TYPE_CHECKING:
+    from optimizer.mechanics.kernel.rows import Functions
+
+#: rows times places of which it is kept what forces are made of, which bounds the memory
+_AT_ONCE = 50_000
 
 #: a force of the rows
 Reading = Literal[
@@ -21,10 +28,11 @@ Reading = Literal[
 
 
 class Taylor(NamedTuple):
-    """Coefficients f^(k)/k! of functions of an angle, (order + 1, ...).
+    """Coefficients f^(k)/k! of functions of an angle.
 
-    middle : the coefficients, or the middles of their enclosures; complex for vectors across the shaft.
-    radius : of their enclosures; None at points.
+    middle : (order + 1, ...) at points; of enclosures the middles of the last alone, (1, ...). Complex for vectors
+        across the shaft.
+    radius : (...) of the enclosures; None at points.
     """
 
     middle: Real | Complex
@@ -59,14 +67,38 @@ class RowSeries:
         return {}
 
     def _made(self, reading: Reading) -> Taylor:
-        from optimizer.mechanics.kernel.rows import READINGS, Places, row_series
+        from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
 
-        none = np.zeros((0, 0))
-        half = none if self.half is None else self.half
-        places = Places(*map(compact, (self.centre, half, self.within, *self._given)))
-        parts, radius = row_series(self.data.packed, places, READINGS.index(reading), self.order)
+        pressed = reading not in WITHOUT_GAS
+        number = READINGS.index(reading)
+        found = [row_series(self.data.packed, functions, number) for functions in self._functions(pressed)]
+        parts, radius = (
+            found[0] if len(found) == 1 else (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
+        )
         middle = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
         return Taylor(middle, None if self.half is None else radius)
+
+    def _functions(self, pressed: bool) -> "Iterator[Functions]":
+        """What forces are made of, with gas where it is pressed: part by part, and kept where one part is all."""
+        from optimizer.mechanics.kernel.rows import Places, row_functions
+
+        if known := self._kept.get(True, self._kept.get(pressed)):
+            yield known
+            return
+        none = np.zeros((0, 0))
+        half = none if self.half is None else self.half
+        rows, angles = self.data.packed, (self.centre, half, self.within, *self._given)
+        made = max(len(rows.motion), len(self.centre)) * rows.motion.shape[1] * self.centre.shape[1]
+        parts = max(1, -(-made // _AT_ONCE))
+        for some in zip(*(np.array_split(each, parts, axis=-1) for each in angles), strict=True):
+            functions = row_functions(rows, Places(*map(compact, some)), self.order, pressed)
+            if parts == 1:
+                self._kept[pressed] = functions
+            yield functions
+
+    @cached_property
+    def _kept(self) -> "dict[bool, Functions]":
+        return {}
 
     @property
     def _given(self) -> tuple[Real, Real]:

@@ -58,6 +58,11 @@ class Turn:
         nodes = self.start[..., None] + self.width[..., None] * inside
         return nodes.reshape(*nodes.shape[:-2], -1)
 
+    @property
+    def middle(self) -> Real:
+        """Middle of the panel of every node, (..., P * nodes) rad."""
+        return np.repeat(self.start + 0.5 * self.width, self.rule.weights.size, axis=-1)
+
 
 def panels(breaks: Real, widest: float, halved: bool = False, turns: int = 1) -> Turn:
     """Panels between break angles, cut at a regular grid as well; their number grows with that of the breaks.

@@ -19,7 +19,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_data import RowData, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
-from optimizer.mechanics.turn import panels
+from optimizer.mechanics.turn import Turn, panels
 from optimizer.pieces import Index, Pieces
 
 #: rad, width of pieces that no break shortens
@@ -82,11 +82,12 @@ class WholeTurn:
         radius = self.rows.crank_radius[:, None, :]
         return self.curves("tangential", np.broadcast_to(radius, (len(self.centre), *radius.shape[1:])))
 
-    def tangential(self, angle: Real) -> Real:
-        """Tangential force of every row (N, R, n) N at shaft angles (N, n) rad, which are no breaks."""
-        places = shared(angle)
-        force: Real = RowSeries(self.rows, places, None, places, 0).of("tangential").middle[0]
-        return np.broadcast_to(force, (len(angle), *force.shape[1:]))
+    def tangential(self, turn: Turn) -> Real:
+        """Tangential force of every row (N, R, n) N at the nodes of panels between breaks, which have leading axes."""
+        nodes, middle = (each.reshape(-1, each.shape[-1]) for each in (turn.angle, turn.middle))
+        places = shared(np.stack([nodes, middle], axis=1))
+        force: Real = RowSeries(self.rows, places[:, 0], None, places[:, 1], 0).of("tangential").middle[0]
+        return np.broadcast_to(force, (len(nodes), *force.shape[1:]))
 
     @cached_property
     def points(self) -> RowSeries:
@@ -281,5 +282,5 @@ def _sums(series: Taylor, weights: Complex | Real, constant: Complex | Real) -> 
 def _largest(bounds: Taylor, weights: Complex | Real) -> Real:
     """Largest magnitude of the last coefficient of the curves, (N, C, P), from enclosures of the rows."""
     assert bounds.radius is not None  # enclosures have one
-    found: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius[-1]
+    found: Real = np.abs(weights @ bounds.middle[-1]) + np.abs(weights) @ bounds.radius
     return found

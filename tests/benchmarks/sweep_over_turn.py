@@ -45,10 +45,13 @@ class Case(NamedTuple):
     step_deg: float = 10.0
 
 
+def every_output() -> tuple[str, ...]:
+    """All outputs with columns that the 2D12 has data for."""
+    return tuple(name for name, output in OUTPUTS.items() if output.columns is not None and name not in _LACKING)
+
+
 def cases() -> list[Case]:
     six, dozen = six_with_gas(), example("2d12")["machine"]
-    # all that the machine has data for
-    every = tuple(name for name, output in OUTPUTS.items() if output.columns is not None and name not in _LACKING)
     first = {**_BEARINGS, "least_mass": False}
     ordered = {"bearing_weight": 1, "priorities": [{"goal": "external", "allowance": 0.01}, {"goal": "bearings"}]}
     return [
@@ -58,7 +61,7 @@ def cases() -> list[Case]:
         Case("2D12: bearings, least mass", dozen, _BEARINGS),
         Case("2D12: all orders, least mass", dozen, {"orders": "all"}),
         Case("2D12: external, then bearings", dozen, ordered),
-        Case("2D12: bearings, least mass, all outputs at 1 degree", dozen, _BEARINGS, every, 1.0),
+        Case("2D12: bearings, least mass, all outputs at 1 degree", dozen, _BEARINGS, every_output(), 1.0),
     ]
 
 

@@ -4,7 +4,7 @@ import psutil
 import pytest
 
 from schemas.sweep import SweepRequest
-from tests.benchmarks import sweep_memory, sweep_scaling, sweep_time
+from tests.benchmarks import sweep_memory, sweep_outputs, sweep_scaling, sweep_time
 from tests.benchmarks.operations import Counted, operations_per_program
 from tests.benchmarks.sweep import OURS, at_limits, compare
 from tests.benchmarks.sweep_case import programs, sweep
@@ -66,3 +66,8 @@ def test_scaling_and_memory_run() -> None:
     assert sweep_scaling.seconds(sweep(50), workers=1) > 0
     _, alive = psutil.wait_procs([each for each in sweep_memory.workers() if each not in others], timeout=180)
     assert alive == []
+
+
+def test_every_output_of_a_sweep_is_watched() -> None:
+    seconds = sweep_outputs.seconds(sweep_outputs.sweep(*sweep_outputs.AXES["a mass"], 3))
+    assert all(seconds[part] > 0 for part in sweep_outputs.PARTS), seconds

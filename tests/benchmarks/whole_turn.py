@@ -43,7 +43,10 @@ _ELSE = "input, mechanics, and the making of the answer"
 PARTS: dict[str, tuple[str, ...]] = {
     "rounds": ("optimizer.certified_turn:over_turn",),
     "cone programs": ("optimizer.program.cut_stage:solved",),
-    "series of the rows": ("optimizer.mechanics.kernel.rows:row_series",),
+    "series of the rows": (
+        "optimizer.mechanics.kernel.rows:row_functions",
+        "optimizer.mechanics.kernel.readings:row_series",
+    ),
     "brackets": ("optimizer.pieces:_bracketed",),
     "smallest circles": ("optimizer.figures.bearings:floors", "optimizer.program.cut_samples:smallest_circle"),
     "rest of the proofs": ("optimizer.optimize:certified_turn",),

@@ -26,32 +26,19 @@ from optimizer.mechanics.kernel.taylor import (
     summed,
 )
 
-#: what may be asked of the rows; the first column counts from 0 in the compiled code
-READINGS = (
-    "piston",
-    "rod",
-    "rod_without_gas",
-    "rod_at_rest",
-    "side",
-    "tangential",
-    "radial",
-    "on_shaft",
-    "on_frame",
-    "gas",
-)
-PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, ON_FRAME, GAS = range(len(READINGS))
 #: functions of one row; as numpy's integers, for each Python literal that is handed on is a type of its own, for which
-#: all that takes it is compiled anew
-_COS, _SIN, _COS_2, _SIN_2, _COS_4, _SIN_4 = np.arange(6)
-_UPRIGHT, _COS_BETA, _SECANT, _SIN_SQUARED = np.arange(6, 10)
-_INERTIA, _GAS, _PISTON, _ALONG, _ACROSS, _PRESSURE, _TRAVEL, _A, _B, _C = np.arange(10, 20)
-_FUNCTIONS = 20
+#: all that takes it is compiled anew. The first are what readings are made of, FORCE that of the gas
+INERTIA, FORCE, COS, SIN, SIN_2, SIN_SQUARED, SECANT = np.arange(7)
+KEPT = 7
+_COS_2, _COS_4, _SIN_4, _UPRIGHT, _COS_BETA, _PRESSURE, _TRAVEL, _A, _B, _C = np.arange(KEPT, KEPT + 10)
+_FUNCTIONS = KEPT + 10
 
 
 class Rows(NamedTuple):
-    """Data of the rows of D designs, 1 where all are the same.
+    """Data of the rows of D or S designs, 1 where all are the same.
 
-    motion : (D, R, 6) angle ahead [rad], rod ratio, 1 - rod ratio, m r omega^2 [N], friction [N], sense.
+    motion : (D, R, 4) angle ahead [rad], rod ratio, 1 - rod ratio, sense.
+    scale : (S, R, 2) m r omega^2 [N], friction [N].
     gas : (D, R, C, 7) area [m^2] with the sign of its force in rod tension, suction and discharge pressure [Pa],
         relative clearance, exponents of expansion and compression, whether it is closed.
     given : (R, C) which of the traces gives the pressure of a chamber, or -1.
@@ -59,6 +46,7 @@ class Rows(NamedTuple):
     """
 
     motion: Real
+    scale: Real
     gas: Real
     given: np.ndarray
     exact: bool
@@ -79,19 +67,31 @@ class Places(NamedTuple):
     slope: Real
 
 
-@kernel
-def row_series(rows, places, reading, order):  # type: ignore[no-untyped-def]
-    """Middles (2, order + 1, N, R, P) and radii (order + 1, N, R, P) of a force of the rows.
+class Functions(NamedTuple):
+    """What the forces of M designs are made of: those that differ in masses, speed and friction alone have them once.
 
-    The first part is along the crank, or all of a scalar; the second across it, against the sense of rotation.
+    middle : (M, R, P, 7, order + 1) acceleration over r omega^2, gas [N], cos and sin of the crank angle, sin of twice
+        the angle, sin^2, 1 / cos beta.
+    radius : the same of enclosures; (0, R, P, 7, order + 1) at points.
+    way : (M, R, P) which way the row moves: 1 to the shaft.
     """
-    bounded, vector = places.half.size > 0, reading in (ON_SHAFT, ON_FRAME)
+
+    middle: Real
+    radius: Real
+    way: Real
+
+
+@kernel
+def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
+    """What all readings of the rows are made of; without the gas where it is not pressed."""
+    bounded = places.half.size > 0
     designs, count = rows.motion.shape[:2]
     some, angles = places.centre.shape
     # the pressures may differ between designs that have all else in common
     number = max(designs, some, places.pressure.shape[1])
-    middle = np.empty((2 if vector else 1, order + 1, number, count, angles))
-    radius = np.empty((order + 1 if bounded else 0, number, count, angles))
+    middle = np.empty((number, count, angles, KEPT, order + 1))
+    radius = np.empty((number if bounded else 0, count, angles, KEPT, order + 1))
+    way = np.empty((number, count, angles))
     series = Series(np.zeros((_FUNCTIONS, order + 1)), np.zeros((_FUNCTIONS, order + 1)), bounded)
     process = np.empty((rows.gas.shape[2], 4))
     half = 0.0
@@ -107,15 +107,14 @@ def row_series(rows, places, reading, order):  # type: ignore[no-untyped-def]
                 if within != known:
                     # many places of one piece follow one another
                     known, inside = within, _turned(within)
-                    _decide(rows.gas[design, r], motion, rows.exact, inside, process)
+                    if pressed:
+                        _decide(rows.gas[design, r], motion, rows.exact, inside, process)
                 there = _turned(angle)
+                way[n, r, p] = np.sign(inside.sine)
                 _move(series, motion, rows.exact, there, angle, half)
-                if reading != ROD_AT_REST and reading != GAS:
-                    _add_inertia(series, motion, rows.exact)
-                    if reading != ON_FRAME:
-                        series.middle[_INERTIA, 0] += np.sign(inside.sine) * motion[4]
-                if reading != ROD_WITHOUT_GAS and reading != ON_FRAME:
-                    constant(series, 0.0, _GAS)
+                _accelerate(series, motion, rows.exact)
+                constant(series, 0.0, FORCE)
+                if pressed:
                     for c in range(rows.gas.shape[2]):
                         area, trace = rows.gas[design, r, c, 0], rows.given[r, c]
                         if area == 0.0:
@@ -125,54 +124,13 @@ def row_series(rows, places, reading, order):  # type: ignore[no-untyped-def]
                         else:
                             one = n if places.pressure.shape[1] > 1 else 0
                             _given(series, places.pressure[trace, one, p], places.slope[trace, one, p], half)
-                        summed(series, _GAS, _PRESSURE, area, _GAS)
-                    summed(series, _INERTIA, _GAS, 1.0, _PISTON)
-                first, second = _read(series, reading, motion)
-                for k in range(order + 1):
-                    middle[0, k, n, r, p] = series.middle[first, k]
-                    if vector:
-                        middle[1, k, n, r, p] = -motion[5] * series.middle[second, k]
-                    if bounded and vector:
-                        radius[k, n, r, p] = np.hypot(series.radius[first, k], series.radius[second, k])
-                    elif bounded:
-                        radius[k, n, r, p] = series.radius[first, k]
-    return middle, radius
-
-
-@inner
-def _read(series, reading, motion):  # type: ignore[no-untyped-def]
-    """Numbers of the functions that make a reading."""
-    ratio = motion[1]
-    if reading == GAS:
-        return _GAS, _GAS
-    if reading == PISTON:
-        return _PISTON, _PISTON
-    if reading == ON_FRAME:
-        product(series, _INERTIA, _COS, _ALONG)
-        product(series, _INERTIA, _SIN, _ACROSS)
-        return _ALONG, _ACROSS
-    if reading in (ROD, ROD_WITHOUT_GAS, ROD_AT_REST):
-        # P / cos beta
-        force = _PISTON if reading == ROD else _INERTIA if reading == ROD_WITHOUT_GAS else _GAS
-        product(series, force, _SECANT, _ALONG)
-        return _ALONG, _ALONG
-    if reading == SIDE:
-        # P tan beta
-        product(series, _SIN, _SECANT, _A)
-        scaled(series, _A, ratio, 0.0, _A)
-        product(series, _PISTON, _A, _ALONG)
-        return _ALONG, _ALONG
-    if reading != RADIAL:
-        # P sin(phi + beta) / cos beta, positive against rotation
-        product(series, _SIN_2, _SECANT, _A)
-        summed(series, _SIN, _A, 0.5 * ratio, _A)
-        product(series, _PISTON, _A, _ACROSS)
-    if reading != TANGENTIAL:
-        # P cos(phi + beta) / cos beta, positive outward along the crank
-        product(series, _SIN_SQUARED, _SECANT, _A)
-        summed(series, _COS, _A, -ratio, _A)
-        product(series, _PISTON, _A, _ALONG)
-    return _ACROSS if reading == TANGENTIAL else _ALONG, _ACROSS
+                        summed(series, FORCE, _PRESSURE, area, FORCE)
+                for f in range(KEPT):
+                    for k in range(order + 1):
+                        middle[n, r, p, f, k] = series.middle[f, k]
+                        if bounded:
+                            radius[n, r, p, f, k] = series.radius[f, k]
+    return Functions(middle, radius, way)
 
 
 class _Turned(NamedTuple):
@@ -198,7 +156,7 @@ def _move(series, motion, exact, there, angle, half):  # type: ignore[no-untyped
     ratio = motion[1]
     short, square = motion[2] * (1.0 + ratio), ratio * ratio
     sine, cosine = there.sine, there.cosine
-    for multiple, cos, sin in ((1, _COS, _SIN), (2, _COS_2, _SIN_2), (4, _COS_4, _SIN_4)):
+    for multiple, cos, sin in ((1, COS, SIN), (2, _COS_2, SIN_2), (4, _COS_4, _SIN_4)):
         if bounded:
             turned, wide = multiple * angle, multiple * half
             circular(series, multiple, cosine_range(turned, wide), cosine_range(turned - 0.5 * np.pi, wide), cos, sin)
@@ -207,27 +165,26 @@ def _move(series, motion, exact, there, angle, half):  # type: ignore[no-untyped
             sine, cosine = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
     # W = cos^2 beta = 1 - lam^2 + lam^2 cos^2 phi
     scaled(series, _COS_2, 0.5 * square, short + 0.5 * square, _UPRIGHT)
-    scaled(series, _COS_2, -0.5, 0.5, _SIN_SQUARED)
-    cos, sin = middle[_COS, 0], middle[_SIN, 0]
+    scaled(series, _COS_2, -0.5, 0.5, SIN_SQUARED)
+    cos, sin = middle[COS, 0], middle[SIN, 0]
     if bounded:
-        least, most = max(abs(cos) - radius[_COS, 0], 0.0), abs(cos) + radius[_COS, 0]
+        least, most = max(abs(cos) - radius[COS, 0], 0.0), abs(cos) + radius[COS, 0]
         between(series, _UPRIGHT, short + (ratio * least) ** 2, short + (ratio * most) ** 2)
-        least, most = max(abs(sin) - radius[_SIN, 0], 0.0), abs(sin) + radius[_SIN, 0]
-        between(series, _SIN_SQUARED, least**2, most**2)
+        least, most = max(abs(sin) - radius[SIN, 0], 0.0), abs(sin) + radius[SIN, 0]
+        between(series, SIN_SQUARED, least**2, most**2)
     else:
-        middle[_UPRIGHT, 0], middle[_SIN_SQUARED, 0] = short + (ratio * cos) ** 2, sin**2
+        middle[_UPRIGHT, 0], middle[SIN_SQUARED, 0] = short + (ratio * cos) ** 2, sin**2
     power(series, _UPRIGHT, 0.5, _COS_BETA)
-    power(series, _UPRIGHT, -0.5, _SECANT)
+    power(series, _UPRIGHT, -0.5, SECANT)
 
 
 @inner
-def _add_inertia(series, motion, exact):  # type: ignore[no-untyped-def]
-    """m a, N."""
+def _accelerate(series, motion, exact):  # type: ignore[no-untyped-def]
+    """Acceleration over r omega^2."""
     middle, _, bounded = series
     ratio = motion[1]
     if not exact:
-        summed(series, _COS, _COS_2, ratio, _INERTIA)
-        scaled(series, _INERTIA, motion[3], 0.0, _INERTIA)
+        summed(series, COS, _COS_2, ratio, INERTIA)
         return
     short, square = motion[2] * (1.0 + ratio), ratio * ratio
     # cos^4 = (3 + 4 cos 2 phi + cos 4 phi) / 8
@@ -235,11 +192,10 @@ def _add_inertia(series, motion, exact):  # type: ignore[no-untyped-def]
     summed(series, _A, _COS_4, 0.125 * ratio * square, _A)
     if not bounded:
         # at 90 degrees the sum cancels, and what it is divided by may be as small
-        middle[_A, 0] = ratio * (short * middle[_COS_2, 0] + square * middle[_COS, 0] ** 4)
+        middle[_A, 0] = ratio * (short * middle[_COS_2, 0] + square * middle[COS, 0] ** 4)
     power(series, _UPRIGHT, -1.5, _B)
     product(series, _A, _B, _C)
-    summed(series, _COS, _C, 1.0, _INERTIA)
-    scaled(series, _INERTIA, motion[3], 0.0, _INERTIA)
+    summed(series, COS, _C, 1.0, INERTIA)
 
 
 @inner
@@ -300,24 +256,24 @@ def _travel(series, motion, exact, side, there, angle, half, inside):  # type: i
     if middle.shape[1] > 1:
         if not exact:
             sign = 1.0 if side == 0 else -1.0
-            scaled(series, _SIN_SQUARED, sign * 0.5 * ratio, 1.0, _TRAVEL)
-            summed(series, _TRAVEL, _COS, -sign, _TRAVEL)
+            scaled(series, SIN_SQUARED, sign * 0.5 * ratio, 1.0, _TRAVEL)
+            summed(series, _TRAVEL, COS, -sign, _TRAVEL)
         elif side == 0:
             # (1 - cos beta) / lam = lam sin^2 phi / (1 + cos beta)
             scaled(series, _COS_BETA, 1.0, 1.0, _A)
             power(series, _A, -1.0, _B)
-            product(series, _SIN_SQUARED, _B, _C)
+            product(series, SIN_SQUARED, _B, _C)
             scaled(series, _C, ratio, 1.0, _TRAVEL)
-            summed(series, _TRAVEL, _COS, -1.0, _TRAVEL)
+            summed(series, _TRAVEL, COS, -1.0, _TRAVEL)
         else:
             # what motion() leaves to the inner dead centre: nothing cancels, however near lam is to 1
             if inside.cosine < 0.0:
-                summed(series, _COS_BETA, _COS, -ratio, _A)
+                summed(series, _COS_BETA, COS, -ratio, _A)
                 power(series, _A, -1.0, _B)
                 scaled(series, _B, motion[2] * (1.0 + ratio), 0.0, _A)
             else:
-                summed(series, _COS_BETA, _COS, ratio, _A)
-            scaled(series, _COS, 1.0, 1.0, _B)
+                summed(series, _COS_BETA, COS, ratio, _A)
+            scaled(series, COS, 1.0, 1.0, _B)
             product(series, _B, _A, _C)
             scaled(series, _A, 1.0, 1.0 + ratio, _A)
             power(series, _A, -1.0, _B)
