@@ -7,11 +7,11 @@ it asked at home. The header ``Host`` tells: it holds the name of the page.
 import re
 from collections.abc import Iterable
 
-from starlette.datastructures import Headers
 from starlette.types import Scope
 
 from service.guard.addresses import is_loopback
 from service.guard.refusals import ForeignHost
+from service.headers import header
 
 _HOST = re.compile(r"(?:\[([0-9A-Fa-f:.]+)\]|([^:\[\]/@]+))(?::[0-9]*)?")
 
@@ -34,7 +34,7 @@ class Hosts:
         ------
         ForeignHost
         """
-        asked = Headers(scope=scope).get("host")
+        asked = header(scope, b"host")
         if asked is None or "*" in self._others:
             return
         found = _HOST.fullmatch(asked)

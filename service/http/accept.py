@@ -7,6 +7,7 @@ from typing import TypeVar
 from starlette.requests import Request
 
 from service.coding import CODINGS, Coding
+from service.headers import joined
 
 Offer = TypeVar("Offer")
 Name = TypeVar("Name", bound=str)
@@ -49,13 +50,13 @@ _known = lru_cache(_KEPT)(_preferred)
 
 def liked(request: Request, offered: Mapping[str, Offer]) -> Offer | None:
     """What the header Accept of a request likes best of what there is, by media type; None if it accepts nothing."""
-    chosen = preferred(",".join(request.headers.getlist("accept")), tuple(offered))
+    chosen = preferred(joined(request.scope, b"accept"), tuple(offered))
     return None if chosen is None else offered[chosen]
 
 
 def coding_of(request: Request) -> Coding | None:
     """What an answer may be compressed by; None for who takes it as it is, or says nothing."""
-    return preferred(",".join(request.headers.getlist("accept-encoding")) or "identity", CODINGS)
+    return preferred(joined(request.scope, b"accept-encoding") or "identity", CODINGS)
 
 
 def _quality(name: str, ranges: Mapping[str, float]) -> float:

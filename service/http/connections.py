@@ -18,7 +18,7 @@ from service.http.errors import PROBLEM_JSON, Fault, fault, problem
 from service.http.idleness import Idleness
 from service.http.joined import Joined
 from service.http.leaving import CLIENT, Client
-from service.http.plain_requests import Head, PlainCycle, plain_head
+from service.http.plain_requests import Head, Heads, PlainCycle
 from service.http.rounds import Rounds
 from service.settings import Settings
 
@@ -58,6 +58,7 @@ class Connection(H11Protocol):
         self._missing = 0
         self._next = b""
         self._asks: Client | None = None
+        self._heads = Heads()
         self._idle = Idleness(self.loop, self.timeout_keep_alive, self.timeout_keep_alive_handler)
         #: called when it has ended
         self.left: Callable[[], None] = _nothing
@@ -122,7 +123,7 @@ class Connection(H11Protocol):
     def _plain_head(self, data: bytes) -> tuple[Head, int] | None:
         # h11 goes on with what it has begun to read
         between = self.conn.our_state is h11.IDLE and self.conn.their_state is h11.IDLE
-        return plain_head(data) if between and not self.conn.trailing_data[0] else None
+        return self._heads.plain(data) if between and not self.conn.trailing_data[0] else None
 
     def _begin(self, head: Head) -> None:
         # it may have come together with the one before it
@@ -142,7 +143,7 @@ class Connection(H11Protocol):
             "path": self.root_path + unquote(path.decode("ascii")),
             "raw_path": self.root_path.encode("ascii") + path,
             "query_string": query,
-            "headers": head.headers,
+            "headers": list(head.headers),
             "state": {**self.app_state, CLIENT: self._asks},
         }
         self.cycle = PlainCycle(

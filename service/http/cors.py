@@ -20,8 +20,8 @@ class Cors(CORSMiddleware):
         async def vary(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = message.get("headers", ())
-                varies = b", ".join([*(value for name, value in headers if name == b"vary"), b"Origin"])
-                message["headers"] = [*(each for each in headers if each[0] != b"vary"), (b"vary", varies)]
+                varies = b", ".join([*[value for name, value in headers if name == b"vary"], b"Origin"])
+                message["headers"] = [*[each for each in headers if each[0] != b"vary"], (b"vary", varies)]
             await send(message)
 
         await self.app(scope, receive, vary)

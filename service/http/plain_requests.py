@@ -20,6 +20,8 @@ _HEADER = re.compile(rb"([^:]++):[ \t]*+(%b)[ \t]*+\r\n" % _VALUE)
 _LENGTH = re.compile(rb"[0-9]{1,18}")
 _UNUSUAL = frozenset({b"transfer-encoding", b"expect", b"upgrade"})
 _ONCE = (b"host", b"content-length", b"connection")
+#: heads that are kept for the next request [bytes]
+_SHORT = 2048
 _WITHOUT_BODY = frozenset({204, 304})
 #: no header of an answer holds any of these
 _SPLITS = re.compile(rb"[\r\n\0]")
@@ -55,6 +57,23 @@ def plain_head(received: bytes) -> tuple[Head, int] | None:
     if not _LENGTH.fullmatch(length) or connection not in (b"keep-alive", b"close"):
         return None
     return Head(found[1].decode(), found[2], headers, int(length), connection == b"keep-alive"), found.end()
+
+
+class Heads:
+    """The heads of one connection: a client that asks again most often says the same again, which is read once."""
+
+    def __init__(self) -> None:
+        self._said = b""
+        self._head: Head | None = None
+
+    def plain(self, received: bytes) -> tuple[Head, int] | None:
+        """As :func:`plain_head`."""
+        if self._head is not None and received.startswith(self._said):
+            return self._head, len(self._said)
+        found = plain_head(received)
+        if found is not None and found[1] <= _SHORT:
+            self._head, self._said = found[0], received[: found[1]]
+        return found
 
 
 class PlainCycle(RequestResponseCycle):

@@ -7,6 +7,7 @@ from contextlib import nullcontext
 from starlette.requests import ClientDisconnect, Request
 
 from service.guard.shares import Holding
+from service.headers import header
 from service.http.leaving import client_of
 
 _TOKEN = r"[!#$%&'*+.^_`|~0-9A-Za-z-]+"
@@ -43,7 +44,7 @@ async def read_body(request: Request, max_bytes: int, timeout_s: float, holding:
         if it ends early.
     """
     # counted here and not by the framework, which answers an oversized Content-Length in plain text
-    announced = request.headers.get("content-length", "")
+    announced = header(request.scope, b"content-length") or ""
     too_large = BodyTooLarge(f"The body is larger than {max_bytes} bytes.")
     if announced.isdecimal() and (len(announced) > 18 or int(announced) > max_bytes):
         raise too_large
@@ -79,8 +80,9 @@ def announced(request: Request, other: str | None = None) -> str:
     UnsupportedMedia
         if it is anything else, nothing was announced, it is compressed, or JSON in another code than UTF-8.
     """
-    kind, parameters = _media_type(request.headers.get("content-type", "text/plain"))
-    if request.headers.get("content-encoding", "identity").strip().lower() != "identity":
+    kind, parameters = _media_type(header(request.scope, b"content-type") or "")
+    coding = header(request.scope, b"content-encoding")
+    if coding is not None and coding.strip().lower() != "identity":
         raise UnsupportedMedia("Send the body uncompressed.")
     if other is not None and kind == other:
         return other

@@ -1,6 +1,6 @@
 """What browsers are told about every answer."""
 
-from collections.abc import Iterator
+from functools import lru_cache
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
@@ -40,18 +40,24 @@ class SecurityHeaders:
             if message["type"] == "http.response.start":
                 # names are in small letters (ASGI)
                 headers = message.get("headers", ())
-                message["headers"] = [*headers, *self._missing(dict(headers), scope.get("scheme") == "https")]
+                given = dict(headers)
+                page = given.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
+                wanted = _wanted(page, given.get(_POLICY), self._hsts_s if scope.get("scheme") == "https" else 0)
+                message["headers"] = [*headers, *[each for each in wanted if each[0] not in given]]
             await send(message)
 
         await self._app(scope, receive, add)
 
-    def _missing(self, headers: dict[bytes, bytes], https: bool) -> Iterator[tuple[bytes, bytes]]:
-        page = headers.get(b"content-type", b"").startswith((b"text/html", b"image/svg"))
-        policy = headers.get(_POLICY, _PAGE if page else _NO_PAGE)
-        wanted = [*_HEADERS, (_POLICY, policy)]
-        # the older header knows no other origins
-        if _FRAMED not in policy:
-            wanted.append((b"x-frame-options", b"DENY"))
-        if self._hsts_s and https:
-            wanted.append((b"strict-transport-security", b"max-age=%d; includeSubDomains" % self._hsts_s))
-        return (each for each in wanted if each[0] not in headers)
+
+# policies are those of the service, which are few
+@lru_cache(64)
+def _wanted(page: bool, policy: bytes | None, hsts_s: int) -> tuple[tuple[bytes, bytes], ...]:
+    if policy is None:
+        policy = _PAGE if page else _NO_PAGE
+    wanted = [*_HEADERS, (_POLICY, policy)]
+    # the older header knows no other origins
+    if _FRAMED not in policy:
+        wanted.append((b"x-frame-options", b"DENY"))
+    if hsts_s:
+        wanted.append((b"strict-transport-security", b"max-age=%d; includeSubDomains" % hsts_s))
+    return tuple(wanted)

@@ -7,6 +7,7 @@ from starlette.responses import Response
 
 from service.guard.keys import caller_of
 from service.guard.refusals import BadHeader
+from service.headers import joined
 from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs
 
@@ -41,7 +42,7 @@ def idempotency_key(request: Request) -> str | None:
 
 def prefers_later(request: Request) -> bool:
     """Whether the client wants to be answered later (RFC 7240)."""
-    return any(_PREFERS.search(value) for value in request.headers.getlist("prefer"))
+    return _PREFERS.search(joined(request.scope, b"prefer")) is not None
 
 
 def accepted(request: Request, job: Job, new: bool) -> Response:

@@ -9,6 +9,7 @@ from typing import Any
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.headers import header
 from service.watch.logs import REQUEST
 from service.watch.metrics import Metrics
 from service.watch.tracing import Tracing
@@ -41,12 +42,11 @@ class RequestLog:
             await self._app(scope, receive, send)
             return
         begun = time.perf_counter()
-        headers = Headers(scope=scope)
-        given = headers.get("x-request-id", "")
+        given = header(scope, b"x-request-id") or ""
         # two at once: each costs a call of the system
         fresh = secrets.token_hex(32)
         request_id = given if _ID.fullmatch(given) else fresh[:32]
-        traced = _TRACEPARENT.fullmatch(headers.get("traceparent", ""))
+        traced = _TRACEPARENT.fullmatch(header(scope, b"traceparent") or "")
         method = "HEAD" if scope.get("head") else scope["method"]
         ids = {"request_id": request_id, "trace_id": traced[1] if traced else fresh[32:]}
         REQUEST.set(ids)
@@ -59,7 +59,7 @@ class RequestLog:
                 message["headers"] = [*message.get("headers", ()), (b"x-request-id", request_id.encode())]
             await send(message)
 
-        with self._tracing.request(method, headers) as span:
+        with self._tracing.request(method, Headers(scope=scope)) as span:
             try:
                 await self._app(scope, receive, note)
             except BaseException:

@@ -11,7 +11,7 @@ from uvicorn import Config
 from uvicorn.server import ServerState
 
 from service.http.connections import connections
-from service.http.plain_requests import plain_head
+from service.http.plain_requests import Heads, plain_head
 from service.http.rounds import Rounds
 from service.settings import Settings
 
@@ -58,6 +58,15 @@ def test_what_clients_send_is_plain() -> None:
     head = b"POST /v1/optimize HTTP/1.1\r\nHost: localhost:8000\r\nUser-Agent: a/1.0 (b; c)\r\nContent-Length: 2\r\n"
     assert plain_head(head + b"Accept: */*\r\n\r\n{}") is not None
     assert plain_head(head + b"Accept: */*\r\n") is None
+
+
+@given(st.lists(st.tuples(st.sampled_from(_FIRST), st.lists(st.sampled_from(_LINES[:8]), max_size=3)), max_size=6))
+def test_what_comes_again_is_read_as_the_first_time(said: list[tuple[bytes, list[bytes]]]) -> None:
+    heads = Heads()
+    for first, lines in said:
+        whole = b"\r\n".join((first, _LINES[0], *lines, b"", b"{}more"))
+        for received in (whole, whole, whole[:-8], whole + b"x"):
+            assert heads.plain(received) == plain_head(received)
 
 
 async def app(scope: Scope, receive: Receive, send: Send) -> None:
