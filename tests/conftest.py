@@ -14,6 +14,9 @@ _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
 os.environ["COUNTERWEIGHT_DATA_DIR"] = _DATA.name
 # the host that the test client names; a service without keys answers for no others than this machine
 os.environ["COUNTERWEIGHT_ALLOWED_HOSTS"] = "testserver"
+# a machine that is busy is no database that is away, and no computation that does not end
+os.environ["COUNTERWEIGHT_DATABASE_BUSY_S"] = "60"
+os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 
 # times are for benchmarks, and a run that failed must fail again;
 # HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time

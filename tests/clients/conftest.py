@@ -47,7 +47,7 @@ def _wait_until_ready(where: str) -> None:
     deadline = time.monotonic() + _READY_S
     address = urlsplit(where)
     while True:
-        connection = HTTPConnection(address.hostname or "", address.port, timeout=10)
+        connection = HTTPConnection(address.hostname or "", address.port, timeout=180)
         connection.request("GET", "/readyz")
         status = connection.getresponse().status
         connection.close()

@@ -211,13 +211,13 @@ async def beside(target: Service, press: Press, clients: int, seconds: float, ad
     pressed = spawn.Process(target=_pressing, args=(aim, press, clients, begun), daemon=True)
     pressed.start()
     try:
-        assert await asyncio.to_thread(begun.wait, 120)
+        assert await asyncio.to_thread(begun.wait, 600)
         await asyncio.sleep(min(2.0, seconds / 2))
         end = time.monotonic() + seconds
         while time.monotonic() < end or not outcome.statuses:
             for asked in ORDINARY:
                 asked_at, before_s = time.perf_counter(), computed_s(target)
-                async with asyncio.timeout(60), connected(target.port, _BYSTANDER) as (reader, writer):
+                async with asyncio.timeout(600), connected(target.port, _BYSTANDER) as (reader, writer):
                     writer.write(asked)
                     outcome.statuses[(await read(reader)).status] += 1
                 outcome.work_s.append(computed_s(target) - before_s)

@@ -10,8 +10,11 @@ import json
 import sys
 import time
 from collections import Counter
+from contextlib import suppress
 from dataclasses import dataclass, field
 from random import Random
+
+import psutil
 
 from service.documents.examples import bodies
 from tests.network.serving import Service, read, request, service
@@ -73,7 +76,7 @@ async def start_sweep(target: Service) -> str:
     """A sweep that takes longer than any test; its path."""
     path = "/machine/throws/0/rows/0/reciprocating_mass_kg"
     other = "/machine/throws/1/rows/0/reciprocating_mass_kg"
-    axes = [{"path": each, "start": 100, "stop": 300, "count": 1000} for each in (path, other)]
+    axes = [{"path": each, "start": 100, "stop": 300, "count": 3000} for each in (path, other)]
     body = json.dumps({"base": MACHINES["2d12"], "axes": axes, "design": "grid"}).encode()
     reply = await target.ask("POST", "/v1/sweeps", body)
     assert reply.status == 202, reply.body
@@ -89,7 +92,8 @@ async def killed(target: Service) -> float:
     await asyncio.sleep(0.005)
     begun = time.perf_counter()
     for worker in target.workers():
-        worker.kill()
+        with suppress(psutil.NoSuchProcess):
+            worker.kill()
     replies = [*await asyncio.gather(*asked), await target.ask("POST", "/v1/optimize", MIX[0][2])]
     statuses = [reply.status for reply in replies]
     assert set(statuses) == {200}, statuses

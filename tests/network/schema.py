@@ -76,7 +76,7 @@ def send(strategy: Any, many: int, statuses: Counter[int]) -> None:
     @settings(max_examples=many, deadline=None, suppress_health_check=list(HealthCheck), phases=[Phase.generate])
     @given(case=strategy)
     def ask(case: Case) -> None:
-        response = case.call(timeout=60)
+        response = case.call(timeout=600)
         statuses[response.status_code] += 1
         case.validate_response(response, checks=checks())
 

@@ -61,6 +61,13 @@ class Service:
                 largest = max(largest, worker.memory_info().rss)
         return own / _MB, largest / _MB
 
+    async def computing(self, count: int) -> None:
+        """Until so many answers are being computed."""
+        said = f"counterweight_computations_running {count:.1f}\n".encode()
+        async with asyncio.timeout(180):
+            while said not in (await self.ask("GET", "/metrics")).body:
+                await asyncio.sleep(0.02)
+
     async def ask(
         self, method: str, path: str, body: bytes = b"", headers: Mapping[str, str] | None = None, timeout: float = 180
     ) -> Reply:

@@ -22,7 +22,10 @@ def strict() -> Iterator[Service]:
 
 
 async def healthy(target: Service) -> None:
-    assert (await target.ask("GET", "/healthz")).status == 200
+    # whoever is told 408 was late himself: these tests wait for a second, and a machine that is busy may as well
+    while (status := (await target.ask("GET", "/healthz")).status) == 408:
+        pass
+    assert status == 200
 
 
 def test_headers_that_come_too_slowly_end_the_connection(strict: Service) -> None:
@@ -107,16 +110,21 @@ def test_a_client_that_reads_slowly_is_not_let_go(strict: Service) -> None:
             writer.write(request("GET", "/openapi.json"))
             content = b""
             begun = time.monotonic()
-            while piece := await reader.read(8192):
+            # several times as long as one may read nothing
+            while time.monotonic() - begun < 4:
+                piece = await reader.read(8192)
+                assert piece
                 content += piece
                 await asyncio.sleep(0.1)
-            # several times as long as one may read nothing
-            assert time.monotonic() - begun > 3
             return content
 
     head, _, content = asyncio.run(reads_slowly()).partition(b"\r\n\r\n")
     assert head.startswith(b"HTTP/1.1 200 ")
-    assert f"content-length: {len(content)}".encode() in head
+    whole = asyncio.run(strict.ask("GET", "/openapi.json")).body
+    assert whole.startswith(content)
+    # the rest was still to come
+    assert 0 < len(content) < len(whole)
+    assert f"content-length: {len(whole)}".encode() in head
 
 
 async def too_many(target: Service, others: int, expected: int) -> None:
@@ -161,8 +169,8 @@ def test_the_work_of_a_client_that_goes_away_ends(strict: Service) -> None:
         async with strict.connection() as (_, writer):
             writer.write(question)
             await writer.drain()
-            await running(strict, 1)
-        await running(strict, 0)
+            await strict.computing(1)
+        await strict.computing(0)
 
     for question in asked:
         asyncio.run(leave(question))
@@ -170,12 +178,3 @@ def test_the_work_of_a_client_that_goes_away_ends(strict: Service) -> None:
     while strict.log().count('accuracy 499"') < len(asked):
         assert time.monotonic() < deadline
         time.sleep(0.02)
-
-
-async def running(target: Service, count: int) -> None:
-    deadline = time.monotonic() + 180
-    while (
-        f"counterweight_computations_running {count:.1f}\n".encode() not in (await target.ask("GET", "/metrics")).body
-    ):
-        assert time.monotonic() < deadline
-        await asyncio.sleep(0.02)

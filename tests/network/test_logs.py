@@ -26,7 +26,8 @@ BODY = load("w60").replace(b'"name": "', f'"name": "{SECRET} '.encode(), 1)
 
 
 def lines(said: str) -> list[dict[str, Any]]:
-    return [json.loads(line) for line in said.splitlines()]
+    # the last may be half written
+    return [json.loads(line) for line in said[: said.rfind("\n") + 1].splitlines()]
 
 
 def requests(said: str, path: str) -> list[dict[str, Any]]:
@@ -48,7 +49,7 @@ def said_about_requests(target: Service) -> str:
     asyncio.run(ask())
     # a line is written when the answer is already on its way
     deadline = time.monotonic() + 180
-    while not requests(target.log()[before:], INJECTION):
+    while sum(line["logger"] == "service.requests" for line in lines(target.log()[before:])) < 4:
         assert time.monotonic() < deadline
         time.sleep(0.02)
     return target.log()[before:]
@@ -150,7 +151,7 @@ def test_metrics_count_requests_solves_and_gaps(client: TestClient) -> None:
 def test_metrics_tell_of_jobs_only_when_there_are_any(client: TestClient) -> None:
     assert sample(client, "counterweight_job_database_up") == 1
     assert sample(client, 'counterweight_jobs{state="cancelled"}') == 0
-    axes = [{"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": 50_000}]
+    axes = [{"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": 10_000_000}]
     started = client.post("/v1/sweeps", json={"base": json.loads(load("w60")), "axes": axes})
     client.delete(started.headers["location"])
     assert sample(client, 'counterweight_jobs{state="cancelled"}') == 1
@@ -185,9 +186,10 @@ def test_traces_go_to_the_collector(tmp_path: Path) -> None:
         finally:
             collector.shutdown()
             thread.join()
-    sent = ExportTraceServiceRequest.FromString(got[0])
-    spans = {span.name: span for scope in sent.resource_spans[0].scope_spans for span in scope.spans}
+    # at once, unless the machine is late by seconds in between
+    sent = [resource for each in got for resource in ExportTraceServiceRequest.FromString(each).resource_spans]
+    spans = {span.name: span for resource in sent for scope in resource.scope_spans for span in scope.spans}
     assert set(spans) == {"POST", "optimize"}
     assert {span.trace_id.hex() for span in spans.values()} == {TRACE}
     assert spans["optimize"].parent_span_id == spans["POST"].span_id
-    assert SECRET.encode() not in got[0]
+    assert SECRET.encode() not in b"".join(got)

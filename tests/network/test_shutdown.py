@@ -36,11 +36,17 @@ def test_requests_are_finished_streams_are_ended_sweeps_are_parked(ending: Servi
         async with ending.connection() as (events, writer):
             writer.write(request("GET", f"{sweep}/events"))
             await events.readuntil(b"event: progress")
-            quick = asyncio.create_task(ending.ask("POST", "/v1/optimize", load("w60")))
-            await asyncio.sleep(0.01)
-            family.extend(psutil.Process(ending.process.pid).children(recursive=True))
-            await end(ending)
-            return await quick, await events.read()
+            async with ending.connection() as (answers, asking):
+                body = load("w60")
+                asking.write(request("POST", "/v1/optimize", body, {"Expect": "100-continue"}).removesuffix(body))
+                # it has begun when it asks for the body
+                await answers.readuntil(b"100 Continue\r\n\r\n")
+                family.extend(psutil.Process(ending.process.pid).children(recursive=True))
+                ended = asyncio.create_task(end(ending))
+                asking.write(body)
+                quick = await read(answers)
+            await ended
+            return quick, await events.read()
 
     quick, rest = asyncio.run(everything())
     assert quick.status == 200
@@ -55,7 +61,7 @@ def test_work_that_does_not_end_is_answered_503_in_time(ending: Service) -> None
     async def everything() -> Reply:
         async with ending.connection() as (reader, writer):
             writer.write(request("POST", "/v1/accuracy", LONG))
-            await asyncio.sleep(1)
+            await ending.computing(1)
             stopping = asyncio.create_task(end(ending))
             found = await read(reader)
             await stopping
