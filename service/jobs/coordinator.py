@@ -8,52 +8,34 @@ import logging
 import threading
 import time
 import uuid
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from concurrent.futures import BrokenExecutor, CancelledError, Future
 from contextlib import suppress
-from dataclasses import dataclass, field
+from itertools import groupby
+from operator import attrgetter
 
 from service.jobs import selection, worker
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.engines import Engine, EngineUnavailable
 from service.jobs.files import Damaged, JobFiles
+from service.jobs.flight import Flight
 from service.jobs.housekeeping import Housekeeping
+from service.jobs.intake import CannotWrite, Intake
 from service.jobs.job import Chunk
 from service.jobs.kinds import KINDS
 from service.jobs.leases import Leases
+from service.jobs.pace import Pace
 from service.jobs.piece import Piece, Run, Stopped, Unanswerable
 from service.jobs.rows import UnknownJob
 from service.jobs.schema import WrongSchema
 from service.jobs.store import Store
 
 _LOG = logging.getLogger(__name__)
-
-
-@dataclass(frozen=True)
-class Pace:
-    """How often and how long; seconds."""
-
-    #: looks for work and for cancelled jobs this often
-    poll_s: float = 0.5
-    #: a lease that is not renewed for this long is free
-    lease_s: float = 15.0
-    #: looks for expired jobs and leftovers this often
-    tidy_s: float = 60.0
-    #: waits for a database or an engine that is away for this long at most before it asks again
-    longest_pause_s: float = 5.0
-    #: a chunk is tried this often before it is halved, a single row before it is recorded as failed
-    tries: int = 3
-    #: a job with more faults than this is failed
-    max_faults: int = 300
-
-
-@dataclass
-class _Flight:
-    chunk: Chunk
-    future: "Future[Piece]"
-    #: rows that a selection looks at
-    covers: int = 0
-    dropped: bool = field(default=False)
+#: chunks that an engine holds are leased in so many turns, so that a job gets a sixteenth of it more than its share
+_TURNS = 16
+#: chunks whose rows are taken in before anything else is looked at
+_AT_A_TIME = 100
+_job = attrgetter("chunk.job")
 
 
 class Coordinator:
@@ -85,18 +67,17 @@ class Coordinator:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._store, self._leases, self._files, self._housekeeping = store, leases, files, housekeeping
+        self._intake = Intake(leases, files, housekeeping)
         self._engine, self._selector, self._run, self._clock = engine, selector or engine, run, clock
         self._pace, self._begun = pace or Pace(), begun
         self._name = uuid.uuid4().hex
-        self._flights: list[_Flight] = []
+        self._flights: list[Flight] = []
         self._active: set[str] = set()
         # chunks that were in a pool when it broke are tried alone, so that the one at fault is found
         self._suspects = True
         # jobs that ended badly while the database could not be told
         self._verdicts: dict[str, str] = {}
         self._away = False
-        #: what the service found wrong with its own answers, so far
-        self.faults = 0
         self._renewed = self._tidied = float("-inf")
         self._stopping = False
         self._wake = threading.Event()
@@ -118,6 +99,11 @@ class Coordinator:
         if self._thread is not None:
             self._thread.join(6)
 
+    @property
+    def faults(self) -> int:
+        """What the service found wrong with its own answers, so far."""
+        return self._intake.faults
+
     def verdict(self, job: str) -> str | None:
         """Why a job failed, if the database could not be told yet."""
         return self._verdicts.get(job)
@@ -133,9 +119,9 @@ class Coordinator:
                 if not self._away:
                     _LOG.warning("%s; the jobs wait", error)
                 if isinstance(error, DatabaseUnavailable) and error.full:
-                    # as when their rows cannot be written
-                    for flight in self._flights:
-                        self._verdicts.setdefault(flight.chunk.job, str(error))
+                    # as when their rows cannot be written; with none on the way it was a lease that found no room
+                    for job in {flight.chunk.job for flight in self._flights} or self._active:
+                        self._verdicts.setdefault(job, str(error))
                 self._away, pause = True, min(self._pace.longest_pause_s, 2 * pause)
             except EngineUnavailable as error:
                 _LOG.warning("%s", error)
@@ -190,12 +176,37 @@ class Coordinator:
     # ---- outcomes
 
     def _collect(self) -> None:
-        for flight in [flight for flight in self._flights if flight.future.done()]:
+        self._collect_rows()
+        for flight in [flight for flight in self._flights if flight.future.done() and not flight.rows_came]:
             # a broken pool takes every flight with it
             if flight in self._flights:
                 self._take(flight)
 
-    def _take(self, flight: _Flight) -> None:
+    def _collect_rows(self) -> None:
+        """Keep rows that came, those of a job together: of many workers some are always done at the same time."""
+        came = [flight for flight in self._flights if flight.rows_came]
+        if len(came) > _AT_A_TIME:
+            # leases are renewed and chunks given out in between
+            self._wake.set()
+        for job, some in groupby(sorted(came[:_AT_A_TIME], key=_job), key=_job):
+            its = list(some)
+            self._keep_rows(job, [(flight.chunk, flight.future.result()) for flight in its])
+            gone = set(its)
+            self._flights = [flight for flight in self._flights if flight not in gone]
+
+    def _keep_rows(self, job: str, came: Sequence[tuple[Chunk, Piece]]) -> None:
+        try:
+            self._intake.keep_rows(job, came)
+        except CannotWrite as error:
+            self._fail(job, str(error))
+
+    def _keep_selection(self, chunk: Chunk, piece: Piece, covers: int) -> None:
+        try:
+            self._intake.keep_selection(chunk, piece, covers)
+        except CannotWrite as error:
+            self._fail(chunk.job, str(error))
+
+    def _take(self, flight: Flight) -> None:
         chunk = flight.chunk
         try:
             piece = flight.future.result()
@@ -218,27 +229,8 @@ class Coordinator:
                 self._went_wrong(chunk, f"{type(error).__name__}: {error}", alone=True)
         else:
             if not flight.dropped:
-                self._keep(chunk, piece, flight.covers)
+                self._keep_selection(chunk, piece, flight.covers)
         self._flights.remove(flight)
-
-    def _keep(self, chunk: Chunk, piece: Piece, covers: int = 0) -> None:
-        for fault in piece.faults:
-            _LOG.error("job %s: rows %d to %d: %s", chunk.job, chunk.start, chunk.stop - 1, fault)
-        self.faults += len(piece.faults)
-        try:
-            record = self._files.keep(chunk.job, chunk.start, chunk.stop, piece.content)
-        except OSError as error:
-            what = f"rows {chunk.start} to {chunk.stop - 1}" if chunk.rows else "selected rows"
-            self._fail(chunk.job, f"{what} cannot be written: {error.strerror}")
-            return
-        if chunk.rows:
-            # another service may have been first, with a file of another content
-            counts = self._leases.finish(chunk, piece.failed, str(record.digest), record.bytes, piece.invalid)
-            needless = None if counts else record
-        else:
-            needless = self._leases.finish_selection(chunk, covers, piece.kept, record)
-        if needless is not None:
-            self._housekeeping.remove(chunk.job, needless)
 
     def _refuse(self, chunk: Chunk, reason: str) -> None:
         if chunk.rows:
@@ -286,7 +278,7 @@ class Coordinator:
         if failed is None:
             self._fail(chunk.job, f"it cannot be computed: {reason}")
         else:
-            self._keep(chunk, failed(chunk.request, chunk.start, chunk.stop, reason))
+            self._keep_rows(chunk.job, [(chunk, failed(chunk.request, chunk.start, chunk.stop, reason))])
 
     # ---- work
 
@@ -299,13 +291,26 @@ class Coordinator:
                 self._submit(chunk)
                 return
             self._suspects = False
-        while not self._suspects and len(self._flights) < self._engine.window():
-            chunk = self._leases.claim(self._name, self._pace.lease_s)
-            if chunk is None:
+        window = self._engine.window()
+        while not self._suspects and not self._stopping and len(self._flights) < window:
+            # not all at once, as the next may be somebody else's turn
+            some = min(max(1, window // _TURNS), window - len(self._flights))
+            claimed = self._leases.claim_some(self._name, self._pace.lease_s, some)
+            if not claimed:
                 # what is left, if anything, went wrong before or is leased
                 self._suspects = True
                 return
-            self._submit(chunk)
+            self._submit_all(claimed)
+
+    def _submit_all(self, claimed: Sequence[Chunk]) -> None:
+        left = list(claimed[::-1])
+        try:
+            # one may find that the pool is broken
+            while left and not self._suspects:
+                self._submit(left.pop())
+        finally:
+            for chunk in left:
+                self._leases.give_back(chunk, chunk.attempts)
 
     def _submit(self, chunk: Chunk) -> None:
         try:
@@ -318,7 +323,7 @@ class Coordinator:
         except BaseException:
             self._leases.give_back(chunk, chunk.attempts)
             raise
-        self._flights.append(_Flight(chunk, future, covers))
+        self._flights.append(Flight(chunk, future, covers))
         future.add_done_callback(lambda _: self._wake.set())
 
     def _begin(self, chunk: Chunk) -> "tuple[Future[Piece], int]":

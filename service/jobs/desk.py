@@ -6,13 +6,14 @@ from pathlib import Path
 from threading import Event
 
 from service.jobs import worker
-from service.jobs.coordinator import Coordinator, Pace
+from service.jobs.coordinator import Coordinator
 from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.engines import engine, reads_files
 from service.jobs.files import JobFiles
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.leases import Leases
 from service.jobs.owner_jobs import OwnerJobs, Parts
+from service.jobs.pace import Pace
 from service.jobs.piece import Run
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits

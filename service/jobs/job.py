@@ -91,6 +91,18 @@ class Chunk:
 
 
 @dataclass(frozen=True)
+class Computed:
+    """A chunk whose file is on disk: rows without a certified answer, digest and size of the file, rows of invalid
+    designs."""
+
+    chunk: Chunk
+    failed: int
+    digest: str
+    bytes: int
+    invalid: int = 0
+
+
+@dataclass(frozen=True)
 class Record:
     """The file of a finished chunk; without a digest it was written before there were digests."""
 

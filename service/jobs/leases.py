@@ -8,7 +8,7 @@ from sqlalchemy import ColumnElement, Connection, Select, and_, exists, func, in
 
 from service.jobs import rows
 from service.jobs.database import Database
-from service.jobs.job import ACTIVE, Chunk, Job, Record
+from service.jobs.job import ACTIVE, Chunk, Computed, Job, Record
 from service.jobs.rows import Limits, on_disk
 from service.jobs.tables import chunks, jobs
 
@@ -34,12 +34,18 @@ class Leases:
         self._clock = clock
 
     def claim(self, owner: str, lease_s: float, attempted: bool = False) -> Chunk | None:
-        """Lease one chunk: of the owner with the fewest chunks in work, and of their job with the fewest, so that
-        nobody waits for somebody else's large or many jobs.
+        """Lease one chunk, see :meth:`claim_some`."""
+        found = self.claim_some(owner, lease_s, 1, attempted)
+        return found[0] if found else None
+
+    def claim_some(self, owner: str, lease_s: float, most: int, attempted: bool = False) -> list[Chunk]:
+        """Lease chunks of one job: of the owner with the fewest chunks in work, and of their job with the fewest, so
+        that nobody waits for somebody else's large or many jobs.
 
         Parameters
         ----------
-        attempted : whether to lease a chunk that went wrong before, or a fresh one.
+        most : there may be fewer; none if there is nothing to do.
+        attempted : whether to lease chunks that went wrong before, or fresh ones.
         """
         now = self._clock()
         # a lease that ends later than any can was made by a clock that has jumped since
@@ -53,18 +59,19 @@ class Leases:
                 found = rows.find(connection, job, lock=True)
                 if found is None or not found.active:
                     continue
-                span = _free(connection, job, free, tried)
-                if span is None and not attempted:
-                    span = _made(connection, found)
-                if span is not None:
-                    this = and_(chunks.c.job == job, chunks.c.start == span[0])
+                spans = _free(connection, job, free, tried, most)
+                if not spans and not attempted:
+                    spans = _made(connection, found)[:most]
+                if spans:
+                    starts = [start for start, _, _ in spans]
+                    these = and_(chunks.c.job == job, chunks.c.start.in_(starts))
                     lease = {"state": "leased", "lease_owner": owner, "lease_until": now + lease_s}
-                    connection.execute(update(chunks).where(this).values(lease))
+                    connection.execute(update(chunks).where(these).values(lease))
                     if found.state == "queued":
                         rows.change(connection, job, state="running", started=found.started or now)
-                    request = connection.scalar(select(jobs.c.request).where(jobs.c.id == job))
-                    return Chunk(job, found.kind, bytes(request or b""), *span)
-        return None
+                    request = bytes(connection.scalar(select(jobs.c.request).where(jobs.c.id == job)) or b"")
+                    return [Chunk(job, found.kind, request, *span) for span in spans]
+        return []
 
     def renew(self, owner: str, held: Sequence[Chunk], lease_s: float) -> None:
         """Keep the leases of some chunks of an owner."""
@@ -86,35 +93,34 @@ class Leases:
 
     # ---- outcomes
 
-    def finish(self, chunk: Chunk, failed: int, digest: str, size: int, invalid: int = 0) -> bool:
-        """The file of a chunk is on disk. Said twice it counts once; said of an ended job it does not count.
-
-        Parameters
-        ----------
-        failed, invalid : rows of it without a certified answer, and rows of designs that break a rule.
-        digest, size : of the file.
+    def finish(self, computed: Sequence[Computed]) -> list[bool]:
+        """The files of some chunks of one job are on disk. Said twice it counts once; said of an ended job it does not
+        count.
 
         Returns
         -------
-        whether it counts.
+        which of them count.
         """
+        if not computed:
+            return []
+        job = computed[0].chunk.job
         with self._database.write() as connection:
-            found = rows.find(connection, chunk.job, lock=True)
+            found = rows.find(connection, job, lock=True)
             if found is None or not found.active:
-                return False
-            this = and_(_this(chunk), chunks.c.stop == chunk.stop, chunks.c.state != "done")
-            about = {"failed": failed, "invalid": invalid, "digest": digest, "bytes": on_disk(size)}
-            done = update(chunks).where(this).values(state="done", finished=self._clock(), lease_owner=None, **about)
-            if connection.execute(done).rowcount == 0:
-                return False
-            counts = {
-                "done": jobs.c.done + chunk.rows,
-                "failed": jobs.c.failed + failed,
-                "invalid": jobs.c.invalid + invalid,
-            }
-            rows.change(connection, chunk.job, bytes=jobs.c.bytes + on_disk(size), **counts)
-            self._settle(connection, found)
-            return True
+                return [False] * len(computed)
+            now = self._clock()
+            counted = [_mark_done(connection, one, now) for one in computed]
+            new = [one for one, counts in zip(computed, counted, strict=True) if counts]
+            if new:
+                counts = {
+                    "done": jobs.c.done + sum(one.chunk.rows for one in new),
+                    "failed": jobs.c.failed + sum(one.failed for one in new),
+                    "invalid": jobs.c.invalid + sum(one.invalid for one in new),
+                    "bytes": jobs.c.bytes + sum(on_disk(one.bytes) for one in new),
+                }
+                rows.change(connection, job, **counts)
+                self._settle(connection, found)
+            return counted
 
     def _settle(self, connection: Connection, job: Job) -> None:
         rows.settle(connection, job.id, self._clock(), self._limits.keep_s)
@@ -266,26 +272,32 @@ def _waiting(
 
 
 def _free(
-    connection: Connection, job: str, free: Sequence[ColumnElement[bool]], tried: ColumnElement[bool]
-) -> tuple[int, int, int] | None:
-    """Start, stop and attempts of a chunk that may be given out."""
+    connection: Connection, job: str, free: Sequence[ColumnElement[bool]], tried: ColumnElement[bool], most: int
+) -> list[tuple[int, int, int]]:
+    """Start, stop and attempts of chunks that may be given out, at most so many."""
     for condition in free:
-        wanted = select(chunks).where(chunks.c.job == job, condition, tried)
-        row = connection.execute(wanted.order_by(chunks.c.start).limit(1)).first()
-        if row is not None:
-            return row.start, row.stop, row.attempts
-    return None
+        wanted = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == job, condition, tried)
+        found = connection.execute(wanted.order_by(chunks.c.start).limit(most)).all()
+        if found:
+            return [(row.start, row.stop, row.attempts) for row in found]
+    return []
 
 
-def _made(connection: Connection, job: Job) -> tuple[int, int, int] | None:
-    """Make the next chunks of a job; the first of them."""
+def _made(connection: Connection, job: Job) -> list[tuple[int, int, int]]:
+    """Make the next chunks of a job."""
     stop = min(job.planned + _PLANNED * job.chunk_rows, job.total)
-    made = [
-        {"job": job.id, "start": start, "stop": min(start + job.chunk_rows, job.total)}
-        for start in range(job.planned, stop, job.chunk_rows)
-    ]
-    if not made:
-        return None
-    connection.execute(insert(chunks), made)
-    connection.execute(update(jobs).where(jobs.c.id == job.id).values(planned=stop))
-    return job.planned, int(str(made[0]["stop"])), 0
+    starts = range(job.planned, stop, job.chunk_rows)
+    made = [(start, min(start + job.chunk_rows, job.total), 0) for start in starts]
+    if made:
+        new = [{"job": job.id, "start": start, "stop": end} for start, end, _ in made]
+        connection.execute(insert(chunks), new)
+        connection.execute(update(jobs).where(jobs.c.id == job.id).values(planned=stop))
+    return made
+
+
+def _mark_done(connection: Connection, one: Computed, now: float) -> bool:
+    """Whether a chunk was not done before."""
+    this = and_(_this(one.chunk), chunks.c.stop == one.chunk.stop, chunks.c.state != "done")
+    about = {"failed": one.failed, "invalid": one.invalid, "digest": one.digest, "bytes": on_disk(one.bytes)}
+    done = update(chunks).where(this).values(state="done", finished=now, lease_owner=None, **about)
+    return connection.execute(done).rowcount > 0

@@ -15,16 +15,16 @@ import os
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from functools import partial
 from pathlib import Path
 
-from service.jobs.coordinator import Pace
 from service.jobs.engines import Engine
 from service.jobs.housekeeping import Housekeeping
-from service.jobs.job import Chunk
+from service.jobs.job import Computed
 from service.jobs.leases import Leases
+from service.jobs.pace import Pace
 from service.jobs.piece import Piece
 from service.jobs.rows import UnknownJob
 from tests.jobs import synthetic
@@ -75,11 +75,12 @@ class Telling(Leases):
         super().__init__(house.database, clock=clock)
         self._told = told
 
-    def finish(self, chunk: Chunk, failed: int, digest: str, size: int, invalid: int = 0) -> bool:
-        counts = super().finish(chunk, failed, digest, size, invalid)
-        if counts:
-            self._told.say("finished", chunk.job, chunk.rows)
-        return counts
+    def finish(self, computed: Sequence[Computed]) -> list[bool]:
+        counted = super().finish(computed)
+        for one, counts in zip(computed, counted, strict=True):
+            if counts:
+                self._told.say("finished", one.chunk.job, one.chunk.rows)
+        return counted
 
 
 def work(house: House, told: Told, least: int = TOTAL, clock: Callable[[], float] = time.time) -> None:

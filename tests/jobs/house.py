@@ -11,13 +11,14 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from service.jobs.coordinator import Coordinator, Pace
+from service.jobs.coordinator import Coordinator
 from service.jobs.database import Database
 from service.jobs.engines import Engine
 from service.jobs.files import JobFiles
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.job import Job, Order, Record
 from service.jobs.leases import Leases
+from service.jobs.pace import Pace
 from service.jobs.piece import Run
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits

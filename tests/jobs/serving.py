@@ -27,8 +27,8 @@ def serve(**given: Any) -> None:
     from optimizer.sweep import plan
     from service.app import create_app
     from service.http.server import listen, run, url
-    from service.jobs.coordinator import Pace
     from service.jobs.desk import Desk
+    from service.jobs.pace import Pace
     from service.settings import Settings
 
     # a sweep of some thousand designs in hundreds of chunks instead of 16

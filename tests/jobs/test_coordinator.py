@@ -15,10 +15,10 @@ from typing import Any
 
 import pytest
 
-from service.jobs.coordinator import Pace
 from service.jobs.engines import Engine, engine
 from service.jobs.files import JobFiles
 from service.jobs.job import Record
+from service.jobs.pace import Pace
 from service.jobs.piece import Piece
 from service.jobs.rows import Limits
 from tests.jobs import synthetic

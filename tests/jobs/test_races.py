@@ -9,7 +9,7 @@ import pytest
 from service.jobs.coordinator import Coordinator
 from service.jobs.engines import Engine
 from service.jobs.housekeeping import Housekeeping
-from service.jobs.job import Chunk, Order, Record
+from service.jobs.job import Chunk, Computed, Order, Record
 from service.jobs.kinds import table_bytes
 from service.jobs.owner_jobs import OwnerJobs
 from service.jobs.rows import UnknownJob
@@ -54,7 +54,7 @@ def written(house: House, chunk: Chunk, rows: pa.Table | None = None) -> Record:
 
 def finished(house: House, chunk: Chunk) -> Record:
     record = written(house, chunk)
-    assert house.leases.finish(chunk, 0, str(record.digest), record.bytes)
+    assert house.leases.finish([Computed(chunk, 0, str(record.digest), record.bytes)]) == [True]
     return record
 
 
@@ -143,6 +143,6 @@ def test_a_job_that_ends_again_is_tidied_again(house: House) -> None:
     # all of it between two looks for leftovers
     assert house.leases.reopen(job, damaged)
     other = written(house, claimed(house), synthetic.rows(0, 10, failed=(3,)))
-    assert house.leases.finish(first, 1, str(other.digest), other.bytes)
+    assert house.leases.finish([Computed(first, 1, str(other.digest), other.bytes)]) == [True]
     tidy.tidy()
     assert set(house.files.names(job)) == {house.files.piece(job, piece).name for piece in house.store.pieces(job)}

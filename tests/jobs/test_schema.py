@@ -15,11 +15,11 @@ from typer.testing import CliRunner
 from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.cli import app
-from service.jobs.coordinator import Pace
 from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.desk import Desk
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.kinds import table_bytes
+from service.jobs.pace import Pace
 from service.jobs.schema import NUMBER, WrongSchema
 from service.jobs.tables import metadata
 from service.settings import Settings

@@ -5,7 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 
 from service.jobs.database import Database
-from service.jobs.job import Chunk, Order
+from service.jobs.job import Chunk, Computed, Order
 from service.jobs.leases import Leases
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits, UnknownJob
@@ -30,8 +30,8 @@ def test_every_row_is_given_out_once_and_counted_once(any_house: House) -> None:
     assert [(chunk.start, chunk.stop) for chunk in chunks] == [(s, min(s + 10, 95)) for s in range(0, 95, 10)]
     assert store.get(job).state == "running"
     for chunk in chunks:
-        leases.finish(chunk, 1, "d", 9)
-        leases.finish(chunk, 1, "d", 9)
+        leases.finish([Computed(chunk, 1, "d", 9)])
+        leases.finish([Computed(chunk, 1, "d", 9)])
     found = store.get(job)
     assert (found.state, found.done, found.failed, found.total) == ("done", 95, 10, 95)
     assert spans(store, job) == [(chunk.start, chunk.stop) for chunk in chunks]
@@ -44,7 +44,7 @@ def test_many_claim_at_once(any_house: House) -> None:
     def work(owner: str) -> list[Chunk]:
         mine = claim_all(leases, owner)
         for chunk in mine:
-            leases.finish(chunk, 0, "d", 9)
+            leases.finish([Computed(chunk, 0, "d", 9)])
         return mine
 
     with ThreadPoolExecutor(4) as threads:
@@ -68,8 +68,8 @@ def test_a_lease_that_is_not_renewed_is_free_again(any_house: House) -> None:
     theirs = leases.claim("b", LEASE_S)
     assert theirs == mine
     # both finish: it counts once
-    leases.finish(theirs, 0, "d", 9)
-    leases.finish(mine, 0, "d", 9)
+    leases.finish([Computed(theirs, 0, "d", 9)])
+    leases.finish([Computed(mine, 0, "d", 9)])
     assert any_house.store.get(mine.job).done == 1
 
 
@@ -86,6 +86,32 @@ def test_a_small_job_does_not_wait_for_a_large_one(any_house: House) -> None:
     large, small = any_house.submit(total=100), any_house.submit(total=20)
     first = [any_house.leases.claim("a", LEASE_S) for _ in range(4)]
     assert [chunk.job for chunk in first if chunk] == [large, small, large, small]
+
+
+def test_many_chunks_of_one_job_in_one_transaction(any_house: House) -> None:
+    store, leases, job = any_house.store, any_house.leases, any_house.submit(total=95, chunk_rows=10)
+    some, rest = leases.claim_some("a", LEASE_S, 4), leases.claim_some("a", LEASE_S, 20)
+    assert [chunk.start for chunk in (*some, *rest)] == list(range(0, 95, 10))
+    assert leases.claim_some("a", LEASE_S, 4) == []
+    before = store.get(job).version
+    assert leases.finish([Computed(chunk, 1, "d", 9, 2) for chunk in some]) == [True] * 4
+    found = store.get(job)
+    assert (found.done, found.failed, found.invalid, found.version) == (40, 4, 8, before + 1)
+    assert leases.finish([Computed(chunk, 1, "d", 9) for chunk in (some[1], *rest, some[3])]) == [
+        False,
+        *[True] * 6,
+        False,
+    ]
+    found = store.get(job)
+    assert (found.state, found.done, found.failed) == ("done", 95, 10)
+    assert leases.finish([]) == []
+
+
+def test_many_chunks_at_a_time_go_to_one_job_after_the_other(any_house: House) -> None:
+    large, small = any_house.submit(total=200), any_house.submit(total=60)
+    turns = [any_house.leases.claim_some("a", LEASE_S, 3) for _ in range(4)]
+    assert [{chunk.job for chunk in turn} for turn in turns] == [{large}, {small}, {large}, {small}]
+    assert [len(turn) for turn in turns] == [3, 3, 3, 3]
 
 
 def test_the_same_key(any_house: House) -> None:
@@ -114,9 +140,9 @@ def test_a_cancelled_job_keeps_its_rows_and_goes_on_where_it_ended(any_house: Ho
     first, second = leases.claim("a", LEASE_S), leases.claim("a", LEASE_S)
     assert first is not None
     assert second is not None
-    leases.finish(first, 0, "d", 9)
+    leases.finish([Computed(first, 0, "d", 9)])
     assert store.cancel(job).state == "cancelled"
-    leases.finish(second, 0, "d", 9)
+    leases.finish([Computed(second, 0, "d", 9)])
     assert (store.get(job).done, spans(store, job)) == (10, [(0, 10)])
     assert leases.claim("a", LEASE_S) is None
     assert store.cancel(job).state == "cancelled"
@@ -142,7 +168,7 @@ def test_halves_of_a_chunk(any_house: House) -> None:
     halves = list(iter(lambda: leases.claim("a", LEASE_S, attempted=True), None))
     assert [(half.start, half.stop) for half in halves] == [(0, 2), (2, 5)]
     for half in halves:
-        leases.finish(half, 0, "d", 9)
+        leases.finish([Computed(half, 0, "d", 9)])
     assert store.get(job).state == "done"
 
 

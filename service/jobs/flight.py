@@ -1,0 +1,28 @@
+"""A chunk that was handed to an engine."""
+
+from concurrent.futures import Future
+from dataclasses import dataclass, field
+
+from service.jobs.job import Chunk
+from service.jobs.piece import Piece
+
+
+@dataclass(eq=False)
+class Flight:
+    """A chunk on its way.
+
+    covers : rows that a selection looks at.
+    dropped : whether its job has ended meanwhile.
+    """
+
+    chunk: Chunk
+    future: "Future[Piece]"
+    covers: int = 0
+    dropped: bool = field(default=False)
+
+    @property
+    def rows_came(self) -> bool:
+        """Whether it is done, and its rows are wanted."""
+        future = self.future
+        wanted = self.chunk.rows > 0 and not self.dropped
+        return wanted and future.done() and not future.cancelled() and future.exception() is None
