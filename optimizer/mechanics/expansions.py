@@ -50,11 +50,11 @@ class Expansions:
         """About places (m,): coefficients (order + 1, m, R), or bounds of the last (m, R)."""
         design, piece, angle, *half = places
         within = self._middle[design, piece]
-        # places of one design side by side, those of many as so many designs
+        # places of one design side by side, those of many one below the other
         one = self._rows.designs == 1
-        rows, axis = (self._rows, 0) if one else (self._rows.chosen(design), 1)
-        angle, within, *half = (np.expand_dims(each, axis) for each in (angle, within, *half))
-        found = RowSeries(rows, angle, half[0] if half else None, within, order).of(self._reading)
+        angle, within, *half = (np.expand_dims(each, 0 if one else 1) for each in (angle, within, *half))
+        wide, of_design = half[0] if half else None, None if one else design
+        found = RowSeries(self._rows, angle, wide, within, order, of_design).of(self._reading)
 
         def of_places(values: NDArray[Any]) -> NDArray[Any]:
             return np.swapaxes(values[..., 0, :, :], -1, -2) if one else values[..., 0]

@@ -1,7 +1,7 @@
 """What the forces of the rows depend on, of one design or many."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -59,17 +59,6 @@ class RowData:
         designs = max(len(motion), len(gas))
         motion, gas = (compact(np.broadcast_to(each, (designs, *each.shape[1:]))) for each in (motion, gas))
         return Rows(motion, scale, gas, given, self.exact)
-
-    def chosen(self, design: np.ndarray) -> "RowData":
-        """Those of some designs, as often as named."""
-
-        def each(value: Any) -> Any:
-            varies = isinstance(value, np.ndarray) and len(value) > 1
-            return value[design] if varies else value
-
-        chosen = {field.name: each(getattr(self, field.name)) for field in fields(self)}
-        traces = tuple(replace(one, table=each(one.table), lead=each(one.lead)) for one in self.traces)
-        return RowData(**chosen | {"designs": len(design), "traces": traces})
 
 
 def row_data(

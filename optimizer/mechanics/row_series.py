@@ -6,14 +6,16 @@ Shapes: N designs or places, R rows, P angles.
 """
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import TYPE_CHECKING, Literal, NamedTuple
+from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.row_data import RowData, compact
+from optimizer.pieces import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Functions
@@ -45,6 +47,7 @@ class RowSeries:
 
     centre, half : (N, P) rad; half None for series at points.
     within : (N, P) rad, angles that say which process counts.
+    of_design : (N,) which design each row of angles is of; by default each of its own.
     """
 
     data: RowData
@@ -52,31 +55,43 @@ class RowSeries:
     half: Real | None
     within: Real
     order: int
+    of_design: Index | None = None
+
+    @cached_property
+    def design(self) -> Index:
+        """The design of each row of angles, (N,)."""
+        given = np.arange(self.data.designs) if self.of_design is None else self.of_design
+        return np.require(given, np.int64, ("C", "W"))
 
     def of(self, reading: Reading) -> Taylor:
         """Series of a force, N.
 
         What shaft or frame bears is over the direction of the crank, as the shaft sees it: along - j s across.
         """
+        parts, radius = self.parts(reading)
+        middle = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+        return Taylor(middle, None if self.half is None else radius)
+
+    def parts(self, reading: Reading) -> tuple[Real, Real]:
+        """The same, of vectors real and imaginary parts (1 or 2, ...), and the radii."""
         if reading not in self._known:
             self._known[reading] = self._made(reading)
         return self._known[reading]
 
     @cached_property
-    def _known(self) -> dict[Reading, Taylor]:
+    def _known(self) -> dict[Reading, tuple[Real, Real]]:
         return {}
 
-    def _made(self, reading: Reading) -> Taylor:
+    def _made(self, reading: Reading) -> tuple[Real, Real]:
         from optimizer.mechanics.kernel.readings import READINGS, WITHOUT_GAS, row_series
 
-        pressed = reading not in WITHOUT_GAS
-        number = READINGS.index(reading)
-        found = [row_series(self.data.packed, functions, number) for functions in self._functions(pressed)]
-        parts, radius = (
-            found[0] if len(found) == 1 else (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
-        )
-        middle = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
-        return Taylor(middle, None if self.half is None else radius)
+        rows, number = self.data.packed, READINGS.index(reading)
+        made = self._functions(reading not in WITHOUT_GAS)
+        found = [row_series(rows, functions, self.design, number) for functions in made]
+        if len(found) == 1:
+            return found[0]
+        parts, radius = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
+        return parts, radius
 
     def _functions(self, pressed: bool) -> "Iterator[Functions]":
         """What forces are made of, with gas where it is pressed: part by part, and kept where one part is all."""
@@ -88,10 +103,12 @@ class RowSeries:
         none = np.zeros((0, 0))
         half = none if self.half is None else self.half
         rows, angles = self.data.packed, (self.centre, half, self.within, *self._given)
-        made = max(len(rows.motion), len(self.centre)) * rows.motion.shape[1] * self.centre.shape[1]
+        alike = len(rows.motion) == len(self.centre) == 1
+        made = (1 if alike else self.design.size) * rows.motion.shape[1] * self.centre.shape[1]
         parts = max(1, -(-made // _AT_ONCE))
-        for some in zip(*(np.array_split(each, parts, axis=-1) for each in angles), strict=True):
-            functions = row_functions(rows, Places(*map(compact, some)), self.order, pressed)
+        slices = [angles] if parts == 1 else zip(*(np.array_split(e, parts, axis=-1) for e in angles), strict=True)
+        for some in slices:
+            functions = row_functions(rows, Places(*map(compact, some)), self.design, self.order, pressed)
             if parts == 1:
                 self._kept[pressed] = functions
             yield functions
@@ -105,9 +122,14 @@ class RowSeries:
         """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P)."""
         found = []
         for trace in self.data.traces:
-            ahead = self.data.ahead[:, trace.row, None]
-            found.append(trace.at(self.centre + ahead, self.within + ahead))
+            ahead = self._of_design(self.data.ahead[:, trace.row, None])
+            one = replace(trace, table=self._of_design(trace.table), lead=self._of_design(trace.lead))
+            found.append(one.at(self.centre + ahead, self.within + ahead))
         if not found:
             return np.zeros((0, 1, 1)), np.zeros((0, 1, 1))
         pressure, slope = (np.stack(np.broadcast_arrays(*each)) for each in zip(*found, strict=True))
         return pressure, np.broadcast_to(slope, pressure.shape)
+
+    def _of_design(self, values: NDArray[Any]) -> NDArray[Any]:
+        """Values (N or 1, ...) of each row of angles; once where all designs have the same."""
+        return values[self.design] if len(values) > 1 else values

@@ -16,7 +16,7 @@ from optimizer.mechanics.expansions import Expansions
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
 from optimizer.mechanics.layout import Layout
-from optimizer.mechanics.row_data import RowData, shared
+from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import Turn, panels
@@ -159,15 +159,14 @@ class TurnCurves:
     @cached_property
     def pieces(self) -> Pieces:
         """The curves piece by piece (N C, P)."""
+        from optimizer.mechanics.kernel.curves import sums_of_rows
+
         whole = self.whole
-        points, bounds = (series.of(self.reading) for series in (whole.points, whole.bounds))
-        half = whole.half[:, None, :]
-        cubic = _sums(points, self.weights, self.constant) * half[..., None] ** np.arange(4)
-        centre, width = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
-        rest = (_largest(bounds, self.weights) * half**4).reshape(centre.shape)
-        terms = np.abs(self.weights) @ np.abs(points.middle[0])
-        size = np.max(terms, axis=-1) + np.abs(self.constant)
-        return Pieces(centre, width, cubic.reshape(*centre.shape, 4), rest, size.reshape(-1), source=self)
+        (points, _), bounds = whole.points.parts(self.reading), whole.bounds.parts(self.reading)
+        weights, constant = (np.require(each, complex, ("C", "W")) for each in (self.weights, self.constant))
+        cubic, rest, size = sums_of_rows(weights, constant, points, *bounds, compact(whole.half))
+        centre, half = (np.repeat(each, self.weights.shape[1], axis=0) for each in (whole.centre, whole.half))
+        return Pieces(centre, half, cubic, rest, size, source=self)
 
     @cached_property
     def parts(self) -> RowParts:

@@ -29,11 +29,12 @@ AXES: dict[str, tuple[str, float, float]] = {
     "a pressure": (f"{_ROW}/cylinder/suction_pressure_Pa", 250e3, 320e3),
     "a rod": (f"{_ROW}/connecting_rod/length_m", 0.6, 0.8),
 }
-_ELSE = "curves, table, everything else"
+_ELSE = "table, everything else"
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
     "what forces are made of": ("optimizer.mechanics.kernel.rows:row_functions",),
     "readings": ("optimizer.mechanics.kernel.readings:row_series",),
+    "curves": ("optimizer.mechanics.kernel.curves:sums_of_rows",),
     "effects, integrals": ("optimizer.outputs:simulated",),
     "brackets": ("optimizer.pieces:_bracketed",),
 }

@@ -1,5 +1,7 @@
 """Forces of the rows as series: the values of the mechanics, what the cubics leave out, and the peaks of the turn."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -8,8 +10,9 @@ from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data
-from optimizer.mechanics.row_series import RowSeries
+from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
+from optimizer.pieces import Bracket
 from tests.analyze.driven import STYLES, arrays, random_driven
 
 READINGS = ("piston", "rod", "side", "tangential", "radial")
@@ -131,12 +134,23 @@ def test_root_mean_squares_are_off_by_no_more_than_is_told(
         assert np.all(curves.rms_error <= 1e-9 * curves.pieces.size)
 
 
-def test_designs_together_are_as_designs_alone() -> None:
-    # regression: one function for rows of a sweep and for single answers
-    turn, _, _ = _driven(1, STYLES[0])
-    alone = _peaks_of_rows(turn, "rod").pieces.largest(1.0, 1e-8)
-    three = turn.rows.chosen(np.array([0, 0, 0]))
-    together = WholeTurn(three, *(np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half)))
-    count = three.crank_radius.shape[-1]
-    found = together.curves("rod", np.broadcast_to(np.eye(count), (3, count, count))).pieces.largest(1.0, 1e-8)
-    assert found.lower.reshape(3, -1) == pytest.approx(np.broadcast_to(alone.lower, (3, count)), rel=1e-14)
+@pytest.mark.parametrize("reading", ["rod", "rod_at_rest", "rod_without_gas", "on_shaft"])
+def test_designs_together_are_as_designs_alone(reading: Reading) -> None:
+    # property: to the bit, whether what all designs have in common is worked out once or for each
+    turn, _, _ = _driven(1, STYLES[0], friction=1e3)
+    inertia = turn.rows.inertia * np.array([[1.0], [1.1], [0.7]])
+    cut = [np.repeat(each, 3, axis=0) for each in (turn.centre, turn.half)]
+    shared = replace(turn.rows, designs=3, inertia=inertia)
+    apart = replace(shared, ahead=np.repeat(turn.rows.ahead, 3, axis=0))
+    alone = [WholeTurn(replace(turn.rows, inertia=one[None]), turn.centre, turn.half) for one in inertia]
+    expected = [_peaks(each, reading) for each in alone]
+    for rows in (shared, apart):
+        found = _peaks(WholeTurn(rows, *cut), reading)
+        for part, each in zip(found, zip(*expected, strict=True), strict=True):
+            assert np.array_equal(part, np.concatenate(each))
+
+
+def _peaks(turn: WholeTurn, reading: Reading) -> Bracket:
+    count, designs = turn.rows.crank_radius.shape[-1], len(turn.centre)
+    pieces = turn.curves(reading, np.broadcast_to(np.eye(count), (designs, count, count))).pieces
+    return pieces.peaks(np.zeros(designs * count), 1e-9)

@@ -9,7 +9,7 @@ import pytest
 
 from optimizer.compile_kernels import all_else, any_limits
 from optimizer.kernel import knapsack, parts
-from optimizer.mechanics.kernel import readings, rows
+from optimizer.mechanics.kernel import curves, readings, rows
 from optimizer.program.kernel import cancelling, discs, interior_point, outlines, symmetries
 from optimizer.warm_up import warm_up
 
@@ -40,6 +40,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         cancelling: ("least_changes",),
         rows: ("row_functions",),
         readings: ("row_series",),
+        curves: ("sums_of_rows",),
         knapsack: ("filled",),
         parts: ("first_open", "narrowed", "still_open"),
     }

@@ -31,9 +31,9 @@ _FUNCTIONS = KEPT + 4
 
 
 @kernel
-def row_series(rows, functions, reading):  # type: ignore[no-untyped-def]
+def row_series(rows, functions, design, reading):  # type: ignore[no-untyped-def]
     """Coefficients of a force of the rows: (2, order + 1, N, R, P) at points; of enclosures the middles (2, 1, N, R, P)
-    and radii (N, R, P) of the last.
+    and radii (N, R, P) of the last; rows of angles of designs (N,).
 
     The first part is along the crank, or all of a scalar; the second across it, against the sense of rotation.
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
@@ -41,7 +41,7 @@ def row_series(rows, functions, reading):  # type: ignore[no-untyped-def]
     made, count, angles, _, terms = functions.middle.shape
     bounded, parts = functions.radius.shape[0] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     designs, scales = rows.motion.shape[0], rows.scale.shape[0]
-    number, first = max(made, scales), terms - 1 if bounded else 0
+    number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))
     series = Series(np.zeros((_FUNCTIONS, terms)), np.zeros((_FUNCTIONS, terms)), bounded)
@@ -51,7 +51,7 @@ def row_series(rows, functions, reading):  # type: ignore[no-untyped-def]
     for m in range(made):
         low, high = (m, m + 1) if made > 1 else (0, number)
         for r in range(count):
-            motion = rows.motion[m if designs > 1 else 0, r]
+            motion = rows.motion[design[m] if designs > 1 else 0, r]
             for p in range(angles):
                 way = functions.way[m, r, p]
                 for f in range(KEPT):
@@ -63,7 +63,7 @@ def row_series(rows, functions, reading):  # type: ignore[no-untyped-def]
                     one, inertia, gas = _read(series, reading, part, motion)
                     sign = -motion[3] if part == 1 else 1.0
                     for n in range(low, high):
-                        mass, friction = rows.scale[n if scales > 1 else 0, r]
+                        mass, friction = rows.scale[design[n] if scales > 1 else 0, r]
                         for k in range(first, terms):
                             value = series.middle[gas, k] if pressed else 0.0
                             if moves:

@@ -82,13 +82,14 @@ class Functions(NamedTuple):
 
 
 @kernel
-def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
-    """What all readings of the rows are made of; without the gas where it is not pressed."""
+def row_functions(rows, places, design, order, pressed):  # type: ignore[no-untyped-def]
+    """What all readings of the rows are made of, at rows of angles of designs (N,); without the gas where it is not
+    pressed."""
     bounded = places.half.size > 0
     designs, count = rows.motion.shape[:2]
     some, angles = places.centre.shape
     # the pressures may differ between designs that have all else in common
-    number = max(designs, some, places.pressure.shape[1])
+    number = 1 if max(designs, some, places.pressure.shape[1]) == 1 else design.size
     middle = np.empty((number, count, angles, KEPT, order + 1))
     radius = np.empty((number if bounded else 0, count, angles, KEPT, order + 1))
     way = np.empty((number, count, angles))
@@ -96,9 +97,9 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
     process = np.empty((rows.gas.shape[2], 4))
     half = 0.0
     for n in range(number):
-        design, place = n if designs > 1 else 0, n if some > 1 else 0
+        one, place = design[n] if designs > 1 else 0, n if some > 1 else 0
         for r in range(count):
-            motion = rows.motion[design, r]
+            motion = rows.motion[one, r]
             known = np.nan
             for p in range(angles):
                 angle, within = places.centre[place, p] + motion[0], places.within[place, p] + motion[0]
@@ -108,7 +109,7 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
                     # many places of one piece follow one another
                     known, inside = within, _turned(within)
                     if pressed:
-                        _decide(rows.gas[design, r], motion, rows.exact, inside, process)
+                        _decide(rows.gas[one, r], motion, rows.exact, inside, process)
                 there = _turned(angle)
                 way[n, r, p] = np.sign(inside.sine)
                 _move(series, motion, rows.exact, there, angle, half)
@@ -116,14 +117,14 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
                 constant(series, 0.0, FORCE)
                 if pressed:
                     for c in range(rows.gas.shape[2]):
-                        area, trace = rows.gas[design, r, c, 0], rows.given[r, c]
+                        area, trace = rows.gas[one, r, c, 0], rows.given[r, c]
                         if area == 0.0:
                             continue
                         if trace < 0:
                             _cycle(series, motion, rows.exact, process[c], c % 2, there, angle, half, inside)
                         else:
-                            one = n if places.pressure.shape[1] > 1 else 0
-                            _given(series, places.pressure[trace, one, p], places.slope[trace, one, p], half)
+                            which = n if places.pressure.shape[1] > 1 else 0
+                            _given(series, places.pressure[trace, which, p], places.slope[trace, which, p], half)
                         summed(series, FORCE, _PRESSURE, area, FORCE)
                 for f in range(KEPT):
                     for k in range(order + 1):
