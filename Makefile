@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared quick chromium freecad lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared quick bytecode chromium freecad lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -32,9 +32,13 @@ quick: .venv/development $(kernels)
 	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/figures \
 	    tests/service/test_computations.py tests/optimize/test_optimize.py
 
+# where PYTHONDONTWRITEBYTECODE is set, every process would read all modules from their source, a third of its start
+bytecode: .venv/runtime
+	$(bin)/python -m compileall -q schemas optimizer service
+
 # compiled once, in half a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
-$(kernels): optimizer/compiling.py $(wildcard optimizer/kernel/*.py optimizer/*/kernel/*.py) .venv/runtime
+$(kernels): optimizer/compiling.py $(wildcard optimizer/kernel/*.py optimizer/*/kernel/*.py) .venv/runtime | bytecode
 	rm -f optimizer/kernel/__pycache__/*.nb[ic] optimizer/*/kernel/__pycache__/*.nb[ic]
 	$(bin)/python -m optimizer.compile_kernels
 	mkdir -p $(@D) && touch $@

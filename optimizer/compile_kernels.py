@@ -1,16 +1,18 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
-Two processes take about as long: one the interior point for any limits, the other that for plain discs and what follows
-the turn. What they have in common is inlined in both.
+Two processes take about as long: one what budgets are spent by and the interior point for any limits, the other what
+follows the turn and the interior point for plain discs. What these have in common is inlined in both.
 """
 
+import gc
 import sys
 import time
+from collections.abc import Callable
 from multiprocessing import get_context
 
 import numpy as np
 
-from optimizer.warm_up import follow_a_turn, plain_discs, warm_up
+from optimizer.warm_up import follow_a_turn, plain_discs
 
 
 def any_limits() -> None:
@@ -21,27 +23,38 @@ def any_limits() -> None:
     solve(Programs(np.zeros(1, np.int64), *map(np.ones, shapes)), True, np.full(1, 1e-6), np.full(1, 1e-9), 1e-6)
 
 
-def all_else() -> None:
-    """Compile what a machine of plain discs asks for, its loads over the whole turn, and what a budget is spent by."""
+def budgets() -> None:
+    """Compile what a budget is spent by: one program, one web."""
     from optimizer.kernel.knapsack import filled
 
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
-    plain_discs()
+
+
+def all_else() -> None:
+    """Compile what loads over the whole turn need, then what a machine of plain discs asks for."""
     follow_a_turn()
+    # which spends a budget, by what the other process has made first
+    plain_discs()
 
 
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
-    beside = get_context("spawn").Process(target=all_else)
+    beside = get_context("spawn").Process(target=_alone, args=(all_else,))
     beside.start()
-    any_limits()
+    _alone(budgets, any_limits)
     beside.join()
     if beside.exitcode:
         raise SystemExit("the second process failed; what it said stands above")
-    # nothing is left to compile, and all of it works
-    warm_up()
     _say(f"compiled in {time.perf_counter() - begun:.0f} s")
+
+
+def _alone(*parts: Callable[[], None]) -> None:
+    """In a process that ends thereafter."""
+    # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
+    gc.disable()
+    for part in parts:
+        part()
 
 
 def _say(what: str) -> None:

@@ -6,6 +6,26 @@ that are written out is compiled for each of them; numpy's integers are of one t
 """
 
 from numba import njit
+from numba.np import linalg
+
+
+def _without_linear_algebra() -> None:
+    """Load numba's arithmetic of arrays now, as if scipy.linalg were not there.
+
+    No kernel calls it, and to see whether it is there numba loads it: a third of a second of every process.
+    """
+
+    def absent() -> None:
+        raise ImportError
+
+    present, linalg.ensure_blas = linalg.ensure_blas, absent
+    try:
+        import numba.np.arraymath  # noqa: F401
+    finally:
+        linalg.ensure_blas = present
+
+
+_without_linear_algebra()
 
 #: an entry; a lane that fails may divide by zero; that it failed is seen by its infinities
 kernel = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True)

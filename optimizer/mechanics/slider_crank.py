@@ -6,10 +6,17 @@ x = r (cos phi + sqrt(1 - lam^2 sin^2 phi) / lam) from the shaft, and the force 
 """
 
 from functools import cache
+from itertools import accumulate
+from math import prod
+from operator import mul
 
 import numpy as np
 
 from optimizer.arrays import Real
+
+#: up to which square of q, that is for rods of more than 1.52 crank radii, these powers of it leave out less of the
+#: hypergeometric function than rounding does
+_NEAR, _POWERS = 0.02, np.arange(9.0)
 
 
 def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
@@ -34,16 +41,12 @@ def acceleration_harmonic(order: int, rod_ratio: Real) -> Real:
         return np.ones_like(lam)
     if order % 2:
         return np.zeros_like(lam)
-    # takes as long to load as all that the first order needs
-    from scipy.special import hyp2f1
-
     n = order // 2
     complement = np.sqrt((1.0 - lam) * (1.0 + lam))
     # q / lam, without the division that an infinite rod would not survive
     q_over_lam = lam / (1.0 + complement) ** 2
     q = lam * q_over_lam
-    series = hyp2f1(n - 0.5, -0.5, n + 1.0, q**2)
-    displacement = (1.0 + complement) * _half_binomial(n) * q_over_lam * q ** (n - 1) * series
+    displacement = (1.0 + complement) * _half_binomial(n) * q_over_lam * q ** (n - 1) * _hypergeometric(n, q**2)
     return order**2 * displacement
 
 
@@ -58,8 +61,27 @@ def acceleration_harmonic_order_2(order: int, rod_ratio: Real) -> Real:
     return lam.copy() if order == 2 else 0.0 * lam
 
 
+def _hypergeometric(n: int, z: Real) -> Real:
+    """2F1(n - 1/2, -1/2; n + 1; z) for 0 <= z <= 1: its first terms where those are all that doubles hold."""
+    terms = np.power(z[..., None], _POWERS, order="C")
+    terms *= _factors(n)
+    value = np.add.reduce(terms, axis=-1, out=np.empty(z.shape))
+    if (far := z > _NEAR).any():
+        # takes as long to load as all that other rods need
+        from scipy.special import hyp2f1
+
+        value[far] = hyp2f1(n - 0.5, -0.5, n + 1.0, z[far])
+    return value
+
+
+@cache
+def _factors(n: int) -> Real:
+    """Those of the powers of z in it."""
+    ratios = (((n - 0.5 + i) * (i - 0.5)) / ((n + 1.0 + i) * (i + 1.0)) for i in range(_POWERS.size - 1))
+    return np.array(list(accumulate(ratios, mul, initial=1.0)))
+
+
 @cache
 def _half_binomial(n: int) -> float:
-    from scipy.special import binom
-
-    return float(binom(0.5, n))
+    """The binomial coefficient (1/2 over n)."""
+    return prod((0.5 - i) / (i + 1.0) for i in range(n))

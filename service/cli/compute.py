@@ -1,6 +1,8 @@
 """The commands that compute, one for each entry of the table of computations whose answer a terminal can show."""
 
-from collections.abc import Callable
+import gc
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from inspect import Parameter, Signature
 from pathlib import Path
 from pkgutil import resolve_name
@@ -11,6 +13,8 @@ import typer
 from service.cli.terminal import WORKBOOK, AsJson, File, answer, asked, fail, put, show
 from service.computations import Computation
 
+#: new objects before those are looked for that nothing holds any more
+_COLLECTED_AFTER = 50_000
 #: statuses that say that the answer is not what was asked for
 _UNMET = ("infeasible", "inaccurate")
 _OPTIONS: dict[str, Any] = {
@@ -41,6 +45,7 @@ _Workbook = Annotated[
 def command(one: Computation) -> Callable[..., None]:
     """The command of a computation, with the options that its entry names."""
 
+    @_seldom_collected()
     def run(file: str, as_json: bool, picture: Path | None = None, to: Path | None = None, **given: Any) -> None:
         if to is not None and to.suffix.lower() != WORKBOOK:
             fail(f"the name of the workbook must end in {WORKBOOK}")
@@ -80,6 +85,17 @@ def command(one: Computation) -> Callable[..., None]:
         ]
     )
     return run
+
+
+@contextmanager
+def _seldom_collected() -> Iterator[None]:
+    """Modules and models that are loaded stay: looking for garbage among them is an eighth of a first answer."""
+    before = gc.get_threshold()
+    gc.set_threshold(_COLLECTED_AFTER, *before[1:])
+    try:
+        yield
+    finally:
+        gc.set_threshold(*before)
 
 
 def _artist(one: Computation) -> Callable[[str, Any], str]:

@@ -8,7 +8,8 @@ import pytest
 
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 
-RATIOS = [1e-6, 0.01, 0.1, 0.2, 0.3, 0.5, 0.8, 0.95]
+#: 0.65 and 0.66 are on either side of where the series is left
+RATIOS = [1e-6, 0.01, 0.1, 0.2, 0.3, 0.5, 0.65, 0.66, 0.8, 0.95]
 
 
 @cache

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from optimizer.compile_kernels import all_else, any_limits
+from optimizer.compile_kernels import all_else, any_limits, budgets
 from optimizer.kernel import knapsack, parts
 from optimizer.mechanics.kernel import curves, readings, rows
 from optimizer.program.kernel import cancelling, discs, interior_point, outlines, symmetries
@@ -26,8 +26,16 @@ def test_both_solvers_are_loaded_and_have_run() -> None:
     assert ran.stdout.strip() == str(sorted(_SOLVERS))
 
 
+def test_an_ordinary_answer_loads_no_scipy() -> None:
+    """Its packages take some tenths of a second to load, which the first answer of a process would wait for."""
+    code = "import sys; from optimizer.warm_up import plain_discs; plain_discs(); print(*sys.modules)"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=300, check=True)
+    assert {"numba", "scipy.linalg", "scipy.special"} & set(ran.stdout.split()) == {"numba"}
+
+
 def test_what_is_compiled_is_what_answers_need() -> None:
     """Of other types it would be kept twice: once as it is compiled, once as it is called."""
+    budgets()
     any_limits()
     all_else()
     warm_up()
