@@ -1,5 +1,6 @@
 """A computation behind a route: bytes in, bytes out, in a worker process and only so many at a time."""
 
+import asyncio
 import logging
 from collections.abc import AsyncIterator
 from contextlib import ExitStack
@@ -110,6 +111,9 @@ class Computing:
         task = Task(asked_for, form, body, self.limits, coding_of(request), workbook)
         with self._tracing.span(asked_for.name), Waited(request):
             outcome = await self._pool.run(task, holding(request).who)
+        if self._pool.queued:
+            # whose turn it is now is handed to the worker before this answer is written: it would wait for that
+            await asyncio.sleep(0)
         found = self._judged(outcome, asked_for.name)
         varies = "Accept, Accept-Encoding" if len(asked_for.forms) > 1 else "Accept-Encoding"
         headers = {"Cache-Control": "no-store", **dict(form.headers), "Vary": varies}
