@@ -87,10 +87,8 @@ class Pieces:
         """What is compiled takes them as."""
         from optimizer.kernel.parts import Known
 
-        centre, half, rest, reach = (
-            np.require(each, float, ("C", "W")) for each in (self.centre, self.half, self.rest, self.reach)
-        )
-        return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest, reach)
+        centre, half, rest = (np.require(each, float, ("C", "W")) for each in (self.centre, self.half, self.rest))
+        return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest)
 
     def peaks(
         self, offset: Vector, tolerance: Reals, curve: Index | None = None, group: Index | None = None

@@ -36,7 +36,6 @@ class Known(NamedTuple):
     half: Real
     cubic: Complex
     rest: Real
-    reach: Real
 
 
 class Asked(NamedTuple):
@@ -113,9 +112,15 @@ def _tell(best, group, most):  # type: ignore[no-untyped-def]
 
 
 @inner
+def _length(value):  # type: ignore[no-untyped-def]
+    """Magnitude; of a scalar for less."""
+    return abs(value.real) if value.imag == 0.0 else abs(value)
+
+
+@inner
 def _size(value, sign):  # type: ignore[no-untyped-def]
     """What a peak is the largest of: a magnitude, or a value times a sign."""
-    return abs(value) if sign == 0.0 else sign * value.real
+    return _length(value) if sign == 0.0 else sign * value.real
 
 
 @kernel
@@ -158,7 +163,10 @@ def first_open(known, asked, best):  # type: ignore[no-untyped-def]
             most[m, p] = -np.inf
             if known.half[curve, p] > 0.0:
                 middle = _size(known.cubic[curve, p, 0] + asked.offset[m], asked.sign)
-                most[m, p] = middle + known.reach[curve, p]
+                # how far the curve may be from the middle of a piece
+                most[m, p] = middle + known.rest[curve, p]
+                for i in range(1, 4):
+                    most[m, p] += _length(known.cubic[curve, p, i])
                 _keep(best, group, middle - known.rest[curve, p], known.centre[curve, p], p, m)
     count = 0
     for m in range(members):

@@ -24,7 +24,7 @@ from schemas.variation import with_fields
 
 Designs = NDArray[np.int64]
 #: rows times angles that are worked on at once, which bounds the memory
-_AT_ONCE = 200_000
+_AT_ONCE = 400_000
 
 
 class Rows:

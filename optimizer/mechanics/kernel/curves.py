@@ -25,8 +25,8 @@ def sums_of_rows(weights, constant, points, bounds, radius, half):  # type: igno
     cubic = np.empty((number * curves, pieces, 4), np.complex128)
     rest, size = np.empty((number * curves, pieces)), np.empty(number * curves)
     # coefficients and the bound's middle, each real and imaginary
-    total, middle = np.empty((2, 5, pieces)), np.empty((2, pieces))
-    added, off, length = np.empty(pieces), np.empty(pieces), np.empty((rows, pieces))
+    total, length = np.empty((2, 5, pieces)), np.empty((rows, pieces))
+    added, off = np.empty(pieces), np.empty(pieces)
     for n in range(number):
         for r in range(rows):
             for p in range(pieces):
@@ -42,28 +42,27 @@ def sums_of_rows(weights, constant, points, bounds, radius, half):  # type: igno
                     added[p] += share * length[r, p]
                     off[p] += share * radius[n, r, p]
                 for k in range(5):
-                    for part in range(parts):
-                        if k < 4:
-                            middle[part] = points[part, k, n, r]
-                        else:
-                            middle[part] = bounds[part, 0, n, r]
+                    one = points[0, k, n, r] if k < 4 else bounds[0, 0, n, r]
                     for p in range(pieces):
-                        total[0, k, p] += weight.real * middle[0, p]
-                        total[1, k, p] += weight.imag * middle[0, p]
-                    if parts > 1:
+                        total[0, k, p] += weight.real * one[p]
+                    if weight.imag != 0.0:
                         for p in range(pieces):
-                            total[0, k, p] -= weight.imag * middle[1, p]
-                            total[1, k, p] += weight.real * middle[1, p]
-            one, largest = n * curves + c, 0.0
+                            total[1, k, p] += weight.imag * one[p]
+                    if parts > 1:
+                        other = points[1, k, n, r] if k < 4 else bounds[1, 0, n, r]
+                        for p in range(pieces):
+                            total[0, k, p] -= weight.imag * other[p]
+                            total[1, k, p] += weight.real * other[p]
+            curve, largest = n * curves + c, 0.0
             for p in range(pieces):
                 wide = 1.0
                 for k in range(4):
-                    cubic[one, p, k] = complex(total[0, k, p] * wide, total[1, k, p] * wide)
+                    cubic[curve, p, k] = complex(total[0, k, p] * wide, total[1, k, p] * wide)
                     wide *= half[n, p]
-                cubic[one, p, 0] += constant[n, c]
-                rest[one, p] = (_length(total[0, 4, p], total[1, 4, p]) + off[p]) * wide
+                cubic[curve, p, 0] += constant[n, c]
+                rest[curve, p] = (_length(total[0, 4, p], total[1, 4, p]) + off[p]) * wide
                 largest = max(largest, added[p])
-            size[one] = largest + abs(constant[n, c])
+            size[curve] = largest + abs(constant[n, c])
     return cubic, rest, size
 
 
