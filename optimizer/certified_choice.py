@@ -1,47 +1,44 @@
-"""Certified choices in the worst of several scenarios: from a catalogue, or at least so heavy where they are fitted.
+"""Certified choices over the turn and in the worst of several scenarios: from a catalogue, or at least so heavy where
+they are fitted.
 
-Of the first order the program of all scenarios is a statement with a row for each: the searches of one machine take it
-as it is, and begin with what is proven of any masses.
+The searches of one machine take the statement with finitely many cuts, and begin with what is proven of any masses.
 """
 
+from collections.abc import Callable
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex
 from optimizer.balance_shafts import chosen
 from optimizer.certified_discrete import certified_discrete
 from optimizer.certified_fitted import certified_fitted, fitted_search
 from optimizer.certified_robust import certified_robust, with_worst_case
-from optimizer.certified_turn import told
-from optimizer.discrete.search import search
-from optimizer.goals import Goals
+from optimizer.certified_turn import certified_turn, told
+from optimizer.choice_rounds import Choice, Sought, in_rounds
+from optimizer.discrete.options import EQUAL
+from optimizer.discrete.search import Known
+from optimizer.discrete.search import search as discrete_search
+from optimizer.figures.counterweights import unbalance
 from optimizer.mechanics.layout import stacked
-from optimizer.out_of_reach import unreachable
+from optimizer.out_of_reach import out_of_reach, unreachable
 from optimizer.program.cuts import Found, Unkept
 from optimizer.program.reference.solver import Solver
-from optimizer.program.statement import Statement
 from optimizer.proven_turn import CertifiedTurn
 from optimizer.robust import Robust
 from optimizer.scene import Prepared
-from optimizer.searched import Found as Searched
 from optimizer.searched import continuous, told_status
 from optimizer.stock import stock
 from schemas.answers import Certificate
 from schemas.requests import OptimizeRequest
 
 
-class _Chosen(NamedTuple):
-    """Masses [kg] and angles [deg] (K,), and where the search for them ended."""
+def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> CertifiedTurn:
+    """Of what can be chosen the best, over the turn and in the worst of all scenarios.
 
-    mass: Real
-    angle: Real
-    found: Searched
-
-
-def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver) -> CertifiedTurn:
-    """Of what can be chosen the best in the worst of all scenarios.
+    Parameters
+    ----------
+    in_full : with what misplaced counterweights may cost.
 
     Raises
     ------
@@ -51,7 +48,7 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver) 
         if a machine lacks what the objective needs.
     """
     if request.machine.semicontinuous:
-        free = certified_robust(request, scene)
+        free = certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
         if free.chosen is None or _heavy_enough(request, free.chosen):
             return free
     any_mass = continuous(request)
@@ -60,16 +57,17 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver) 
     robust = Robust(any_mass, scene)
     asked, best = robust.solved()
     if isinstance(best, Unkept):
-        return certified_robust(any_mass, scene)
-    statement = replace(asked.program.statement(asked.program.first), limits=best.limits)
-    picked = (_from_stock if request.machine.discrete else _fitted)(request, statement, asked, best, solver)
-    found = picked.found
+        return out_of_reach(any_mass, scene, asked, best)
+    size = float(asked.program.yardsticks[-1])
+    search = (_from_stock if request.machine.discrete else _fitted)(request, best, size, solver)
+    gap = request.accuracy.relative_gap * size
+    picked, found = in_rounds(asked.program, best, search, gap, EQUAL * size, lambda: robust.left_s)
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
         return replace(unreachable(any_mass, scene, asked, shown, best.limits, None), status=status, reason=reason)
     judged = any_mass.model_copy(update={"accuracy": request.accuracy})
-    answer = told(judged, scene, asked, best, picked.mass, picked.angle, found.lower_bound)
+    answer = told(judged, scene, asked, best, picked.mass, picked.angle, found.lower_bound, in_full)
     certificate = answer.fields["certificate"]
     assert isinstance(certificate, Certificate)
     proven = certificate.lower_bound is not None
@@ -77,7 +75,13 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver) 
         min(max(best.proof.bound, 0.0) * scene.omega_squared, certificate.lower_bound or 0.0) if proven else None
     )
     certificate = certificate.model_copy(
-        update={"continuous_lower_bound": any_lower, "nodes": found.nodes, "method": found.method}
+        update={
+            "continuous_lower_bound": any_lower,
+            "nodes": found.nodes,
+            "method": found.method,
+            "rounds": best.rounds + found.rounds,
+            "cuts": found.cuts,
+        }
     )
     status, reason = told_status(found, answer.status, answer.reason, proven)
     answer = replace(
@@ -87,6 +91,8 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver) 
         # what holds those of any mass up says nothing of what can be chosen
         fields={**answer.fields, "certificate": certificate},
     )
+    if not request.robust:
+        return answer
     return with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
 
 
@@ -96,16 +102,38 @@ def _heavy_enough(request: OptimizeRequest, u: Complex) -> bool:
     return bool(np.all((mass == 0) | (mass >= stacked([web.min_fitted_mass_kg or 0.0 for web in webs]))))
 
 
-def _from_stock(request: OptimizeRequest, statement: Statement, asked: Goals, best: Found, solver: Solver) -> _Chosen:
-    held, accuracy, size = stock(request.machine), request.accuracy, float(asked.program.yardsticks[-1])
-    u, bound = best.point.unbalance, best.proof.bound
-    found = search(statement, held.options, u, bound, accuracy.relative_gap, size, accuracy.time_limit_s)
-    return _Chosen(*held.fitted(found.chosen), found)
+def _from_stock(request: OptimizeRequest, best: Found, size: float, solver: Solver) -> Callable[[Sought], Choice]:
+    held, radius = stock(request.machine), best.limits.radius
+
+    def search(sought: Sought) -> Choice:
+        relaxed, *known = sought.points
+        found = discrete_search(
+            sought.statement,
+            held.options,
+            relaxed,
+            sought.at_least,
+            sought.gap / size,
+            size,
+            sought.time_limit_s,
+            Known(known, sought.below),
+        )
+        mass, angle = held.fitted(found.chosen)
+        return Choice(mass, angle, unbalance(mass, angle, radius), found)
+
+    return search
 
 
-def _fitted(request: OptimizeRequest, statement: Statement, asked: Goals, best: Found, solver: Solver) -> _Chosen:
-    size = float(asked.program.yardsticks[-1])
-    return _Chosen(*fitted_search(request, statement, best.point.unbalance, best.proof.bound, size, solver))
+def _fitted(request: OptimizeRequest, best: Found, size: float, solver: Solver) -> Callable[[Sought], Choice]:
+    radius = best.limits.radius
+
+    def search(sought: Sought) -> Choice:
+        relaxed, *known = sought.points
+        accuracy = {"relative_gap": sought.gap / size, "time_limit_s": sought.time_limit_s}
+        asked = request.model_copy(update={"accuracy": request.accuracy.model_copy(update=accuracy)})
+        mass, angle, found = fitted_search(asked, sought.below, relaxed, sought.at_least, size, solver, known)
+        return Choice(mass, angle, unbalance(mass, angle, radius), found)
+
+    return search
 
 
 def _nominal_choice(
@@ -116,6 +144,9 @@ def _nominal_choice(
         return None, True
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
     alone = request.model_copy(update={"scenarios": (), "accuracy": accuracy})
+    if alone.objective.over_the_turn:
+        of_turn = certified_choice(alone, scene, solver, in_full=False)
+        return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"
     certify = certified_discrete if request.machine.discrete else certified_fitted
     best = certify(alone, scene.responses, np.array([scene.omega_squared]), solver)
     status = str(best.status[0])

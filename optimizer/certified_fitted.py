@@ -53,7 +53,13 @@ def certified_fitted(
 
 
 def fitted_search(
-    request: OptimizeRequest, statement: Statement, continuous: Complex, at_least: float, size: float, solver: Solver
+    request: OptimizeRequest,
+    statement: Statement,
+    continuous: Complex,
+    at_least: float,
+    size: float,
+    solver: Solver,
+    known: Sequence[Complex] = (),
 ) -> tuple[Real, Real, Found]:
     """Masses [kg] and angles [deg] (K,) of the best that are heavy enough, and where the search for them ended.
 
@@ -62,11 +68,12 @@ def fitted_search(
     statement : one program (no leading axes).
     continuous : (K,) kg m, its optimum whatever the least, and ``at_least`` the bound of that.
     size : what gaps are relative to.
+    known : (K,) kg m each, points to begin with.
     """
     machine, asked = request.machine, request.accuracy
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
     share = OPTIMUM_SHARE * size if request.objective.least_mass else 0.0
     sought = Asked(asked.relative_gap * size, size, share, asked.time_limit_s)
-    found = search(statement, least * statement.limits.radius, continuous, at_least, sought, solver)
+    found = search(statement, least * statement.limits.radius, continuous, at_least, sought, solver, known)
     mass, angle = masses_and_angles(machine, found.unbalance, statement.limits)
     return np.where(np.abs(mass - least) <= _ROUNDING * least, least, mass), angle, found

@@ -81,7 +81,7 @@ def told(
     found: Found,
     mass: Real,
     angle: Real,
-    lower_bound: float = -np.inf,
+    of_choices: float | None = None,
     in_full: bool = True,
 ) -> CertifiedTurn:
     """The same of counterweights with masses [kg] and angles [deg] (K,).
@@ -89,7 +89,7 @@ def told(
     Parameters
     ----------
     found : whose proof holds for them.
-    lower_bound : of all that may be chosen, over omega^2, where more is proven of these.
+    of_choices : lower bound of all that may be chosen, over omega^2; None where any mass at any angle may be.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
     machine, square = posed(request).machine, scene.omega_squared
@@ -98,14 +98,14 @@ def told(
     there, _ = beside(machine, mass, angle)
     values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
-    judged = _judged(request, asked.program, found, u, values, mass, lower_bound)
+    judged = _judged(request, asked.program, found, u, values, mass, -np.inf if of_choices is None else of_choices)
     late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
     ended = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. " if late else ""
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
     gap, several = float(judged.gap[0]), request.robust or request.objective.priorities
     prices: tuple[ShadowPrice, ...] = ()
-    if in_full and not (several or np.isnan(gap) or machine.web_groups):
-        # of a group no web gives way by itself
+    if in_full and of_choices is None and not (several or np.isnan(gap) or machine.web_groups):
+        # of a group no web gives way by itself, and no choice gives way at all
         prices = prices_over_turn(posed(request), asked, found.proof, u, shown.all_of_them, touched, gap)
     return CertifiedTurn(
         str(judged.status),

@@ -9,10 +9,9 @@ import numpy as np
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.balance_shafts import Fitted, chosen, posed
 from optimizer.certified import Certified
-from optimizer.certified_choice import certified_choice
 from optimizer.certified_one import certified_one
-from optimizer.certified_robust import certified_robust, nothing_off
-from optimizer.certified_turn import certified_turn
+from optimizer.certified_over_turn import certified_over_turn
+from optimizer.certified_robust import nothing_off
 from optimizer.errors import MissingInput
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import of_ceilings, of_limits, quantity_of, touched_limits
@@ -105,10 +104,7 @@ def _over_the_turn(request: OptimizeRequest, start: float, solver: Solver) -> Op
         raise MissingInput(lacking)
     scene = prepare(request, always)
     solving = time.perf_counter()
-    if request.robust and (request.machine.discrete or request.machine.semicontinuous):
-        best = certified_choice(request, scene, solver)
-    else:
-        best = certified_robust(request, scene) if request.robust else certified_turn(request, scene)
+    best = certified_over_turn(request, scene, solver)
     reporting = time.perf_counter()
     figures = answered(replace(scene, shafts=best.shafts), best.unbalance, always, best.fields)
     if request.objective.orders == "all":

@@ -50,8 +50,8 @@ def unreachable(
     alone = asked.program.changed(ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
     components = [name for name in groups if name not in RESPONSES]
-    # of quantities those that the conflict is about
-    at_fault = [] if found is None else _at_fault(found)
+    # of quantities those that the conflict is about, all that are limited where that is not told
+    at_fault = _under_ceilings(request, asked) if found is None else _at_fault(found)
     limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
     limited = {name: each for name, each in limited.items() if name in at_fault}
     for name in limited:
@@ -160,6 +160,13 @@ def _at_fault(found: Unkept) -> list[str]:
         share[term.response] = share.get(term.response, 0.0) + float(row[owner] / np.sum(row))
     leant = [name for name, part in share.items() if part > _TAKES_PART]
     return sorted(leant, key=lambda name: -share[name])[:_MOST_AT_FAULT]
+
+
+def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
+    """Responses that have a ceiling, the first of them."""
+    given = given_ceilings(request.objective) if request.objective.orders == "first" else ()
+    limited = (asked.program.quantities[each.quantity].name for each in asked.limited)
+    return list(dict.fromkeys((*(each.name for each, _ in given), *limited)))[:_MOST_AT_FAULT]
 
 
 def _least(program: OverTurn, group: Group) -> Found:

@@ -19,7 +19,7 @@ from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rule
 from schemas.units import Unit
 
 #: ways round what does not go together, see "What goes together" in docs/api.md
-_FIX_THE_CHOICE = "choose for the first order, then ask with the choice as fixed weights"
+_FIX_THE_CHOICE = "choose without, then ask with the choice as fixed weights"
 
 
 class Accuracy(Model):
@@ -145,24 +145,28 @@ class OptimizeRequest(Scene, Ruled):
         machine = self.machine
         if not machine.discrete:
             return
-        yield Rule(self.tolerances is not None, ("tolerances",), f"does not go with a catalogue: {_FIX_THE_CHOICE}")
-        for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), f"does not go with a catalogue: {_FIX_THE_CHOICE}")
+        yield from self._choice_rules("a catalogue")
         yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
         for broken, path, message in machine.no_envelopes(
             "what is chosen from a catalogue has a radius: give that of the plate"
         ):
             yield Rule(broken, ("machine", *path), message)
 
+    def _choice_rules(self, what: str) -> Iterator[Rule]:
+        """What does not go with either."""
+        message, goal = f"does not go with {what}: {_FIX_THE_CHOICE}", self.objective
+        yield Rule(self.tolerances is not None, ("tolerances",), message)
+        yield Rule(bool(goal.priorities), ("objective", "priorities"), message)
+        along_axes = [name for name in type(goal).model_fields if "_ceiling_x_" in name or "_ceiling_y_" in name]
+        for name in along_axes if goal.orders == "all" else ():
+            yield Rule(getattr(goal, name) is not None, ("objective", name), f"of all orders {message}")
+
     def _fitted_rules(self) -> Iterator[Rule]:
         """What does not go with a least mass of what is fitted."""
         machine = self.machine
         if not machine.semicontinuous:
             return
-        message = f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}"
-        yield Rule(self.tolerances is not None, ("tolerances",), message)
-        for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), f"does not go with min_fitted_mass_kg: {_FIX_THE_CHOICE}")
+        yield from self._choice_rules("min_fitted_mass_kg")
         yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
         for broken, path, message in machine.no_envelopes(
             "not beside min_fitted_mass_kg: optimise without, then give the radius that is found"

@@ -14,7 +14,7 @@ from __future__ import annotations
 import sys
 from typing import Any, Dict, List, NamedTuple, Optional, Tuple
 
-from verify import MASS_GAP, before, ceilings, first_order, optimum
+from verify import MASS_GAP, before, ceilings, first_order, optimum, searched
 from verify_claims import Claims, covered, judged, main, near
 from verify_curves import Turn
 from verify_machine import NAMES, NOTHING, Machine, Mass, over
@@ -229,6 +229,8 @@ def over_turn(request: Place, answer: Place) -> Claims:
     if program.limited:
         yield "ceilings", answer / "counterweights", None, ONE
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
+    chosen = yield from searched(asked, answer / "counterweights", proof)
+    of_any_mass = proof / "continuous_lower_bound" if chosen else lowest
     multipliers, value = proof / "multipliers", objective.number(0.0)
     noise = SPECK * (abs(value) + abs(lowest.number(0.0)))
     # not below what is there at the angles of the cuts; whether anything is above it is not told here
@@ -236,7 +238,7 @@ def over_turn(request: Place, answer: Place) -> Claims:
     reached = program.reached(terms, found)
     yield "cuts", objective, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     yield "objective", objective, None, ONE
-    yield from _proven("lower_bound", lowest, program.bound(multipliers / "objective", terms, implied), implied)
+    yield from _proven("lower_bound", of_any_mass, program.bound(multipliers / "objective", terms, implied), implied)
     gap, size = value - lowest.number(0.0), (proof / "yardstick").number(0.0)
     if lowest and proof / "yardstick":
         yield near("gap", proof / "gap", gap + noise)
@@ -250,7 +252,7 @@ def over_turn(request: Place, answer: Place) -> Claims:
     if least and status == "optimal":
         yield "status", least, light * real(MASS_GAP) + SPECK * mass - (mass - least.number()), light
     if status == "optimal":
-        room = (request / "accuracy" / "relative_gap").number(1e-6, least=0) * size + noise - gap
+        room = (request / "accuracy" / "relative_gap").number(1e-3 if chosen else 1e-6, least=0) * size + noise - gap
         yield "status", lowest, room if proof / "yardstick" else None, size
 
 

@@ -63,6 +63,7 @@ def branch(
     enough: Callable[[float], bool],
     spent: Callable[[], bool],
     most_nodes: float = np.inf,
+    below: Statement | None = None,
 ) -> Tree:
     """Offer sets until no other is better by more than ``gap``, time or memory are spent, or a bound is enough.
 
@@ -72,8 +73,9 @@ def branch(
     gap : in units of the objective, 0 to tell all but equals apart.
     enough : whether a bound of all sets that were not offered ends the search.
     most_nodes : after which it ends as well.
+    below : a program of one group that is nowhere above the incumbent's, which bounds are of; by default that one.
     """
-    work = _Work(options, incumbent, gap)
+    work = _Work(options, incumbent, gap, below or incumbent.statement)
     root = work.settled(options.exists, frozenset())
     if root is None:
         return Tree(np.inf, 0, False)
@@ -112,11 +114,12 @@ class _Work:
     options: Options
     incumbent: Incumbent
     gap: float
+    statement: Statement
 
     @cached_property
     def apart(self) -> tuple[Statement, Options, np.ndarray]:
         """What the kernel takes."""
-        return apart(self.incumbent.statement, self.options)
+        return apart(self.statement, self.options)
 
     @property
     def counted(self) -> bool:
@@ -163,7 +166,7 @@ class _Work:
         self, nodes: list[_Node], inherited: list[float], spent: Callable[[], bool]
     ) -> tuple[float, list[tuple[float, _Split]]]:
         """What is proven of all that nodes lose here, and those that stay open with their bounds."""
-        options, statement = self.options, self.incumbent.statement
+        options, statement = self.options, self.statement
         left, bound, closed = self.left(np.array([node.bits for node in nodes])), np.array(inherited), np.inf
         which = np.arange(len(nodes))
 
@@ -203,7 +206,7 @@ class _Work:
         return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
 
     def _raised(self, left: np.ndarray, multipliers: Multipliers) -> Multipliers:
-        statement, options = self.incumbent.statement, self.options
+        statement, options = self.statement, self.options
         price = proven(statement, options, left, multipliers).price if self.counted else np.zeros(left.shape[0])
         return uphill(statement, options, left, multipliers, price, self.incumbent.least - self.gap)
 
@@ -246,7 +249,7 @@ class _Work:
 
     def _first(self, left: np.ndarray, near: Complex, off: Real) -> np.ndarray:
         """What the first children keep (M, K, O): of one slot the options up to the relaxed unbalance."""
-        options, statement = self.options, self.incumbent.statement
+        options, statement = self.options, self.statement
         norms, ceilings = statement.norms, statement.ceilings.norms
         does = np.sum(np.abs(norms.influence), axis=-2)
         does = does + np.sum(np.abs(ceilings.influence) / statement.ceilings.size[:, None], axis=-2)

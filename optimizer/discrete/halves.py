@@ -26,6 +26,8 @@ _MARGIN = 1.0 + 1e-9
 _ROUNDING = 1e-14
 #: pairs that are evaluated at once
 _AT_ONCE = 200_000
+#: points whose nearest neighbours are sought at once, and whose neighbours are counted: far from all it takes a while
+_SOUGHT, _COUNTED = 2_000, 64
 #: pairs up to which all are evaluated
 _FEW = 20_000
 #: part numbers that fit into the bits of a whole number
@@ -90,7 +92,7 @@ def exhaust(
     pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
     if not np.isfinite(incumbent.level) or pairs.count <= _FEW:
         return pairs.count <= most_pairs and pairs.all(spent)
-    pairs.nearest()
+    pairs.nearest(spent)
     return pairs.near(most_pairs, spent)
 
 
@@ -179,16 +181,18 @@ class _Pairs:
             self.evaluated(i.ravel(), j.ravel())
         return True
 
-    def nearest(self) -> None:
+    def nearest(self, spent: Callable[[], bool]) -> None:
         """To every sum of one half the nearest of the other, which mostly makes the ball small."""
         ball = self._ball()
         if ball is None:
             return
         tree, points, radius = ball
-        off, place = tree.query(points, distance_upper_bound=radius)
-        found = np.flatnonzero(np.isfinite(off))
-        for part in np.array_split(found, 1 + found.size // _AT_ONCE):
-            self.evaluated(place[part], part)
+        for start in range(0, len(points), _SOUGHT):
+            off, place = tree.query(points[start : start + _SOUGHT], distance_upper_bound=radius)
+            found = np.flatnonzero(np.isfinite(off))
+            self.evaluated(place[found], start + found)
+            if spent():
+                return
 
     def near(self, most: int, spent: Callable[[], bool]) -> bool:
         """Every pair that can be no worse than the best; whether they were few enough for number and time."""
@@ -196,9 +200,12 @@ class _Pairs:
         if ball is None:
             return True
         tree, points, radius = ball
-        counts = np.concatenate(
-            [tree.query_ball_point(part, radius, return_length=True) for part in np.array_split(points, 8) if part.size]
-        )
+        counts = np.zeros(len(points), np.int64)
+        for start in range(0, len(points), _COUNTED):
+            few = points[start : start + _COUNTED]
+            counts[start : start + _COUNTED] = tree.query_ball_point(few, radius, return_length=True)
+            if int(np.sum(counts[start : start + _COUNTED])) > most or spent():
+                return False
         if int(np.sum(counts)) > most:
             return False
         some = np.flatnonzero(counts)
@@ -216,7 +223,7 @@ class _Pairs:
         Rows of what is left of the level above their floor are 1; a row is no less than the Euclidean norm of its
         terms. None: no pair at all is.
         """
-        left = self.incumbent.level + self.rounding - self.statement.floor
+        left = self.incumbent.left(self.rounding)
         if np.any(left < 0):
             return None
         each = np.maximum(left, SMALLEST)[self.statement.row]

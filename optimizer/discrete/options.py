@@ -130,6 +130,14 @@ class Incumbent:
         """What an objective may come to and still be the answer."""
         return self.least + self.resolution
 
+    def left(self, more: float) -> Real:
+        """What the terms of every row (rows,) may come to where the objective is no more than the level and more."""
+        statement = self.statement
+        highest = statement.largest(statement.floor)
+        others = np.sum(highest) - highest
+        found: Real = self.level + more - others[statement.group] - statement.floor
+        return found
+
     def offer(self, chosen: np.ndarray) -> None:
         """Take the best of sets (M, K), or stay."""
         statement, options = self.statement, self.options

@@ -16,6 +16,8 @@ from optimizer.discrete.options import Incumbent, Options
 
 #: sums of a quarter, and quarters that are dealt out in a row without finding a better set: many small ones, then large
 _COURSE = ((10_000, 40), (100_000, 10))
+#: coordinates, each of two numbers, from which on what is near to a point is no quicker found than looked at
+_MANY = 5
 #: slots with a choice from which on quarters hold more than neighbourhoods do
 _FEWEST = 12
 #: sets of those found that are offered
@@ -53,7 +55,8 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], spent: Callable[[
     from scipy.spatial import cKDTree
 
     options, chance = incumbent.options, np.random.default_rng(_SEED)
-    if np.sum(np.sum(options.exists, axis=-1) > 1) < _FEWEST:
+    few = np.sum(np.sum(options.exists, axis=-1) > 1) < _FEWEST
+    if few or incumbent.coordinates[0].shape[-1] >= _MANY:
         return
     for sums, patience in _COURSE:
         left = patience
@@ -94,7 +97,7 @@ class _Measure:
     def __init__(self, incumbent: Incumbent) -> None:
         statement, self._options = incumbent.statement, incumbent.options
         lever, self._effect = incumbent.coordinates
-        left = np.maximum(incumbent.level - statement.floor, SMALLEST)[statement.row]
+        left = np.maximum(incumbent.left(0.0), SMALLEST)[statement.row]
         turn, self._scale = np.linalg.qr(lever / left[:, None])
         assert incumbent.chosen is not None  # it is what is made better
         terms = statement.norms.at(self._options.carried(incumbent.chosen)) / left

@@ -1,8 +1,9 @@
 """The way in: the best set of options, and what is proven of it."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -19,6 +20,8 @@ EXHAUSTED = "exhaustion in halves"
 TREE = "branch and bound"
 #: sums of a half, and pairs of them, that are searched outright
 _SUMS, _PAIRS = 300_000, 3_000_000
+#: sums of a half where they have so many coordinates that what is near is hardly found any quicker than by looking
+_FEW_SUMS, _COORDINATES = 10_000, 4
 #: how long neighbourhoods are tried before a tree, and the nodes of that: what it does not close is searched better
 _SEARCHES = ((1, 1), (0, 1_200.0), (6, np.inf))
 
@@ -36,6 +39,16 @@ class Found:
     ended: str | None = None  # "time" or "size" where that ended the search before the asked gap
 
 
+class Known(NamedTuple):
+    """What is known before a search."""
+
+    sets: Sequence[Complex] = ()  # (W,) kg m each
+    below: Statement | None = None  # of few rows in one group and nowhere above the one searched; None is that one
+
+
+_NOTHING = Known()
+
+
 def search(
     statement: Statement,
     options: Options,
@@ -44,6 +57,7 @@ def search(
     relative_gap: float,
     yardstick: float,
     time_limit_s: float,
+    known: Known = _NOTHING,
 ) -> Found:
     """The set of options with the smallest objective; of equals the lightest.
 
@@ -55,28 +69,30 @@ def search(
     relaxed : (W,) kg m, its optimum without options.
     at_least : lower bound of that optimum.
     relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
+    known : sets to begin with, and what a tree is of.
     """
-    began = time.monotonic()
+    began = time.thread_time()
 
     def spent() -> bool:
-        return time.monotonic() >= began + time_limit_s
+        return time.thread_time() >= began + time_limit_s
 
     def halfway() -> bool:
-        return time.monotonic() >= began + 0.5 * time_limit_s
+        return time.thread_time() >= began + 0.5 * time_limit_s
 
+    points, below = np.stack([relaxed, *known.sets]), known.below or statement
     if options.alike is not None:
-        relaxed = options.alike.means(relaxed)
-    resolution = EQUAL * yardstick
+        points = options.alike.means(points)
+    relaxed, resolution = points[0], EQUAL * yardstick
     incumbent = Incumbent(statement, options, resolution)
-    start(incumbent, relaxed[None])
+    start(incumbent, points)
     every = [np.flatnonzero(some) for some in options.exists]
     if incumbent.chosen is None:
         # first of all a set that keeps the ceilings
-        within = _within(statement, options, relaxed, every, spent)
+        within = _within(statement, options, relaxed, every, spent, below)
         if not within.kept:
             return within
         incumbent.offer(within.chosen[None])
-    if exhaust(options, every, incumbent, _SUMS, _PAIRS, spent):
+    if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, spent):
         return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
     nodes, floor = 0, at_least
@@ -86,7 +102,7 @@ def search(
 
     for patience, most_nodes in _SEARCHES:
         neighbourhoods(incumbent, relaxed, patience, enough, halfway)
-        tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent, most_nodes)
+        tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent, most_nodes, below)
         nodes, at_least = nodes + tree.nodes, max(at_least, tree.lower_bound)
         if tree.nodes == 1 and tree.lower_bound <= floor + gap:
             # the options reach what no masses undercut, and no tree tells more
@@ -97,6 +113,10 @@ def search(
             break
     ended = None if closed else "size" if tree.full else "time"
     return _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
+
+
+def _most_sums(incumbent: Incumbent) -> int:
+    return _SUMS if incumbent.coordinates[0].shape[-1] < _COORDINATES else min(_SUMS, _FEW_SUMS)
 
 
 def _found(
@@ -113,6 +133,7 @@ def _within(
     relaxed: Complex,
     every: list[np.ndarray],
     spent: Callable[[], bool],
+    below: Statement,
 ) -> Found:
     """The first set that keeps the ceilings, or the proof that there is none."""
     incumbent = Incumbent(statement.excess(), options, 0.0)
@@ -124,10 +145,18 @@ def _within(
     neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], kept, spent)
     bound, nodes, method, ended = -np.inf, 0, EXHAUSTED, None
     if not kept():
-        if exhaust(options, every, incumbent, _SUMS, _PAIRS, spent):
+        if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, spent):
             bound = incumbent.least
         else:
-            tree = branch(options, incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, spent)
+            tree = branch(
+                options,
+                incumbent,
+                -np.inf,
+                0.0,
+                lambda bound: kept() or bound > CEILING_TOLERANCE,
+                spent,
+                below=below.excess(),
+            )
             bound, nodes, method = tree.lower_bound, tree.nodes, TREE
             ended = "size" if tree.full else "time"
     found = _found(incumbent, -np.inf, nodes, method, False, ended)

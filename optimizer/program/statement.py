@@ -18,6 +18,8 @@ from optimizer.program.norms import Norms
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 _ROUNDING = 4 * np.finfo(float).eps
+#: rows from which on they are summed one after the other
+_MANY = 8
 #: what a term of a weighted peak is the size of: the vector that turns with the shaft, and the one against it
 Part = Literal["co", "counter"]
 PARTS: tuple[Part, ...] = ("co", "counter")
@@ -55,6 +57,12 @@ class Statement:
     def membership(self) -> Real:
         """(rows, J) matrix that sums the terms of a row."""
         return (self.row[None, :] == np.arange(self.floor.shape[-1])[:, None]).astype(float)
+
+    @cached_property
+    def _many_in_order(self) -> bool:
+        """Whether rows are so many that a matrix of them costs more than it saves, and their terms are side by side."""
+        step = np.diff(self.row, prepend=-1)
+        return bool(self.floor.shape[-1] > _MANY and np.all((step == 0) | (step == 1)))
 
     @cached_property
     def every_constant(self) -> Complex:
@@ -97,6 +105,8 @@ class Statement:
 
     def rows(self, sizes: Real) -> Real:
         """Rows of the objective (..., rows) for sizes of its terms (..., J)."""
+        if self._many_in_order:
+            return self.floor + np.add.reduceat(sizes, np.searchsorted(self.row, np.arange(self.row[-1] + 1)), axis=-1)
         return self.floor + np.add.reduce(self.membership * sizes[..., None, :], axis=-1)
 
     def largest(self, rows: Real) -> Real:

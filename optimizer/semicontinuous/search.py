@@ -1,7 +1,7 @@
 """The way in: the best counterweights that are heavy enough or not there, and what is proven of them."""
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -49,6 +49,7 @@ def search(
     at_least: float,
     asked: Asked,
     solver: Solver,
+    known: Sequence[Complex] = (),
 ) -> Found:
     """The counterweights with the smallest objective, and of those with the same webs the lightest.
 
@@ -58,15 +59,18 @@ def search(
     least : (K,) kg m, the least unbalance that is fitted on every web; 0 where there is none.
     continuous : (K,) kg m, its optimum whatever the least.
     at_least : lower bound of that optimum.
+    known : (K,) kg m each, points to begin with.
     """
-    end, gap = time.monotonic() + asked.time_limit_s, asked.gap
+    end, gap = time.thread_time() + asked.time_limit_s, asked.gap
 
     def spent() -> bool:
-        return time.monotonic() >= end
+        return time.thread_time() >= end
 
     places = root(least, statement.limits)
     incumbent = Incumbent(statement, places, _EQUAL * asked.yardstick, solver)
     sharing(incumbent, continuous)
+    if known:
+        incumbent.offer(np.stack(known))
     if incumbent.unbalance is None:
         within = _within(statement, places, continuous, spent, solver)
         if not within.kept:

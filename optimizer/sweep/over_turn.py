@@ -6,9 +6,10 @@ from typing import Any
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.certified_turn import certified_turn
+from optimizer.certified_over_turn import certified_over_turn
 from optimizer.outputs import prepare
 from optimizer.program.cuts import METHOD
+from optimizer.program.reference.solver import Solver
 from optimizer.proven_turn import CertifiedTurn
 from schemas.answers import Certificate, GoalReached
 from schemas.infeasibility import Infeasibility
@@ -17,7 +18,9 @@ from schemas.requests import OptimizeRequest
 from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
 
 
-def optimal_over_turn(requests: Sequence[OptimizeRequest], multipliers: bool) -> tuple[dict[str, Any], Complex]:
+def optimal_over_turn(
+    requests: Sequence[OptimizeRequest], solver: Solver, multipliers: bool
+) -> tuple[dict[str, Any], Complex]:
     """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m; nan where none.
 
     Parameters
@@ -27,7 +30,7 @@ def optimal_over_turn(requests: Sequence[OptimizeRequest], multipliers: bool) ->
     """
     alone = [prepare(one.model_copy(update={"outputs": ("residual",)})) for one in requests]
     # a row has no column for prices and sensitivities
-    found = [certified_turn(one, scene, in_full=False) for one, scene in zip(requests, alone, strict=True)]
+    found = [certified_over_turn(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
     rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
@@ -43,7 +46,7 @@ def _row(request: OptimizeRequest, best: CertifiedTurn, multipliers: bool) -> di
     row: dict[str, str | float | None] = {
         "status": best.status,
         "message": "" if best.status == "optimal" else best.reason,
-        "method": METHOD,
+        "method": certificate.method if isinstance(certificate, Certificate) else METHOD,
         "total_mass_kg": _or_nan(total),
     }
     for name in CERTIFICATE:

@@ -123,7 +123,9 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         return
     cut = np.isin(designs, list(turning))
     if np.any(cut):
-        found, unbalance = optimal_over_turn([turning[int(design)] for design in designs[cut]], group.multipliers)
+        found, unbalance = optimal_over_turn(
+            [turning[int(design)] for design in designs[cut]], solver, group.multipliers
+        )
         table.put(designs[cut], found)
         _fill_outputs(table, group, designs[cut], unbalance)
     if not np.all(cut):
@@ -145,7 +147,7 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
             continue
         try:
             columns, unbalance = (
-                optimal_over_turn([alone], group.multipliers)
+                optimal_over_turn([alone], solver, group.multipliers)
                 if turning
                 else optimal_alone(alone, solver, group.multipliers)
             )

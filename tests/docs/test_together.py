@@ -60,6 +60,11 @@ PARTS = {"class": "piston", "names": ["p"], "masses_kg": [5], "rows": [{"throw":
 ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
     "ceilings, or a budget": (OptimizeRequest, {"objective": {"force_ceiling_N": 6e4}}),
     "goals over the whole turn": (OptimizeRequest, {"objective": {"bearing_weight": 1}}),
+    "goals in their order: `priorities`": (OptimizeRequest, {"objective": {"priorities": [{"goal": "external"}]}}),
+    "`orders: all` with a ceiling along an axis": (
+        OptimizeRequest,
+        {"objective": {"orders": "all", "force_ceiling_x_N": 6e4}},
+    ),
     "`scenarios`": (OptimizeRequest, {"scenarios": [{"name": "as it is"}]}),
     "`tolerances`": (OptimizeRequest, {"tolerances": {"mass_relative": 0.02}}),
     "front of force and moment": (ParetoRequest, {}),

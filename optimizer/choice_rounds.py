@@ -1,0 +1,142 @@
+"""Choices for a program over the turn, in rounds: the best by finitely many cuts, what it truly comes to, and the cuts
+that tell the two apart.
+
+No choice comes to less than its cuts: what is proven of all choices by these holds over the turn. A choice whose own
+cuts are known is not found again for less than it comes to, so that rounds end with the gap that is asked.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.cut import Cut, Pool
+from optimizer.program.cuts import Found
+from optimizer.program.one_group import FEW, MANY, one_group
+from optimizer.program.over_turn import OverTurn
+from optimizer.program.statement import Statement
+from optimizer.searched import Found as Searched
+
+#: width of the brackets by which choices are told apart, as a share of goals and ceilings
+_CLOSE = 1e-10
+#: what a search may leave open of the gap that is asked, and of the gap that is left as long as that is more
+_ASKED, _LEFT = 0.5, 0.25
+#: share of the time left that a search has, unless the one before has shown nothing new
+_TURN = 0.3
+#: angles at which every peak has a cut from the start: what is chosen by few cuts is good at those alone
+_ANGLES = 24
+#: choices whose rows a tree is of
+_RECENT = 8
+#: share of the largest value of a quantity from which on its other maxima are cuts too
+_HIGH = 0.9
+
+
+class Choice(NamedTuple):
+    """What a search has chosen."""
+
+    mass: Real  # (K,) kg
+    angle: Real  # (K,) degrees
+    unbalance: Complex  # (K,) kg m
+    found: Searched
+
+
+class Sought(NamedTuple):
+    """What is asked of a search."""
+
+    statement: Statement  # whose best choice is wanted
+    below: Statement  # of fewer rows in one group, nowhere above it
+    points: Complex  # (M, K) kg m, the optimum of any masses, then choices that are known
+    at_least: float  # what the objective is known to come to
+    gap: float  # in units of the objective
+    time_limit_s: float
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Where the rounds ended, as a search does, by what is true over the turn."""
+
+    kept: bool
+    lower_bound: float
+    nodes: int
+    method: str
+    proven: bool
+    ended: str | None
+    rounds: int
+    cuts: int
+
+
+def in_rounds(
+    program: OverTurn,
+    best: Found,
+    search: Callable[[Sought], Choice],
+    gap: float,
+    resolution: float,
+    left_s: Callable[[], float],
+) -> tuple[Choice, Ended]:
+    """The best choice, and what is proven of all that may be chosen.
+
+    Parameters
+    ----------
+    program : of one goal.
+    best : its optimum of any masses at any angles.
+    gap : that is asked, in units of the goal.
+    resolution : objectives that differ by no more are equal.
+    left_s : what is left of the time limit.
+    """
+    pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
+    _learn(program, pool, points[0])
+    bound, least, chosen, stuck = best.proof.bound, np.inf, None, not program.quantities
+    most, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
+
+    def ended(found: Searched, proven: bool, early: str | None) -> Ended:
+        lower = np.inf if found.lower_bound == np.inf else bound
+        return Ended(chosen is not None, lower, nodes, found.method, proven, early, rounds, pool.count())
+
+    while True:
+        rounds += 1
+        whole = replace(program.statement(pool.cuts), limits=best.limits)
+        recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
+        below = one_group(whole, case_of, recent, FEW)
+        if case_of[-1] > 0:
+            # a statement is of one sum
+            whole = one_group(whole, case_of, points, MANY)
+        wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, most) - bound))
+        last = search(Sought(whole, below, points, bound, wanted, left_s() * (1.0 if stuck else _TURN)))
+        found, nodes = last.found, nodes + last.found.nodes
+        if found.lower_bound == np.inf:
+            # none keeps the cuts of the ceilings
+            return last, ended(found, False, None)
+        bound = max(bound, found.lower_bound)
+        values = program.values(last.unbalance, _CLOSE)
+        value = float(values.goals[-1])
+        if values.excess <= CEILING_TOLERANCE and value <= least + resolution:
+            least, chosen = min(value, least), last
+        closed = least - bound <= max(gap, resolution)
+        learnt = _learn(program, pool, last.unbalance)
+        if closed or left_s() <= 0.0 or (stuck and not learnt):
+            all_compared = closed and chosen is last and found.proven
+            return chosen or last, ended(found, all_compared, None if closed else found.ended or "time")
+        stuck, points = not learnt, np.concatenate([points, last.unbalance[None]])
+
+
+def _known(program: OverTurn) -> list[list[Cut]]:
+    """Cuts to begin with."""
+    angle = np.linspace(0.0, 2.0 * np.pi, _ANGLES, endpoint=False)
+    known = [list(cuts) for cuts in program.first]
+    for cuts, quantity in zip(known, program.quantities, strict=True):
+        if quantity.measure == "peak":
+            values = zip(angle.tolist(), quantity.response.at(angle).tolist(), strict=True)
+            cuts += [quantity.cut(at, value) for at, value in values]
+    return known
+
+
+def _learn(program: OverTurn, pool: Pool, u: Complex) -> bool:
+    """Take the cuts that tell what an unbalance (K,) comes to; whether any is new."""
+    reached = program.values(u, _CLOSE).reached
+    _, places = program.seen(u, _HIGH * np.array([each.lower for each in reached]))
+    all_of_them = np.full(len(reached), -np.inf)
+    new = pool.add([(each,) for each in reached], u, all_of_them)
+    return pool.add(places, u, all_of_them) or new

@@ -1,0 +1,268 @@
+"""Choices from what there is for goals over the whole turn: what trying every set comes to."""
+
+import json
+from collections.abc import Sequence
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from optimizer.analyze import analyze
+from optimizer.discrete.search import EXHAUSTED, TREE
+from optimizer.optimize import optimize
+from schemas.answers import Certificate, OptimizeAnswer
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from tests.optimize.whole_turn import ALONE
+from tests.sweep.single import assert_row_is_the_single_answer, sweep, table
+from tests.verification.checking import broken, optimized
+
+MASSES, HOLES = [4.0, 11.0], [0.0, 120.0, 240.0]
+BEARINGS = {"a": -0.6, "b": 0.6}
+FAST = {"name": "fast", "weight": 0.5, "changes": [{"path": "/machine/speed_rpm", "value": 1300}]}
+SLOW = {"name": "slow", "changes": []}
+
+
+def twin(**more: Any) -> dict[str, Any]:
+    """Two cranks at right angles between two bearings, four webs with three holes each."""
+    path = Path(__file__).parents[2] / "examples" / "catalogue-twin.json"
+    machine: dict[str, Any] = json.loads(path.read_bytes())["machine"]
+    machine["bearings"] = [{"name": name, "position_m": z} for name, z in BEARINGS.items()]
+    machine["catalogue"] = {"masses_kg": MASSES}
+    machine["webs"] = [{**web, "hole_angles_deg": HOLES} for web in machine["webs"]]
+    for throw in machine["throws"]:
+        throw["rows"][0]["connecting_rod"] = {"length_m": 0.4, "mass_kg": 0}
+    return machine | more
+
+
+def asked(machine: dict[str, Any], gap: float = 1e-6, **goal: Any) -> dict[str, Any]:
+    return {
+        "machine": machine,
+        "objective": goal,
+        "accuracy": {"relative_gap": gap, "time_limit_s": 30},
+        "angles": {"step_deg": 30},
+    }
+
+
+class Loads:
+    """Loads of both bearings over the turn by statics: of the machine from the analysis, of masses by levers."""
+
+    def __init__(self, machine: dict[str, Any]) -> None:
+        bare = {name: value for name, value in machine.items() if name not in ("catalogue", "max_counterweights")}
+        bare["webs"] = [{k: v for k, v in web.items() if k != "hole_angles_deg"} for web in machine["webs"]]
+        self.bare = bare
+        found = analyze(
+            AnalyzeRequest.model_validate({"machine": bare, "outputs": ["main_bearings"], "angles": {"step_deg": 1}})
+        )
+        assert found.main_bearings is not None
+        self.theta = np.deg2rad(found.main_bearings.angle_deg)
+        self.still = np.array(
+            [
+                np.array(one.before.force_x_N) + 1j * np.array(one.before.force_y_N)
+                for one in found.main_bearings.bearings
+            ]
+        )
+        self.square = (machine["speed_rpm"] * np.pi / 30.0) ** 2
+        self.place = np.array([web["position_m"] for web in machine["webs"]])
+        self.radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
+        self.at = np.array(list(BEARINGS.values()))
+
+    def over(self, u: np.ndarray) -> np.ndarray:
+        """(sets, bearings, angles) N of unbalances (sets, webs)."""
+        share = (self.place - self.at[0]) / (self.at[1] - self.at[0])
+        each = np.stack([u @ (1.0 - share), u @ share], axis=-1) * self.square
+        return self.still + each[..., None] * np.exp(1j * self.theta)
+
+    def frame(self, u: np.ndarray, plane: float) -> tuple[np.ndarray, np.ndarray]:
+        """Peaks of the first-order force and moment about a plane: phasors with the shaft and against it."""
+        co, counter = np.zeros((2, 2), complex)
+        for throw in self.bare["throws"]:
+            lever, crank = np.array([1.0, throw["position_m"] - plane]), np.deg2rad(throw["crank_angle_deg"])
+            (row,) = throw["rows"]
+            half = 0.5 * row["reciprocating_mass_kg"]
+            co += lever * throw["crank_radius_m"] * (throw["rotating_mass_kg"] + half) * np.exp(1j * crank)
+            back = 2 * np.deg2rad(row["axis_deg"]) - crank
+            counter += lever * throw["crank_radius_m"] * half * np.exp(1j * back)
+        added = np.stack([np.sum(u, axis=-1), u @ (self.place - plane)])
+        force, moment = self.square * (np.abs(co[:, None] + added) + np.abs(counter)[:, None])
+        return force, moment
+
+
+def every_set(
+    machine: dict[str, Any], masses: Sequence[float] = MASSES
+) -> tuple[list[tuple[tuple[float, float], ...]], np.ndarray]:
+    """Masses and angles of all sets, and their unbalances (sets, webs) kg m."""
+    options = [(0.0, 0.0), *product(masses, HOLES)]
+    sets = list(product(options, repeat=len(machine["webs"])))
+    each = np.array(sets)
+    radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
+    return sets, each[..., 0] * radius * np.exp(1j * np.deg2rad(each[..., 1]))
+
+
+def certified(body: dict[str, Any]) -> tuple[OptimizeAnswer, Certificate]:
+    found = optimized(body)
+    assert found.status == "optimal", found.status_reason
+    assert found.certificate is not None
+    assert not broken(body, found.model_dump(mode="json"))
+    return found, found.certificate
+
+
+def chosen(found: OptimizeAnswer) -> np.ndarray:
+    """(1, webs) kg m."""
+    each = [one.mass_kg * 0.12 * np.exp(1j * np.deg2rad(one.angle_deg)) for one in found.counterweights]
+    return np.array([each])
+
+
+#: of a smooth curve, what a degree leaves out at most
+DEGREE = 3e-4
+
+
+@pytest.mark.parametrize(
+    "goal",
+    [
+        {"bearing_weight": 1, **ALONE},
+        {"bearing_weight": 1, "force_weight": 0.5, "moment_weight": 2.0},
+        {"bearing_weight": 1, "force_weight": 0.5, "moment_weight": 2.0, "combine": "max"},
+    ],
+)
+def test_no_set_by_hand_is_better(goal: dict[str, Any]) -> None:
+    """Independent: all 2,401 sets at 360 angles by statics."""
+    machine = twin()
+    found, proof = certified(asked(machine, **goal))
+    loads, (_, u) = Loads(machine), every_set(machine)
+
+    def value(u: np.ndarray) -> np.ndarray:
+        over = loads.over(u)
+        parts = [np.max(np.abs(over), axis=(-2, -1))]
+        if goal["force_weight"]:
+            force, moment = loads.frame(u, found.reference_plane_m)
+            parts += [0.5 * force, 2.0 * moment]
+        return np.max(parts, axis=0) if goal.get("combine") == "max" else np.sum(parts, axis=0)
+
+    least = float(np.min(value(u)))
+    assert least * (1 - 1e-9) <= proof.objective <= least * (1 + DEGREE)
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= least * (1 + DEGREE)
+    assert float(value(chosen(found))[0]) == pytest.approx(proof.objective, rel=DEGREE)
+    assert proof.continuous_lower_bound is not None
+    assert proof.continuous_lower_bound <= proof.lower_bound
+    assert found.shadow_prices == ()
+    assert {(one.mass_kg, one.angle_deg) for one in found.counterweights} <= {(0.0, 0.0), *product(MASSES, HOLES)}
+
+
+def test_all_orders_and_bending() -> None:
+    """Independent: every set of two webs by itself, as weights that are on the crank already."""
+    machine = twin(catalogue={"masses_kg": [11.0]})
+    del machine["webs"][1:3]
+    goal = {"bearing_weight": 1, "bending_weight": 2.0, "moment_weight": 1.0, "orders": "all"}
+    found, proof = certified(asked(machine, **goal))
+    values = []
+    for each in every_set(machine, [11.0])[0]:
+        bare = {name: value for name, value in machine.items() if name != "catalogue"}
+        places = [{k: web[k] for k in ("name", "position_m", "counterweight_radius_m")} for web in machine["webs"]]
+        bare["webs"] = [
+            place | {"fixed": {"mass_kg": mass, "angle_deg": angle}}
+            for place, (mass, angle) in zip(places, each, strict=True)
+            if mass > 0
+        ]
+        bare["reference_plane_m"] = found.reference_plane_m
+        alone = optimize(OptimizeRequest.model_validate(asked(bare, **goal)))
+        assert alone.certificate is not None
+        values.append(alone.certificate.objective)
+    assert proof.objective == pytest.approx(min(values), rel=1e-8)
+
+
+def test_ceilings_and_counts() -> None:
+    """Independent: of the sets of at most two weights that keep a ceiling on the bearings the least force."""
+    machine = twin(max_counterweights=2)
+    loads, (sets, u) = Loads(machine), every_set(machine)
+    few = np.array([sum(mass > 0 for mass, _ in each) <= 2 for each in sets])
+    over = loads.over(u[few])
+    peak = np.max(np.abs(over), axis=(-2, -1))
+    ceiling = float(np.sort(peak)[12]) * (1 + DEGREE)
+    goal = {"moment_weight": 0, "bearing_ceiling_N": ceiling}
+    found, proof = certified(asked(machine, **goal))
+    force, _ = loads.frame(u[few], found.reference_plane_m)
+    assert proof.objective == pytest.approx(float(np.min(force[peak <= ceiling])), rel=DEGREE)
+    assert sum(one.mass_kg > 0 for one in found.counterweights) <= 2
+    # none at all keeps what is below the best by as much as a degree may leave out, nor would any mass
+    none = optimized(asked(machine, **goal | {"bearing_ceiling_N": float(np.min(peak)) * (1 - DEGREE)}))
+    assert none.status == "infeasible"
+    assert none.infeasibility is not None
+    assert none.infeasibility.conflict == ("bearing_ceiling_N",)
+
+
+def test_least_masses() -> None:
+    """Independent: both of two webs fitted, one or none, by a fine grid of masses and angles."""
+    machine = twin()
+    del machine["catalogue"]
+    machine["webs"] = [
+        {"name": web["name"], "position_m": web["position_m"], "counterweight_radius_m": 0.12, "max_mass_kg": 16.0,
+         "min_fitted_mass_kg": 14.0}
+        for web in (machine["webs"][0], machine["webs"][3])
+    ]  # fmt: skip
+    found, proof = certified(asked(machine, 1e-4, bearing_weight=1, **ALONE))
+    assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
+    loads = Loads(machine)
+    # closer and closer about the best, from a grid of all angles
+    at, step = np.array([[15.0, 0.0], [15.0, 0.0]]), np.array([1.0, 180.0])
+    for grid in (13, 5, 5, 5, 5, 5, 5, 5):
+        each = []
+        for mass, angle in at:
+            masses = (
+                np.clip(mass + step[0] * np.linspace(-1, 1, 3), 14.0, 16.0) if grid == 5 else np.linspace(14, 16, 3)
+            )
+            angles = angle + step[1] * np.linspace(-1, 1, grid)
+            each.append([(0.0, 0.0), *product(masses.tolist(), angles.tolist())])
+        sets = np.array(list(product(*each)))
+        u = sets[..., 0] * 0.12 * np.exp(1j * np.deg2rad(sets[..., 1]))
+        values = np.max(np.abs(loads.over(u)), axis=(-2, -1))
+        least, at, step = float(np.min(values)), sets[np.argmin(values)], step * 0.5
+    assert 0.99 * least <= proof.objective <= least * (1 + 1e-4)
+
+
+def test_in_scenarios() -> None:
+    """Independent: the worst of two speeds, by statics."""
+    machine = twin()
+    body = asked(machine, bearing_weight=1, **ALONE) | {"scenarios": [FAST, SLOW]}
+    found, proof = certified(body)
+    _, u = every_set(machine)
+    slow, fast = Loads(machine), Loads(machine | {"speed_rpm": 1300})
+    worst = np.maximum(*(w * np.max(np.abs(each.over(u)), axis=(-2, -1)) for w, each in ((1.0, slow), (0.5, fast))))
+    assert proof.objective == pytest.approx(float(np.min(worst)), rel=DEGREE)
+    assert found.price_of_robustness is not None
+    assert found.price_of_robustness.nominal_optimum is not None
+
+
+def test_the_time_ends_it() -> None:
+    body = asked(twin(catalogue={"mass_step_kg": 0.1}), 1e-9, bearing_weight=1)
+    found = optimized(body | {"accuracy": {"relative_gap": 1e-9, "time_limit_s": 0.05}})
+    assert found.certificate is not None
+    assert found.certificate.lower_bound is not None
+    assert found.certificate.lower_bound <= found.certificate.objective
+    if found.status == "inaccurate":
+        assert "time_limit_s" in found.status_reason
+
+
+def test_rows_of_a_sweep() -> None:
+    """Rows are the single answers (property)."""
+    request = sweep(asked(twin(), bearing_weight=1, **ALONE), {"path": "/machine/speed_rpm", "values": [900, 1100]})
+    rows = table(request).to_pylist()
+    assert [assert_row_is_the_single_answer(request, row) for row in rows] == ["optimal"] * 2
+    assert all(row["method"] in (EXHAUSTED, TREE) for row in rows)
+
+
+@pytest.mark.parametrize(
+    ("goal", "field"),
+    [
+        ({"priorities": [{"goal": "external"}, {"goal": "bearings"}], "bearing_weight": 1}, "priorities"),
+        ({"orders": "all", "force_ceiling_x_N": 1e5}, "force_ceiling_x_N"),
+    ],
+)
+def test_what_is_refused(goal: dict[str, Any], field: str) -> None:
+    with pytest.raises(ValidationError) as refused:
+        OptimizeRequest.model_validate(asked(twin(), **goal))
+    problems = [problem.path for error in refused.value.errors() for problem in error["ctx"]["problems"]]
+    assert ("objective", field) in problems
