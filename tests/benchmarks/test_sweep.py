@@ -63,7 +63,7 @@ def test_counted_operations(request_: SweepRequest) -> None:
 def test_scaling_and_memory_run() -> None:
     # other tests in this process may have workers of theirs
     others = sweep_memory.workers()
-    assert sweep_scaling.seconds(sweep(50), workers=1) > 0
+    assert sweep_scaling.through_the_service("processes", sweep(50), 1) > 0
     _, alive = psutil.wait_procs([each for each in sweep_memory.workers() if each not in others], timeout=180)
     assert alive == []
 
