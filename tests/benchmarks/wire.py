@@ -13,7 +13,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 
 import psutil
@@ -25,7 +25,7 @@ from tests.network.serving import ROOT, read, request, service
 
 BODY = json.dumps(bodies()["2d12"]).encode()
 CLIENTS = (1, 4, 16, 64)
-_WITHIN_S = 60
+_WITHIN_S = 600
 
 
 @dataclass(frozen=True)
@@ -43,9 +43,12 @@ class Target:
     def cpu_s(self) -> tuple[float, float]:
         """CPU time so far of the process itself, and of all that it has started [s]."""
         front = psutil.Process(self.pid)
-        every = [front, *front.children(recursive=True)]
-        own, *others = (sum(each.cpu_times()[:2]) for each in every)
-        return own, sum(others)
+        others = 0.0
+        for each in front.children(recursive=True):
+            # it may have just ended
+            with suppress(psutil.NoSuchProcess):
+                others += sum(each.cpu_times()[:2])
+        return sum(front.cpu_times()[:2]), others
 
 
 @dataclass
@@ -122,7 +125,7 @@ def echoing() -> Iterator[Target]:
             yield Target("echo", process.pid, listening.getsockname()[1], "/echo")
         finally:
             process.terminate()
-            process.wait(30)
+            process.wait(180)
 
 
 def measure(clients: Sequence[int], seconds: float) -> Iterator[tuple[Target, int, bool, Seen]]:

@@ -53,10 +53,9 @@ def test_every_panel_is_drawn(portal: Portal, example: str) -> None:
             assert len(plot.get_attribute("aria-label") or "") > 20, name
     for width in (1280, 390):
         portal.page.set_viewport_size({"width": width, "height": 900})
-        portal.page.wait_for_timeout(500)
+        # the page itself never scrolls sideways, once plots have the width that there is
+        portal.page.wait_for_function("width => document.documentElement.scrollWidth <= width", arg=width)
         portal.screenshot(f"{example}-{width}")
-        # the page itself never scrolls sideways
-        assert portal.page.evaluate("document.documentElement.scrollWidth") <= width
 
 
 @pytest.mark.parametrize("example", MACHINES)

@@ -60,7 +60,7 @@ def test_another_field_and_an_end_before_its_time(portal: Portal) -> None:
     portal.page.get_by_role("button", name="Add a field").click()
     portal.page.locator("#axis-2-path").select_option("/machine/speed_rpm")
     assert portal.page.locator("#axis-2-start").input_value() == "400"
-    _count(portal, "300", "300", "10")
+    _count(portal, "300", "300", "100")
     portal.page.get_by_role("button", name="Start the sweep").click()
     cancel = portal.page.get_by_role("button", name="Cancel")
     cancel.wait_for()

@@ -20,8 +20,8 @@ from service.settings import Settings
 from tests.deploy.files import DEPLOY
 
 
-def smoke(url: str, key: str = "", ready_s: int = 60) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "COUNTERWEIGHT_KEY": key, "SMOKE_READY_S": str(ready_s)}
+def smoke(url: str, key: str = "", ready_s: int = 600) -> subprocess.CompletedProcess[str]:
+    environment = {**os.environ, "COUNTERWEIGHT_KEY": key, "SMOKE_READY_S": str(ready_s), "SMOKE_SWEEP_S": "600"}
     environment.pop("http_proxy", None)
     return subprocess.run([DEPLOY / "smoke.sh", url], env=environment, capture_output=True, text=True, check=False)
 
@@ -77,9 +77,11 @@ def test_nobody_there(unused: str) -> None:
 
 
 @pytest.fixture
-def unused() -> str:
-    with socket.create_server(("127.0.0.1", 0)) as free:
-        return f"http://127.0.0.1:{free.getsockname()[1]}"
+def unused() -> Iterator[str]:
+    # taken, so that nobody else listens there
+    with socket.socket() as taken:
+        taken.bind(("127.0.0.1", 0))
+        yield f"http://127.0.0.1:{taken.getsockname()[1]}"
 
 
 Answers = dict[str, tuple[int, Any]]

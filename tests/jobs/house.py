@@ -32,7 +32,7 @@ class House:
     """What services share."""
 
     def __init__(
-        self, root: Path, url: str | Path | None = None, busy_s: float = 5.0, limits: Limits | None = None
+        self, root: Path, url: str | Path | None = None, busy_s: float = 60.0, limits: Limits | None = None
     ) -> None:
         self.database = Database(url or root / "jobs.sqlite", busy_s)
         self.store, self.leases = Store(self.database, limits), Leases(self.database, limits)

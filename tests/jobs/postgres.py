@@ -71,13 +71,20 @@ def _user() -> pwd.struct_passwd | None:
     raise Missing("as root the tests need a user postgres or nobody to run the server")
 
 
+def _port() -> int:
+    """One that is free, and that the system gives to nobody by itself while the server is not there."""
+    for port in range(20_000 + os.getpid() % 10_000, 32_000):
+        with suppress(OSError), socket.create_server(("127.0.0.1", port)):
+            return port
+    raise Missing("no port is free")
+
+
 class Server:
     """A server that was made and runs; it may be killed at any moment."""
 
     def __init__(self, found: Path, home: Path, identity: dict[str, Any]) -> None:
         self._programs, self._home, self._identity = found, home, identity
-        with socket.create_server(("127.0.0.1", 0)) as free:
-            self._port = free.getsockname()[1]
+        self._port = _port()
         self.url = f"postgresql://tests@127.0.0.1:{self._port}/postgres"
         self._run("initdb", "--username=tests", "--auth=trust", "--encoding=UTF8", "--locale=C", "--no-sync")
         self.start()

@@ -1,5 +1,6 @@
 """The same rows from a real cluster of two workers on loopback."""
 
+import gc
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -7,6 +8,8 @@ from typing import Any
 import pytest
 
 distributed = pytest.importorskip("distributed", reason="the extra dask is not installed")
+
+import dask  # noqa: E402
 
 from optimizer.sweep import run_chunk  # noqa: E402
 from schemas.sweep import SweepRequest  # noqa: E402
@@ -22,10 +25,16 @@ pytestmark = pytest.mark.filterwarnings("default::ResourceWarning", "default::De
 
 @pytest.fixture(scope="module")
 def address() -> Iterator[str]:
-    with distributed.LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
-    ) as cluster:
+    patient = {"distributed.comm.timeouts.connect": "300s", "distributed.comm.timeouts.tcp": "300s"}
+    with (
+        dask.config.set(patient),
+        distributed.LocalCluster(
+            n_workers=2, threads_per_worker=1, processes=True, host="127.0.0.1", dashboard_address=None
+        ) as cluster,
+    ):
         yield cluster.scheduler_address
+    # what it leaves to the collection of garbage is found here, not in the tests that follow
+    gc.collect()
 
 
 def test_a_cluster(house: House, address: str) -> None:

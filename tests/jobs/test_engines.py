@@ -6,12 +6,10 @@ import time
 from contextlib import suppress
 from pathlib import Path
 
-import psutil
 import pytest
 
 from service.jobs.engines import Processes, engine
 from service.jobs.piece import Piece
-from tests.processes import children
 
 
 @pytest.mark.parametrize("name", ["threads", "dask", "dask:", "processes:2", ""])
@@ -47,9 +45,8 @@ def test_workers_that_are_killed_while_they_hand_over() -> None:
         futures[0].result(180)
         time.sleep(moment_s)
         # where the first is seen to have ended, the pool ends the others by itself: they may be gone already
-        for worker in children(os.getpid(), "spawn_main"):
-            with suppress(psutil.NoSuchProcess):
-                worker.kill()
+        for worker in running._context.processes:
+            worker.kill()
         ended = threading.Thread(target=running.end, daemon=True)
         ended.start()
         ended.join(180)
