@@ -119,7 +119,8 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     def warm_up() -> None:
         with ThreadPoolExecutor(1) as beside:
             # seconds of work, for which the first who asks would wait
-            document, page = beside.submit(app.document, chosen.root_path), beside.submit(portal.prepare)
+            document = beside.submit(lambda: app.document(chosen.root_path).compressed)
+            page = beside.submit(portal.prepare)
             pool.open()
             document.result()
             page.result()

@@ -1,6 +1,7 @@
 """The state machine of the warm-up: warming, then ready or failed."""
 
 import gc
+import gzip
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -10,6 +11,7 @@ import pytest
 from starlette.testclient import TestClient
 
 from service.app import create_app
+from service.http.openapi import Documented
 from service.settings import Settings
 from service.watch import needs, readiness
 from service.watch.readiness import NotReady
@@ -39,6 +41,10 @@ def test_warming_then_ready(monkeypatch: pytest.MonkeyPatch) -> None:
         wait_until(lambda: client.get("/readyz").status_code == 200)
         assert client.get("/readyz").json() == {"status": "ready"}
         assert client.post("/v1/optimize", json={}).status_code == 422
+        # who asks for the document does not wait until it is made, nor does anybody else
+        for owner, name in ((Documented, "openapi"), (gzip, "compress")):
+            monkeypatch.setattr(owner, name, lambda *_, **__: pytest.fail("made when it is asked for"))
+        assert client.get("/openapi.json", headers={"Accept-Encoding": "gzip"}).status_code == 200
 
 
 def test_what_is_loaded_is_no_garbage_to_look_through(monkeypatch: pytest.MonkeyPatch) -> None:
