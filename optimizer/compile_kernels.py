@@ -1,7 +1,8 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
 Two processes take about as long: one what budgets are spent by and the interior point for any limits, the other what
-follows the turn and the interior point for plain discs. What these have in common is inlined in both.
+follows the turn, the interior point for plain discs, and what parts are matched by. What both interior points have in
+common is inlined in each.
 """
 
 import gc
@@ -12,7 +13,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from optimizer.warm_up import follow_a_turn, plain_discs
+from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
 
 
 def any_limits() -> None:
@@ -31,10 +32,11 @@ def budgets() -> None:
 
 
 def all_else() -> None:
-    """Compile what loads over the whole turn need, then what a machine of plain discs asks for."""
+    """Compile what loads over the whole turn need, what plain discs ask for, and what parts are matched by."""
     follow_a_turn()
     # which spends a budget, by what the other process has made first
     plain_discs()
+    match_parts()
 
 
 def main() -> None:

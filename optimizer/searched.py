@@ -18,7 +18,8 @@ _ALL = (
 )
 _LIGHTEST = "Every set of counterweights that can be chosen was compared: none that keeps the ceilings is lighter."
 _TREE = "The gap to the proven lower bound of all sets that can be chosen is within the asked one."
-_TIME = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
+#: why a search left a gap
+LATE = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
 _SIZE = "The search ended because its tree had grown too large: the gap to the proven lower bound is what was reached."
 _NONE = "No set of counterweights that can be chosen keeps the ceilings: {proof}."
 _BY = {True: "all were compared", False: "a tree of bounds over all of them proves it"}
@@ -65,7 +66,7 @@ def ended(found: Found | None) -> str:
     if not found.kept:
         return _NONE.format(proof=_BY[found.method == EXHAUSTED]) if found.lower_bound == np.inf else _NONE_FOUND
     if found.ended is not None:
-        return _TIME if found.ended == "time" else _SIZE
+        return LATE if found.ended == "time" else _SIZE
     return _LIGHTEST if found.proven else _TREE
 
 
@@ -126,5 +127,5 @@ def told_status(found: Found, status: str, reason: str, proven: bool) -> tuple[s
     if status == "optimal":
         return status, _ALL if found.proven else _TREE
     if found.ended is not None:
-        return status, _TIME if found.ended == "time" else _SIZE
+        return status, LATE if found.ended == "time" else _SIZE
     return status, reason

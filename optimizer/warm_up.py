@@ -58,6 +58,25 @@ def follow_a_turn() -> None:
     analyze(AnalyzeRequest.model_validate({"machine": _machine(), "outputs": ["rod_loads"]}))
 
 
+def match_parts() -> None:
+    """Nine parts on as many rows: too many for all of their orders to be listed."""
+    from optimizer.matching.match import match
+    from schemas.match import MatchRequest
+
+    throws = [
+        {
+            "position_m": float(k),
+            "crank_radius_m": 0.1,
+            "crank_angle_deg": 40.0 * k,
+            "rows": [{"axis_deg": 0.0, "reciprocating_mass_kg": 10.0}],
+        }
+        for k in range(9)
+    ]
+    machine = {"kind": "reciprocating", "speed_rpm": 1000.0, "throws": throws, "webs": []}
+    parts = {"class": "part", "names": [str(k) for k in range(9)], "masses_kg": [1.0 + 0.1 * k**0.5 for k in range(9)]}
+    match(MatchRequest.model_validate({"machine": machine, "parts": [parts], "accuracy": {"relative_gap": 1e-12}}))
+
+
 def _machine() -> dict[str, object]:
     """One row between two webs."""
     throw = {

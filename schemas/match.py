@@ -69,8 +69,7 @@ class MatchAccuracy(Model):
         5.0,
         gt=0,
         le=30,
-        description="computing time after which a search with choose_counterweights solves no more assignments and says"
-        " its gap [s]",
+        description="computing time after which a search looks at no more assignments and says its gap [s]",
         examples=[5.0],
     )
 
@@ -177,5 +176,7 @@ def _parts_rules(path: Path, parts: Parts, rows: tuple[RowPlace, ...]) -> Iterat
     for i, place in enumerate(parts.rows or ()):
         yield Rule(place not in rows, (*path, "rows", i), "the machine has no such row")
         yield Rule(place in places[:i], (*path, "rows", i), "this row is named already")
-    count = f"there are {len(places)} rows for {len(parts.names)} parts; every row takes one, and none is left over"
+    are = "there is 1 row" if len(places) == 1 else f"there are {len(places)} rows"
+    of_parts = "1 part" if len(parts.names) == 1 else f"{len(parts.names)} parts"
+    count = f"{are} for {of_parts}; every row takes one, and none is left over"
     yield Rule(len(parts.names) != len(places), (*path, "names"), count)

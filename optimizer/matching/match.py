@@ -2,7 +2,6 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import Any, NamedTuple, cast
 
 import numpy as np
@@ -14,6 +13,7 @@ from optimizer.formulate import formulate, responses
 from optimizer.matching.bound import best_plane
 from optimizer.matching.chosen import Chosen, with_masses
 from optimizer.matching.exhaustion import candidates
+from optimizer.matching.fitted import Best, as_fitted, few
 from optimizer.matching.problem import Minorants, Problem, stated
 from optimizer.matching.search import searched
 from optimizer.mechanics.inertia import reciprocating, rotating
@@ -21,6 +21,7 @@ from optimizer.mechanics.layout import layout
 from optimizer.optimize import optimize
 from optimizer.own_solver import own_solver
 from optimizer.program.verdict import Claim, verdict
+from optimizer.searched import LATE
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.first_order import FirstOrder, Residual
 from schemas.fitted import GivenCounterweight
@@ -36,12 +37,6 @@ _PROGRAMS = 16
 _CANDIDATES = 2_000
 
 
-class _Best(NamedTuple):
-    mass: Real  # (T,) masses at places
-    lower_bound: float  # over omega squared
-    exhausted: bool
-
-
 def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
@@ -49,7 +44,11 @@ def match(request: MatchRequest) -> MatchAnswer:
     problem = stated(request, fitted, angle)
     searching = time.perf_counter()
     choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
-    best = _with_chosen(request, problem) if choice else _as_fitted(request, problem)
+    near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))
+    if choice:
+        best = _with_chosen(request, problem, near)
+    else:
+        best = as_fitted(problem, near, request.accuracy.time_limit_s, bool(request.balance_nuts_kg))
     reporting = time.perf_counter()
     fields = _answer(request, problem, best)
     end = time.perf_counter()
@@ -65,43 +64,9 @@ def match(request: MatchRequest) -> MatchAnswer:
     )
 
 
-def _as_fitted(request: MatchRequest, problem: Problem) -> _Best:
-    """The best assignment with the counterweights as they are."""
-    peaks, listed = problem.peaks, problem.listed[None]
-    near = request.accuracy.relative_gap * float(peaks.at(problem.vectors(listed))[0])
-    begun = np.concatenate([listed, *_without_nuts(request, problem)])
-    mass = searched(problem, peaks, begun)[0]
-    value = float(peaks.at(problem.vectors(mass)))
-    cut = best_plane(problem, peaks, value, near)
-    bound = cut.least - problem.rounding
-    exhausted = False
-    if value - bound > near or _few(problem):
-        better = candidates(problem, peaks, value, cut)
-        if better is not None:
-            found, values = better
-            mass, value = (found[0], float(values[0])) if values.size else (mass, value)
-            bound, exhausted = value - problem.rounding, True
-    return _Best(mass, bound, exhausted)
-
-
-def _without_nuts(request: MatchRequest, problem: Problem) -> list[Real]:
-    """The best assignment (1, T) without nuts, where there are nuts and parts: a good one to begin with."""
-    if not (request.balance_nuts_kg and request.parts):
-        return []
-    bare = request.model_copy(update={"balance_nuts_kg": ()})
-    plain = _as_fitted(bare, replace(problem, classes=problem.classes[:-1]))
-    return [np.concatenate([plain.mass, problem.classes[-1].mass])[None]]
-
-
-def _few(problem: Problem) -> bool:
-    """So few assignments that all are looked at in no time."""
-    return problem.rows <= 5 and len(problem.classes) <= 2
-
-
-def _with_chosen(request: MatchRequest, problem: Problem) -> _Best:
+def _with_chosen(request: MatchRequest, problem: Problem, near: float) -> Best:
     """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
     chosen, listed = Chosen(request, problem, own_solver()), problem.listed[None]
-    near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(listed))[0])
     until = time.thread_time() + request.accuracy.time_limit_s
     value, bound, below = chosen.at(listed)
     known = {_key(problem, listed[0]): (float(value[0]), float(bound[0]), listed[0])}
@@ -117,8 +82,8 @@ def _with_chosen(request: MatchRequest, problem: Problem) -> _Best:
         below = _solved(problem, chosen, known, new, below)
     best, _, mass = min(known.values(), key=lambda one: one[0])
     cut = best_plane(problem, below, best, near)
-    if (best - cut.least <= near and not _few(problem)) or time.thread_time() >= until:
-        return _Best(mass, cut.least - problem.rounding, False)
+    if (best - cut.least <= near and not few(problem)) or time.thread_time() >= until:
+        return Best(mass, cut.least - problem.rounding, False, best - cut.least > near)
     return _proven(problem, chosen, known, below, cut.least, until)
 
 
@@ -129,7 +94,7 @@ def _proven(
     below: Minorants,
     bound: float,
     until: float,
-) -> _Best:
+) -> Best:
     """The best of all assignments whose minorants leave room for a better one, where they are not too many.
 
     Parameters
@@ -141,7 +106,7 @@ def _proven(
     cut = best_plane(problem, below, best, 0.0)
     left = candidates(problem, below, best, cut)
     if left is None or len(left[0]) > _CANDIDATES:
-        return _Best(mass, max(bound, cut.least) - problem.rounding, False)
+        return Best(mass, max(bound, cut.least) - problem.rounding, False)
     remaining = left[0]
     while len(remaining):
         best = min(one[0] for one in known.values())
@@ -152,12 +117,12 @@ def _proven(
             break
         if time.thread_time() >= until:
             _, _, mass = min(known.values(), key=lambda one: one[0])
-            return _Best(mass, max(bound, cut.least) - problem.rounding, False)
+            return Best(mass, max(bound, cut.least) - problem.rounding, False, True)
         below = _solved(problem, chosen, known, new, below)
         remaining = open_still
     best, _, mass = min(known.values(), key=lambda one: one[0])
     # every other assignment has a minorant that is no better than the best
-    return _Best(mass, min(best, *(one[1] for one in known.values())) - problem.rounding, True)
+    return Best(mass, min(best, *(one[1] for one in known.values())) - problem.rounding, True)
 
 
 def _solved(
@@ -180,7 +145,7 @@ def _key(problem: Problem, mass: Real) -> bytes:
     return problem.row_masses(mass).tobytes()
 
 
-def _answer(request: MatchRequest, problem: Problem, best: _Best) -> dict[str, Any]:
+def _answer(request: MatchRequest, problem: Problem, best: Best) -> dict[str, Any]:
     """Names for masses, and every figure evaluated anew by the mechanics."""
     machine = request.machine
     before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)))
@@ -207,7 +172,7 @@ def _answer(request: MatchRequest, problem: Problem, best: _Best) -> dict[str, A
     rows = [row for throw in heavier.throws for row in throw.rows]
     return {
         "status": str(judged.status),
-        "status_reason": str(judged.reason),
+        "status_reason": LATE if best.late and judged.status == "inaccurate" else str(judged.reason),
         "assignments": assignments,
         "spares": spares,
         "rows": tuple(

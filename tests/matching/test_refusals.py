@@ -61,3 +61,19 @@ def test_parts_need_rows_and_chosen_counterweights_a_limit() -> None:
     for throw in given["throws"]:
         throw["rows"] = []
     assert "/machine/throws" in refused(machine=given)
+
+
+@pytest.mark.parametrize(
+    ("rows", "parts_", "said"),
+    [
+        (1, 2, "there is 1 row for 2 parts"),
+        (2, 1, "there are 2 rows for 1 part"),
+        (2, 3, "there are 2 rows for 3 parts"),
+    ],
+)
+def test_rows_and_parts_are_counted(rows: int, parts_: int, said: str) -> None:
+    given = part(names=[str(k) for k in range(parts_)], masses_kg=[1.0] * parts_)
+    given["rows"] = [{"throw": k, "row": 0} for k in range(rows)]
+    with pytest.raises(InvalidRequest) as caught:
+        check(MatchRequest, {**deepcopy(BODY), "parts": [given]})
+    assert [problem.message.split(";")[0] for problem in caught.value.problems] == [said]

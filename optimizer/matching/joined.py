@@ -1,0 +1,300 @@
+"""Two lists of sums that all but cancel, set by set of the parts; compiled.
+
+The places of a class are dealt into two halves. A map of the cells of space that sums of the first half lie in tells
+which of the second may cancel one, and a map of the cells that those want which of the first; what is left of both is
+compared pair by pair. Sums of a half are those of its quarters (:mod:`optimizer.matching.quarters`).
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real
+from optimizer.compiling import inner, kernel
+from optimizer.matching.quarters import BITS, LANE, LANES, packed, put_on
+
+#: bits of a place in the maps
+MAP = 20
+#: units that a sum may be off: roundings of the words of all quarters, and what they carry
+_OFF = 8.0
+#: ways of a set on the first quarter of a half, of at most four places each
+_BLOCKS = 70 * 24
+#: bits of a chain of sums that met
+_CHAINS = 12
+_TOPS = np.uint64(0x8000800080008000)
+_MIX = np.uint64(0x9E3779B97F4A7C15)
+_TO_MAP, _TO_CHAIN = np.uint64(64 - MAP), np.uint64(64 - _CHAINS)
+_SIX, _LOW, _ONE = np.uint64(6), np.uint64(63), np.uint64(1)
+
+
+class Window(NamedTuple):
+    """Which sums are wanted: from anchor level - down slack to anchor level + up slack, slack = level - least."""
+
+    cell: np.uint64  # bits of a word that number its cell
+    inside: np.uint64  # bits that tell where in its cell it is; coordinates that are not used have neither
+    start: Real  # (LANES,) what is there without the parts
+    anchor: Real  # (LANES,)
+    down: Real  # (LANES,)
+    up: Real  # (LANES,)
+    height: float  # along the plane, without the parts
+
+
+class Peaks(NamedTuple):
+    """The largest of some weighted sums of lengths of start + effect m."""
+
+    start: Complex  # (J,)
+    effect: Complex  # (J, n)
+    weight: Real  # (K, J)
+    mass: Real  # (n,) of the parts
+
+
+class Work(NamedTuple):
+    """What one set after another is worked out in."""
+
+    places: np.ndarray  # (2, 2^MAP / 64) bits of cells: of sums of the first half, and of those that the second wants
+    block: np.ndarray  # (2, b, 4) of a half: set on its first quarter, its order, set on its second; the first as bits
+    word: np.ndarray  # (2, w) what is left of either half
+    code: np.ndarray  # (2, w) where that is from: block and order
+    first: np.ndarray  # (2^_CHAINS,) the first sum in each chain, -1 where there is none
+    after: np.ndarray  # (w,) the next in its chain
+    put: Real  # (n,) masses place by place
+    found: Real  # (n,) of the smallest peak
+
+
+@kernel
+def joined(quarters, tables, window, peaks, sets, level, most):  # type: ignore[no-untyped-def]
+    """The smallest peak below a level of all assignments that have one of these sets on the first half.
+
+    Parameters
+    ----------
+    sets : (N,) as bits, and (N,) the height that no assignment with one is below.
+    level : that the peak is to be below.
+    most : pairs that are looked at.
+
+    Returns
+    -------
+    float : that peak, or the level where there is none below it.
+    int : how many sets were looked at, fewer than all where they have more pairs.
+    (n,) : masses place by place, where there is one.
+    """
+    halves, least = sets
+    left, everything = most, quarters.taken.size - 1
+    work = Work(
+        np.zeros((2, 1 << (MAP - 6)), np.uint64),
+        np.zeros((2, _BLOCKS, 4), np.int64),
+        np.zeros((2, _BLOCKS * 24), np.uint64),
+        np.zeros((2, _BLOCKS * 24), np.int64),
+        np.full(1 << _CHAINS, -1),
+        np.zeros(_BLOCKS * 24, np.int64),
+        np.zeros(peaks.mass.size),
+        np.zeros(peaks.mass.size),
+    )
+    for s in range(halves.size):
+        if least[s] >= level:
+            continue
+        half, rest, room = halves[s], everything - halves[s], level - window.height
+        corner, wide = _corner(window, level, level - least[s])
+        low, low_of_rest = _lowest(quarters, tables, 0, half), _lowest(quarters, tables, 2, rest)
+        blocks = _blocks(quarters, tables, 0, half, room - low_of_rest, work)
+        work.places[:] = 0
+        _mapped(quarters, tables, blocks, window.cell, work)
+        blocks_of_rest = _blocks(quarters, tables, 2, rest, room - low, work)
+        kept = _kept(quarters, tables, blocks_of_rest, window, corner, wide, work)
+        met = _met(quarters, tables, blocks, window.cell, work)
+        level, left = _compared(quarters, window, peaks, (half, rest), (met, kept), wide, (level, left), work)
+        if left < 0:
+            return level, s, work.found
+    return level, halves.size, work.found
+
+
+@inner
+def _mapped(quarters, tables, blocks, cell, work):  # type: ignore[no-untyped-def]
+    """Mark the cells of all sums of the first half."""
+    for i in range(blocks):
+        base, rest = tables.word[0, work.block[0, i, 0], work.block[0, i, 1]], work.block[0, i, 2]
+        for k in range(quarters.ways[1]):
+            _mark(work.places, 0, (base + tables.word[1, rest, k]) & cell)
+
+
+@inner
+def _kept(quarters, tables, blocks, window, corner, wide, work):  # type: ignore[no-untyped-def]
+    """Sums of the second half, as what is wanted beside them, that have a marked cell: how many; mark theirs."""
+    kept, cell = 0, window.cell
+    for i in range(blocks):
+        base, rest = corner - tables.word[2, work.block[1, i, 0], work.block[1, i, 1]], work.block[1, i, 2]
+        for k in range(quarters.ways[3]):
+            wanted = base - tables.word[3, rest, k]
+            over = _over(window, wanted, wide)
+            some = over
+            while not _marked(work.places, 0, _plus(wanted & cell, some)):
+                if some == 0:
+                    break
+                some = (some - _ONE) & over
+            else:
+                work.word[1, kept], work.code[1, kept] = wanted, i * quarters.ways[3] + k
+                kept += 1
+                some = over
+                while True:
+                    _mark(work.places, 1, _plus(wanted & cell, some))
+                    if some == 0:
+                        break
+                    some = (some - _ONE) & over
+    return kept
+
+
+@inner
+def _met(quarters, tables, blocks, cell, work):  # type: ignore[no-untyped-def]
+    """Sums of the first half in cells that the second has marked: how many, chained by their cells."""
+    met = 0
+    for i in range(blocks):
+        base, rest = tables.word[0, work.block[0, i, 0], work.block[0, i, 1]], work.block[0, i, 2]
+        for k in range(quarters.ways[1]):
+            word = base + tables.word[1, rest, k]
+            if _marked(work.places, 1, word & cell):
+                chain = _chain(word & cell)
+                work.word[0, met], work.code[0, met] = word, i * quarters.ways[1] + k
+                work.after[met], work.first[chain] = work.first[chain], met
+                met += 1
+    return met
+
+
+@inner
+def _compared(quarters, window, peaks, halves, counts, wide, state, work):  # type: ignore[no-untyped-def]
+    """The level, or the smallest peak below it of pairs in the window, and how many more may be looked at."""
+    (met, kept), (level, left), cell = counts, state, window.cell
+    for i in range(kept):
+        wanted = work.word[1, i]
+        over = _over(window, wanted, wide)
+        some = over
+        while left >= 0:
+            cells = _plus(wanted & cell, some)
+            j = work.first[_chain(cells)]
+            while j >= 0:
+                left -= 1
+                if work.word[0, j] & cell == cells and _within(work.word[0, j], wanted, wide):
+                    _assigned(quarters, halves[0], 0, work.code[0, j], peaks.mass, work)
+                    _assigned(quarters, halves[1], 2, work.code[1, i], peaks.mass, work)
+                    value = _peak(peaks, work.put)
+                    if value < level:
+                        level = value
+                        for place in range(work.put.size):
+                            work.found[place] = work.put[place]
+                j = work.after[j]
+            if some == 0:
+                break
+            some = (some - _ONE) & over
+    for j in range(met):
+        work.first[_chain(work.word[0, j] & cell)] = -1
+    return level, left
+
+
+@inner
+def _lowest(quarters, tables, q, half):  # type: ignore[no-untyped-def]
+    """Height that no order of a set on a half is below."""
+    low, one = np.inf, half
+    while True:
+        if quarters.taken[one] == quarters.size[q]:
+            rest = quarters.number[half ^ one]
+            low = min(low, tables.low[q, quarters.number[one]] + tables.low[q + 1, rest])
+        if one == 0:
+            return low
+        one = (one - 1) & half
+
+
+@inner
+def _blocks(quarters, tables, q, half, room, work):  # type: ignore[no-untyped-def]
+    """Ways of a set on the first quarter of a half that leave room for others on the second: how many.
+
+    Of each there are the number of the set, of its order, and of the set that is left.
+    """
+    count, one, side = 0, half, q // 2
+    while True:
+        if quarters.taken[one] == quarters.size[q]:
+            number, rest = quarters.number[one], quarters.number[half ^ one]
+            if tables.low[q, number] + tables.low[q + 1, rest] <= room:
+                for order in range(quarters.ways[q]):
+                    if tables.height[q, number, order] + tables.low[q + 1, rest] <= room:
+                        work.block[side, count, 0], work.block[side, count, 1] = number, order
+                        work.block[side, count, 2], work.block[side, count, 3] = rest, one
+                        count += 1
+        if one == 0:
+            return count
+        one = (one - 1) & half
+
+
+@inner
+def _corner(window, level, slack):  # type: ignore[no-untyped-def]
+    """Of what is wanted the least word, and how wide it is."""
+    corner, wide = np.uint64(0), np.uint64(0)
+    for lane in range(LANES):
+        begin = window.anchor[lane] * level - window.down[lane] * slack - window.start[lane]
+        corner |= packed(begin - _OFF, lane)
+        used = window.cell >> np.uint64(BITS * lane) & LANE != 0
+        wide |= packed((window.down[lane] + window.up[lane]) * slack + 2.0 * _OFF if used else -1.0, lane)
+    return corner, wide
+
+
+@inner
+def _mark(places, side, cells):  # type: ignore[no-untyped-def]
+    place = (cells * _MIX) >> _TO_MAP
+    places[side, place >> _SIX] |= _ONE << (place & _LOW)
+
+
+@inner
+def _marked(places, side, cells):  # type: ignore[no-untyped-def]
+    place = (cells * _MIX) >> _TO_MAP
+    return (places[side, place >> _SIX] >> (place & _LOW)) & _ONE != 0
+
+
+@inner
+def _over(window, word, wide):  # type: ignore[no-untyped-def]
+    """The coordinates in which a window from a word on reaches the next cell, as a cell."""
+    return ((word & window.inside) + (wide & (window.cell | window.inside))) & window.cell
+
+
+@inner
+def _chain(cells):  # type: ignore[no-untyped-def]
+    return (cells * _MIX) >> _TO_CHAIN
+
+
+@inner
+def _plus(cells, some):  # type: ignore[no-untyped-def]
+    """Cells farther on by one in some coordinates, each by itself."""
+    return ((cells & ~_TOPS) + (some & ~_TOPS)) ^ ((cells ^ some) & _TOPS)
+
+
+@inner
+def _within(word, corner, wide):  # type: ignore[no-untyped-def]
+    """Whether every coordinate is in the window."""
+    for lane in range(LANES):
+        shift = np.uint64(BITS * lane)
+        if ((word >> shift) - (corner >> shift)) & LANE > (wide >> shift) & LANE:
+            return False
+    return True
+
+
+@inner
+def _assigned(quarters, half, q, code, mass, work):  # type: ignore[no-untyped-def]
+    """The parts of a set on the places of a half."""
+    many, begin = quarters.ways[q + 1], 0
+    i = code // many
+    one = work.block[q // 2, i, 3]
+    for before in range(q):
+        begin += quarters.size[before]
+    put_on(quarters, q, work.block[q // 2, i, 1], one, mass, begin, work.put)
+    put_on(quarters, q + 1, code % many, half ^ one, mass, begin + quarters.size[q], work.put)
+
+
+@inner
+def _peak(peaks, put):  # type: ignore[no-untyped-def]
+    largest = 0.0
+    for row in range(peaks.weight.shape[0]):
+        total = 0.0
+        for j in range(peaks.start.size):
+            if peaks.weight[row, j] > 0.0:
+                v = peaks.start[j]
+                for place in range(put.size):
+                    v += peaks.effect[j, place] * put[place]
+                total += peaks.weight[row, j] * abs(v)
+        largest = max(largest, total)
+    return largest
