@@ -83,7 +83,7 @@ def test_what_is_wrong_stands_in_its_cell(portal: Portal) -> None:
     expect(panel.locator("#match-rows-1-error")).to_contain_text("no row is called 3 III; there are 1 I, 2 II")
     panel.locator("#match-rows-1").fill("1 I")
     match(panel)
-    expect(panel.locator("#match-name-0-error")).to_contain_text("there are 1 rows for 2 parts")
+    expect(panel.locator("#match-name-0-error")).to_contain_text("there is 1 row for 2 parts")
 
 
 @pytest.mark.parametrize("options", [Look(390, "dark")])
