@@ -18,8 +18,9 @@ from service.plain import FORMULA
 Name = Literal["ndjson", "csv", "parquet", "arrow", "xlsx"]
 Batches = Iterable[pa.RecordBatch]
 
-#: of rows that are written together, before they are compressed
-_GROUP_BYTES = 1_000_000
+#: of rows that are written together, before they are compressed: at least so many, or a share of those before, which
+#: keeps what is said of the groups small, and at most so many, as they are held in memory
+_GROUP_BYTES, _SHARE, _LARGEST = 1_000_000, 1 / 64, 16_000_000
 
 
 @dataclass(frozen=True)
@@ -42,13 +43,17 @@ def _parquet(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:
 
 
 def _groups(batches: Batches) -> Iterator[list[pa.RecordBatch]]:
-    """Batches that are written together: what is said of each group of rows takes room in a file."""
+    """Batches that are written together: what is said of each group of rows takes room in a file, and in memory until
+    its end."""
     group: list[pa.RecordBatch] = []
+    size = before = 0
     for batch in batches:
         group.append(batch)
-        if sum(each.nbytes for each in group) > _GROUP_BYTES:
+        size += batch.nbytes
+        if size > min(max(_GROUP_BYTES, before * _SHARE), _LARGEST):
             yield group
-            group = []
+            before += size
+            group, size = [], 0
     if group:
         yield group
 

@@ -13,7 +13,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.jobs.formats import ARROW_FILE, FORMATS
+from service.jobs.formats import ARROW_FILE, FORMATS, _groups
 
 SCHEMA = pa.schema(
     [
@@ -110,3 +110,14 @@ def test_memory_stays_flat(name: str) -> None:
 
     # ten times the rows, and nowhere near ten times the memory
     assert peak(200) < 2 * peak(20) + 1_000_000
+
+
+def test_groups_of_parquet_grow_with_what_came_before() -> None:
+    # 3 GB in batches of 100 kB, the same one again and again
+    batch = pa.record_batch([pa.array([0.0] * 12_500)], names=["x"])
+    groups = [len(group) for group in _groups(batch for _ in range(30_000))]
+    assert sum(groups) == 30_000
+    # analytic: the first 64 of a megabyte, then 64 ln 16 until a group has 16 MB, then so many of these
+    assert groups[:64] == [11] * 64
+    assert max(groups) == 161
+    assert len(groups) < 64 + 64 * math.log(16) + 3000 / 16
