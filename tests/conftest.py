@@ -5,7 +5,8 @@ import tempfile
 from collections import Counter
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
+from hypothesis.internal.conjecture import providers
 
 from tests.verification.every import check_every_answer
 
@@ -20,9 +21,13 @@ os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 
 # times are for benchmarks, and a run that failed must fail again;
 # HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time
-settings.register_profile("quick", deadline=None, derandomize=True, max_examples=30)
+quick = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("quick", max_examples=30, **quick)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
+# else the numbers that stand in whatever modules are loaded are tried too: other ones after other tests, see
+# tests/test_examples.py
+providers.is_local_module_file = lambda _: False
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
 check_every_answer()
