@@ -105,7 +105,7 @@ class RowSeries:
         rows, angles = self.data.packed, (self.centre, half, self.within, *self._given)
         alike = len(rows.motion) == len(self.centre) == 1
         made = (1 if alike else self.design.size) * rows.motion.shape[1] * self.centre.shape[1]
-        parts = max(1, -(-made // _AT_ONCE))
+        parts = max(1, min(-(-made // _AT_ONCE), self.centre.shape[1]))
         slices = [angles] if parts == 1 else zip(*(np.array_split(e, parts, axis=-1) for e in angles), strict=True)
         for some in slices:
             functions = row_functions(rows, Places(*map(compact, some)), self.design, self.order, pressed)
