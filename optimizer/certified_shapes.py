@@ -16,6 +16,7 @@ from optimizer.alike_plates import alike
 from optimizer.arrays import Complex, Real
 from optimizer.certified import Certified, certified, judged
 from optimizer.formulate import formulate
+from optimizer.limits import limits
 from optimizer.mechanics.envelope import Envelope
 from optimizer.plate_pieces import Webs, chords, pieces, tangents
 from optimizer.program.certificate import mass_lower_bound
@@ -25,7 +26,7 @@ from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.program.symmetry import symmetric
-from optimizer.program.verdict import yardstick
+from optimizer.program.verdict import MASS_GAP, mass_resolution, yardstick
 from optimizer.response import Response
 from optimizer.shapes import envelopes, fitted
 from schemas.requests import OptimizeRequest
@@ -38,7 +39,11 @@ _KEPT, _ROUNDS = 9, 12
 _NARROWER = 0.25
 #: nodes that are nearer than this share of the largest half-angle are one
 _SAME = 1e-9
-
+#: a mass this many times as far above its bound as is allowed is not worth judging
+_FAR = 2.0
+#: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
+#: the centre of half a disc is at 0.42 of its radius
+_NEARER = 2.5
 #: openings that agree this closely, relative, are equal: what rounding leaves
 _EQUAL = 1e-14
 
@@ -59,27 +64,44 @@ def certified_shapes(
     if not plates:
         return request, certified(request, responses, omega_squared, solver)
     nodes: _Nodes = {k: _nodes(_FIRST, float(plate.most)) for k, plate in plates.items()}
-    best: tuple[OptimizeRequest, Certified] | None = None
+    tried: list[Optima] = []
     end = thread_time() + request.accuracy.time_limit_s
     closed = request.model_copy(update={"machine": fitted(request.machine, dict.fromkeys(plates, 0.0))})
     whole = within_reach(formulate(closed.machine, request.objective, responses, omega_squared), solver)
+
+    def cut(proven: Optima) -> tuple[OptimizeRequest, Certified]:
+        return _cut(request, whole, plates, proven, omega_squared)
+
     for _ in range(_ROUNDS):
-        asked, found, called_for = _round(request, whole, plates, nodes, responses, omega_squared, solver)
-        if best is None or _gap(found) <= _gap(best[1]):
-            best = asked, found
-        if found.status[0] == "optimal":
-            even = _alike(request, whole, plates, nodes, found.found)
-            if np.array_equal(even.unbalance, found.found.unbalance):
+        proven, called_for = _round(request, whole, plates, nodes, solver)
+        tried.append(proven)
+        if not _too_heavy(request, whole, plates, proven):
+            asked, found = cut(proven)
+            if found.status[0] == "optimal":
+                even = _alike(request, whole, plates, nodes, proven)
+                if np.array_equal(even.unbalance, proven.unbalance):
+                    return asked, found
+                best = cut(even)
+                return best if best[1].status[0] == "optimal" else (asked, found)
+            if found.status[0] != "inaccurate":
                 return asked, found
-            best = _cut(request, whole, plates, even, responses, omega_squared)
-            return best if best[1].status[0] == "optimal" else (asked, found)
-        if found.status[0] != "inaccurate":
-            return asked, found
         if thread_time() > end:
             break
         nodes = {k: _closer(nodes[k], called_for[k]) for k in plates}
-    assert best is not None
-    return best
+    # of those that are equally near the last
+    return min((cut(proven) for proven in reversed(tried)), key=lambda each: _gap(each[1]))
+
+
+def _too_heavy(request: OptimizeRequest, whole: Statement, plates: Mapping[int, Envelope], proven: Optima) -> bool:
+    """Whether what would be cut is so far above the least mass that it need not be judged."""
+    if not request.objective.least_mass or proven.unreachable[0]:
+        return False
+    opened, mass = _opened(plates, proven.unbalance[0]), np.abs(proven.unbalance[0]) / whole.limits.radius[0]
+    for k, plate in plates.items():
+        mass[k] = plate.mass(opened[k])
+    total = np.add.reduce(mass)
+    size = np.maximum(total, _NEARER * mass_resolution(whole, yardstick(whole)[..., None])[0])
+    return bool(total - proven.mass_lower_bound[0] > _FAR * MASS_GAP * size)
 
 
 def _gap(found: Certified) -> float:
@@ -92,11 +114,9 @@ def _round(
     whole: Statement,
     plates: Mapping[int, Envelope],
     nodes: _Nodes,
-    responses: Sequence[Response],
-    omega_squared: Real,
     solver: Solver,
-) -> tuple[OptimizeRequest, Certified, Mapping[int, float]]:
-    """What is found and what tangents prove, and the half-angles that the tangents call for."""
+) -> tuple[Optima, Mapping[int, float]]:
+    """What is found with what tangents prove, and the half-angles that the tangents call for."""
     goal, webs = request.objective, range(len(request.machine.webs))
     owner = np.repeat(np.array(webs), [nodes[k].size - 1 if k in plates else 1 for k in webs])
 
@@ -117,9 +137,7 @@ def _round(
     if goal.symmetric:
         # no worse in any term, so that what is proven of those that were found holds
         u = symmetric(whole, u[None], _kinds(request))[0]
-    proven = replace(proven, unbalance=u[None], certify_s=spent)
-    asked, found = _cut(request, whole, plates, proven, responses, omega_squared)
-    return asked, found, _opened(plates, called_for)
+    return replace(proven, unbalance=u[None], certify_s=spent), _opened(plates, called_for)
 
 
 def _alike(
@@ -140,7 +158,6 @@ def _cut(
     whole: Statement,
     plates: Mapping[int, Envelope],
     proven: Optima,
-    responses: Sequence[Response],
     omega_squared: Real,
 ) -> tuple[OptimizeRequest, Certified]:
     """The request with the radii of what is cut, and what may be claimed of it."""
@@ -153,8 +170,8 @@ def _cut(
         same[k] = next(j for j in plates if kinds[j] == kinds[k] and abs(opened[j] - angle) <= _EQUAL * angle)
     alike_to = {k: opened[int(same[k])] for k in plates}
     asked = request.model_copy(update={"machine": fitted(request.machine, alike_to)})
-    program = formulate(asked.machine, request.objective, responses, omega_squared)
-    program = replace(program, limits=_limits(program.limits, whole.limits, plates))
+    stated = limits(asked.machine, omega_squared.shape)
+    program = replace(whole, limits=_limits(stated, whole.limits, plates))
     found = judged(asked, program, proven, omega_squared, lambda mass, angle: (mass[..., same], angle))
     return asked, found
 

@@ -19,6 +19,8 @@ from optimizer.arrays import Real, Reals
 
 #: cuts of an interval into as many parts: to the last bit
 _CUTS, _PARTS = 10, 64
+#: Newton's steps: the fourth leaves rounding alone
+_STEPS = 4
 #: below it x - sin x is summed as a series
 _SMALL = 0.05
 
@@ -128,14 +130,15 @@ class Segment(Plate):
         )
 
     def opened(self, unbalance: Reals) -> Real:
-        # as long as the chord misses the hub it is known; else it is between that and the largest
-        beyond = np.arcsin(np.minimum(np.cbrt(unbalance / (2.0 / 3.0 * self.areal * self.outer**3)), 1.0))
-        touching = np.minimum(np.arccos(self.inner / self.outer), self.most)
-        if np.all((beyond <= touching) | (touching >= self.most)):
-            return np.minimum(beyond, self.most)
-        every = np.broadcast_arrays(touching, self.most, unbalance)
-        low = _inverse(self.unbalance, *every)
-        return np.where(beyond <= touching, beyond, np.where(unbalance >= self.unbalance(self.most), self.most, low))
+        # in units of 2/3 rho t: c = p^3 - q^3 with p, q half the chords of both discs; q is 0 where it misses the hub
+        cube = np.asarray(unbalance / (2.0 / 3.0 * self.areal))
+        apart = (self.outer - self.inner) * (self.outer + self.inner)
+        size = np.maximum(cube / apart**1.5, 1.0)
+        both = np.sqrt(apart) * _sum_of_halves(size)
+        half = np.where(size > 1.0, 0.5 * (both + apart / both), np.cbrt(cube))
+        found = np.minimum(np.arcsin(np.minimum(half / self.outer, 1.0)), self.most)
+        # at a right angle an opening is no better known than to 1e-8, but a full plate is full
+        return np.where(unbalance >= self.unbalance(self.most), self.most, found)
 
     def chord(self, half_angle: Reals) -> Real:
         return self.lever(half_angle)
@@ -155,6 +158,20 @@ def opened_for(plate: Envelope, mass: Reals) -> Real:
     """Half-angle of the counterweight of a mass, rad; the largest for more than the plate holds."""
     found = _inverse(plate.mass, *np.broadcast_arrays(0.0, plate.most, mass))
     return np.where(mass >= plate.mass(plate.most), plate.most, found)
+
+
+def _sum_of_halves(size: Real) -> Real:
+    """The s >= 1 with 3 s + s^-3 = 4 c, of c >= 1: p + q where p^2 - q^2 = 1 and p^3 - q^3 = c.
+
+    The left side is convex and rises, so Newton's steps come from above after the first one.
+    """
+    found = np.maximum(1.0 + np.sqrt((2.0 / 3.0) * (size - 1.0)), (4.0 / 3.0) * size - 1.0 / 3.0)
+    for _ in range(_STEPS):
+        cube = found**-3
+        rise = 3.0 * (1.0 - cube / found)
+        over = 3.0 * found + cube - 4.0 * size
+        found = found - np.where(rise > 0.0, over / np.where(rise > 0.0, rise, 1.0), 0.0)
+    return found
 
 
 def _inverse(rising: Callable[[Real], Real], low: Real, high: Real, value: Real) -> Real:

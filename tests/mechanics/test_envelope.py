@@ -97,6 +97,17 @@ def test_openings_are_found_again(plate: Envelope, share: float, more: float) ->
     assert unbalance == pytest.approx(min(more, 1.0) * most, rel=1e-12, abs=1e-15 * most)
 
 
+def test_chords_through_the_hub_and_beside_it_are_found_to_the_last_digits() -> None:
+    # analytic: the inverse is closed, but for a quartic; at cos a = R1 / R2 the chord touches the hub
+    for inner in (0.0, 1e-3, 0.2, 0.9, 0.999):
+        plate = Segment(inner, 1.0, 300.0, RIGHT)
+        touching = float(np.arccos(inner))
+        angle = np.unique(np.clip([1e-5, 0.3, *(touching * np.array([0.9, 1 - 1e-6, 1, 1 + 1e-6, 1.1])), 1.4], 0, 1.4))
+        assert plate.opened(plate.unbalance(angle)) == pytest.approx(angle, rel=1e-13)
+        # regression: at a right angle an unbalance says less of the opening, but a full plate is full
+        assert float(plate.opened(plate.unbalance(RIGHT))) == RIGHT
+
+
 @given(plates(), st.floats(0.01, 0.99), st.floats(0.0, 1.0))
 def test_masses_are_convex_with_their_levers_as_tangents(plate: Envelope, share: float, other: float) -> None:
     # analytic: a convex function is above its tangents

@@ -7,9 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from optimizer import certified_shapes
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
+from optimizer.program.verdict import MASS_GAP, NOT_LIGHT
 from schemas.answers import OptimizeAnswer
 from schemas.report import ReportRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
@@ -215,6 +217,22 @@ def test_plates_that_cannot_be_alike_within_what_is_certified_stay_apart() -> No
     assert found.certificate is not None
     assert found.certificate.mass_relative_gap is not None
     assert found.certificate.mass_relative_gap < 1e-4
+
+
+def test_rounds_that_cannot_be_the_least_mass_are_not_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    rounds, judged = [], []
+    kept = certified_shapes._round, certified_shapes.judged
+    monkeypatch.setattr(certified_shapes, "_round", lambda *given: rounds.append(1) or kept[0](*given))
+    monkeypatch.setattr(certified_shapes, "judged", lambda *given: judged.append(1) or kept[1](*given))
+    assert answered(bodies()["plate-single"]).status == "optimal"
+    assert (len(rounds), len(judged)) == (2, 1)
+    # if it ends there what was found is judged nevertheless, and is the answer
+    monkeypatch.setattr(certified_shapes, "_ROUNDS", 1)
+    found = answered(bodies()["plate-single"])
+    assert (found.status, found.status_reason) == ("inaccurate", NOT_LIGHT)
+    assert found.certificate is not None
+    assert found.certificate.mass_relative_gap is not None
+    assert 2 * MASS_GAP < found.certificate.mass_relative_gap < 0.1
 
 
 def test_ceilings_that_plates_cannot_keep() -> None:
