@@ -35,6 +35,10 @@ _ROUNDS = 12
 _PROGRAMS = 16
 #: candidates that are solved to prove that none is better
 _CANDIDATES = 2_000
+_LEFT = (
+    "No exchange that the search tried is better, and too many assignments are left to compare all of them: the gap to"
+    " the proven lower bound is what was reached, and more time would change nothing."
+)
 
 
 def match(request: MatchRequest) -> MatchAnswer:
@@ -172,7 +176,7 @@ def _answer(request: MatchRequest, problem: Problem, best: Best) -> dict[str, An
     rows = [row for throw in heavier.throws for row in throw.rows]
     return {
         "status": str(judged.status),
-        "status_reason": LATE if best.late and judged.status == "inaccurate" else str(judged.reason),
+        "status_reason": _reason(best, str(judged.status), str(judged.reason)),
         "assignments": assignments,
         "spares": spares,
         "rows": tuple(
@@ -192,6 +196,13 @@ def _answer(request: MatchRequest, problem: Problem, best: Best) -> dict[str, An
             method="exhaustion" if best.exhausted else "sorting",
         ),
     }
+
+
+def _reason(best: Best, status: str, judged: str) -> str:
+    """Why the answer is what it is: a gap that is left is the search's, or of the arithmetic if all were compared."""
+    if status != "inaccurate" or best.exhausted:
+        return judged
+    return LATE if best.late else _LEFT
 
 
 class _Evaluated(NamedTuple):

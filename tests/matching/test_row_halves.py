@@ -110,6 +110,16 @@ def test_the_time_ends_it_and_is_said() -> None:
     )
 
 
+def test_that_exchanges_ended_it_is_said() -> None:
+    """Two classes of ten rows whose equal masses balance: all pairs of their orders are too many to compare."""
+    request = asked(mirrored(10), [90.0] * 10, {})
+    more = request.parts[0].model_copy(update={"kind": "b", "masses_kg": request.parts[0].masses_kg[::-1]})
+    answer = match(request.model_copy(update={"parts": (request.parts[0], more)}))
+    assert (answer.status, answer.certificate.method) == ("inaccurate", "sorting")
+    assert "No exchange" in answer.status_reason
+    assert answer.certificate.objective < 1e-2 * answer.certificate.objective_as_listed
+
+
 def test_equal_parts_and_parts_without_mass() -> None:
     """Analytic: of nine rows all around, parts that weigh the same or nothing leave what the parts that differ do."""
     body = {
