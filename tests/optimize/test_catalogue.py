@@ -228,8 +228,9 @@ def test_steps_are_above_nothing(field: str, step: float) -> None:
 
 def test_a_negative_mass_is_refused() -> None:
     catalogue = {"masses_kg": [1, -1], "angle_step_deg": 10}
-    with pytest.raises(ValidationError):
+    with pytest.raises(ValidationError) as caught:
         OptimizeRequest.model_validate({"machine": machine([throw(0.0, 0.0, [])], [WEB], catalogue=catalogue)})
+    assert [error["loc"][-3:] for error in caught.value.errors()] == [("catalogue", "masses_kg", 1)]
 
 
 def test_steps_of_angle_need_a_crank_and_a_place_in_the_sector() -> None:

@@ -276,6 +276,13 @@ BAD = {
 }
 
 
+def test_an_inner_radius_above_the_outer_one_is_refused() -> None:
+    body = asked("segment", inner_radius_m=0.33)
+    with pytest.raises(InvalidRequest) as refused:
+        check(OptimizeRequest, body)
+    assert refused.value.problems[0].path == ("machine", "webs", 0, "envelope", "inner_radius_m")
+
+
 @pytest.mark.parametrize("pointer", BAD)
 def test_a_plate_that_is_none_is_refused_by_its_field(pointer: str) -> None:
     body = asked("sector")

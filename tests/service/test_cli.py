@@ -49,6 +49,18 @@ def test_optimize_prints_tables(file: Path) -> None:
     assert "largest mass" in result.stdout
 
 
+def test_a_web_without_a_counterweight_has_none(tmp_path: Path) -> None:
+    body = json.loads(load("2d12"))
+    body["machine"]["webs"][1]["max_mass_kg"] = 0
+    file = tmp_path / "machine.json"
+    file.write_text(json.dumps(body))
+    result = run("optimize", str(file))
+    assert result.exit_code == 0
+    (row,) = (line for line in result.stdout.splitlines() if "1b" in line and "none" in line)
+    cells = [cell.strip() for cell in row.strip("│").split("│")]
+    assert cells == ["1b", "none", *5 * ["–"], "largest mass"]
+
+
 def without_times(answer: Any) -> Any:
     if isinstance(answer, dict):
         return {key: without_times(value) for key, value in answer.items() if not key.endswith("_ms")}
