@@ -21,6 +21,11 @@ _TREE = "The gap to the proven lower bound of all sets that can be chosen is wit
 #: why a search left a gap
 LATE = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
 _SIZE = "The search ended because its tree had grown too large: the gap to the proven lower bound is what was reached."
+#: beside either, where the tree has proven nothing of its own
+_AMPLE = (
+    " So far it is that of any masses at any angles: of an ample choice, which comes near to what those reach, nothing"
+    " closer can be proven."
+)
 _NONE = "No set of counterweights that can be chosen keeps the ceilings: {proof}."
 _BY = {True: "all were compared", False: "a tree of bounds over all of them proves it"}
 _NONE_FOUND = (
@@ -103,6 +108,8 @@ def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_ga
         "method": np.array([found.method], dtype=object),
     }
     status, reason = told_status(found, str(judged.status[0]), str(judged.reason[0]), bool(proven[0]))
+    if reason in (LATE, _SIZE) and not of_sets > free.lower_bound:
+        reason += _AMPLE
     return replace(
         best,
         mass_kg=mass,

@@ -162,6 +162,15 @@ def test_a_search_that_runs_out_of_time_says_so() -> None:
     assert proof.continuous_lower_bound <= proof.lower_bound <= proof.objective
 
 
+def test_of_an_ample_choice_it_says_that_nothing_closer_can_be_proven() -> None:
+    # any masses reach the floor, which no tree can raise until all sets are compared
+    body = twin(catalogue={"mass_step_kg": 0.37, "angle_step_deg": 7.5})
+    found = answer(body, {"relative_gap": 1e-9, "time_limit_s": 0.01})
+    proof = found.certificate
+    assert (found.status, proof.lower_bound) == ("inaccurate", proof.continuous_lower_bound)
+    assert "nothing closer can be proven" in found.status_reason
+
+
 def test_the_checker_says_that_it_does_not_cover_the_tree() -> None:
     body = {"machine": twin()}
     found = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
