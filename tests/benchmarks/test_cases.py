@@ -7,9 +7,10 @@ import pytest
 
 from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
-from tests.benchmarks import discrete, outputs, whole_turn
+from tests.benchmarks import discrete, outputs, sweep_outputs, sweep_over_turn, sweep_time, whole_turn
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
+from tests.benchmarks.stopwatch import Stopwatch
 from tests.matching.cases import mirrored
 
 
@@ -40,6 +41,12 @@ def test_every_bearing_optimum_of_the_benchmark_is_certified(build: Callable[[],
 def test_every_part_of_an_answer_over_the_turn_is_watched() -> None:
     parts = whole_turn.where_the_time_goes(whole_turn.MACHINES["in-line six, gas"](), 1)
     assert all(time > 0 for time in parts.values()), parts
+
+
+@pytest.mark.parametrize("parts", [sweep_outputs.PARTS, sweep_over_turn.PARTS, sweep_time.PARTS])
+def test_what_is_watched_is_there(parts: dict[str, tuple[str, ...]]) -> None:
+    with Stopwatch().over(parts):
+        pass
 
 
 def test_scroll_pin_cases_run() -> None:
