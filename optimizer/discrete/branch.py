@@ -15,6 +15,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.discrete.bound import proven, uphill
+from optimizer.discrete.few import at_most, costs, offer_few
 from optimizer.discrete.options import Incumbent, Options
 from optimizer.discrete.relaxed import apart, on_first, relaxed
 from optimizer.program.certificate import Multipliers
@@ -25,8 +26,6 @@ from optimizer.program.statement import Statement
 _BATCH, _BATCH_OPTIONS = 128, 2_000_000
 #: sets up to which what is left of a node is looked at set by set
 _SETS = 20_000
-#: of an objective that is evaluated from sums, in units of the sum of the magnitudes of what is summed
-_ROUNDING = 1e-14
 #: bytes that open nodes may hold
 _MEMORY = 200_000_000
 
@@ -170,8 +169,8 @@ class _Work:
         left, bound, closed = self.left(np.array([node.bits for node in nodes])), np.array(inherited), np.inf
         which = np.arange(len(nodes))
 
-        def kept(left: np.ndarray, multipliers: Multipliers) -> tuple[np.ndarray, np.ndarray]:
-            """Nodes of ``which`` that stay open, and what is left of them."""
+        def kept(left: np.ndarray, multipliers: Multipliers) -> tuple[np.ndarray, np.ndarray, Real]:
+            """Nodes of ``which`` that stay open, what is left of all, and what is proven of each option."""
             nonlocal closed
             found, target = proven(statement, options, left, multipliers), self.incumbent.least - self.gap
             bound[which] = np.maximum(bound[which], found.bound)
@@ -180,12 +179,12 @@ class _Work:
                 closed = min(closed, float(np.min(np.maximum(found.forced, bound[which][:, None, None])[out])))
             left = left & ~out
             stays = np.all(np.any(left, axis=-1), axis=-1)
-            return stays, left
+            return stays, left, found.forced
 
         if nodes[0].multipliers is not None:
             multipliers = _side_by_side([node.multipliers for node in nodes if node.multipliers is not None])
             multipliers = self._raised(left, multipliers)
-            stays, left = kept(left, multipliers)
+            stays, left, _ = kept(left, multipliers)
             which, left = which[stays], left[stays]
         if not which.size:
             return closed, []
@@ -195,14 +194,16 @@ class _Work:
         near = on_first(options, np.nan_to_num(base + found.smallest))
         self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
         multipliers = self._raised(left, found.multipliers)
-        stays, left = kept(left, multipliers)
+        stays, left, forced = kept(left, multipliers)
         which, left, near, multipliers = which[stays], left[stays], near[stays], multipliers.chosen(stays)
-        few = np.prod(np.sum(left, axis=-1, dtype=float), axis=-1) <= _SETS
+        lowest, cost = costs(left, forced[stays])
+        few = at_most(cost, self.incumbent.least - self.gap - lowest) <= _SETS
         for n in np.flatnonzero(few):
             if spent():
                 closed = min(closed, float(bound[which[n]]))
                 continue
-            self.incumbent.offer(_no_worse(statement, options, left[n], self.incumbent.level))
+            others = offer_few(statement, self.incumbent, cost[n], self.incumbent.least - self.gap - float(lowest[n]))
+            closed = min(closed, float(lowest[n]) + others)
         return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
 
     def _raised(self, left: np.ndarray, multipliers: Multipliers) -> Multipliers:
@@ -294,26 +295,3 @@ def _side_by_side(each: list[Multipliers]) -> Multipliers:
         np.array([one.row for one in each]),
         np.array([one.ceiling for one in each]),
     )
-
-
-def _no_worse(statement: Statement, options: Options, left: np.ndarray, level: float) -> np.ndarray:
-    """Of all sets of the options left (K, O) those whose objective is no worse than a level (n, K)."""
-    several = np.flatnonzero(np.sum(left, axis=-1) > 1)
-    which = [np.flatnonzero(left[k]) for k in several]
-    fixed, norms = np.argmax(left, axis=-1), statement.norms
-    if not which:
-        return fixed[None]
-    # the first option is nothing
-    rest = fixed.copy()
-    rest[several] = 0
-    terms: Complex = norms.at(options.carried(rest))[None]
-    for k, some in zip(several.tolist(), which, strict=True):
-        terms = (terms[:, None] + options.effect(k, some, norms.influence)).reshape(-1, terms.shape[-1])
-    rounding = _ROUNDING * float(np.max(np.sum(np.abs(terms), axis=-1) + np.max(statement.floor)))
-    near = np.flatnonzero(statement.objective_of(np.abs(terms)) <= level + rounding)
-    sets = np.tile(fixed, (near.size, 1))
-    for k, some, digit in zip(
-        several.tolist(), which, np.unravel_index(near, [some.size for some in which]), strict=True
-    ):
-        sets[:, k] = some[digit]
-    return sets

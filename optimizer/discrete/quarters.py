@@ -14,16 +14,20 @@ import numpy as np
 from optimizer.arrays import SMALLEST, Complex, Real
 from optimizer.discrete.options import Incumbent, Options
 
-#: sums of a quarter, and quarters that are dealt out in a row without finding a better set: many small ones, then large
-_COURSE = ((10_000, 40), (100_000, 10))
+#: sums of a quarter, and quarters that are dealt out in a row without finding a better set
+_SUMS, _PATIENCE = 400_000, 20
 #: coordinates, each of two numbers, from which on what is near to a point is no quicker found than looked at
 _MANY = 5
 #: slots with a choice from which on quarters hold more than neighbourhoods do
 _FEWEST = 12
 #: sets of those found that are offered
 _OFFERED = 64
-#: distance of a pair from where it is sought, in units of what points are apart
-_NEAR = 2.0
+#: options of a slot at least that are tried, where it has as many
+_FEWEST_OPTIONS = 3
+#: pairs of sums that are kept of two quarters, and pairs of these that are looked at
+_PAIRS = 300_000
+#: sides of cells that are tried
+_SIDES = 3
 #: how far at most that place is moved from what is on the slots towards where most sums are
 _MOVED = 0.3
 _SEED = 20_240_301
@@ -33,8 +37,8 @@ class _Quarter(NamedTuple):
     """All sums of some slots, as changes of what is on them."""
 
     slots: list[int]
-    code: np.ndarray  # (n, slots) the options
-    points: Real  # (n, d)
+    some: list[np.ndarray]  # (slots) their options
+    points: Real  # (d, n)
 
 
 class _Pairs(NamedTuple):
@@ -42,53 +46,78 @@ class _Pairs(NamedTuple):
 
     quarters: tuple[_Quarter, _Quarter]
     which: tuple[np.ndarray, np.ndarray]  # (m,) each
-    points: Real  # (m, d)
+    points: Real  # (d, m)
 
     def put(self, sets: np.ndarray, some: np.ndarray) -> None:
         """Some of them on their slots, in place."""
         for quarter, place in zip(self.quarters, self.which, strict=True):
-            sets[:, quarter.slots] = quarter.code[place[some]]
+            digits = np.unravel_index(place[some], [each.size for each in quarter.some])
+            for slot, each, digit in zip(quarter.slots, quarter.some, digits, strict=True):
+                sets[:, slot] = each[digit]
 
 
 def quarters(incumbent: Incumbent, enough: Callable[[], bool], spent: Callable[[], bool]) -> None:
-    """Make the set better, three to five slots of each quarter at a time."""
-    from scipy.spatial import cKDTree
-
+    """Make the set better, by options near to those that are there."""
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     few = np.sum(np.sum(options.exists, axis=-1) > 1) < _FEWEST
     if few or incumbent.coordinates[0].shape[-1] >= _MANY:
         return
-    for sums, patience in _COURSE:
-        left = patience
-        while left > 0 and incumbent.chosen is not None and not enough() and not spent():
-            before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent)
-            a, b, c, d = (_quarter(options, measure, chosen, slots) for slots in _dealt(options, sums, chance))
-            middle = [np.mean(each.points, axis=0) for each in (a, b, c, d)]
-            off = 0.5 * (measure.wanted - sum(middle))
-            moved = chance.random() * _MOVED
-            one = _paired(a, b, moved * (middle[0] + middle[1] + off))
-            other = _paired(c, d, (1.0 - moved) * measure.wanted + moved * (middle[2] + middle[3] + off))
-            left -= 1
-            if len(one.points) and len(other.points):
-                apart, place = cKDTree(one.points).query(measure.wanted - other.points)
-                best = np.argsort(apart, kind="stable")[:_OFFERED]
-                sets = np.tile(chosen, (best.size, 1))
-                one.put(sets, place[best])
-                other.put(sets, best)
-                incumbent.offer(sets)
-            if incumbent.least < before:
-                left = patience
+    left = _PATIENCE
+    while left > 0 and incumbent.chosen is not None and not enough() and not spent():
+        before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent)
+        some = _near(options, chosen, _SUMS)
+        a, b, c, d = (_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance))
+        middle = [np.mean(each.points, axis=-1) for each in (a, b, c, d)]
+        off = 0.5 * (measure.wanted - sum(middle))
+        moved = chance.random() * _MOVED
+        one = _paired(a, b, moved * (middle[0] + middle[1] + off))
+        other = _paired(c, d, (1.0 - moved) * measure.wanted + moved * (middle[2] + middle[3] + off))
+        left -= 1
+        i, j = _met(one.points, measure.wanted[:, None] - other.points)
+        if i.size:
+            apart = np.sum((one.points[:, i] + other.points[:, j] - measure.wanted[:, None]) ** 2, axis=0)
+            best = np.argpartition(apart, min(_OFFERED, i.size) - 1)[:_OFFERED]
+            sets = np.tile(chosen, (best.size, 1))
+            one.put(sets, i[best])
+            other.put(sets, j[best])
+            incumbent.offer(sets)
+        if incumbent.least < before:
+            left = _PATIENCE
 
 
 def _paired(one: _Quarter, other: _Quarter, about: Real) -> _Pairs:
-    """For the sums of one quarter the nearest of another that comes with it to a place, where one does about so."""
-    from scipy.spatial import cKDTree
+    """Sums of two quarters that come near to a place."""
+    here, there = _met(one.points, about[:, None] - other.points)
+    return _Pairs((one, other), (here, there), one.points[:, here] + other.points[:, there])
 
-    n, d = one.points.shape
-    wide = float(np.sqrt(np.sum(np.var(one.points, axis=0)))) * n ** (-1.0 / d)
-    off, near = cKDTree(one.points).query(about - other.points, distance_upper_bound=_NEAR * wide)
-    far = np.flatnonzero(np.isfinite(off))
-    return _Pairs((one, other), (near[far], far), one.points[near[far]] + other.points[far])
+
+def _met(one: Real, other: Real) -> tuple[np.ndarray, np.ndarray]:
+    """Which points (d, n) and (d, m) are in the same cell of a grid: about as many pairs as are kept."""
+    none, d = np.zeros(0, np.int64), one.shape[0]
+    if not (one.size and other.size):
+        return none, none
+    low = np.maximum(np.min(one, axis=-1), np.min(other, axis=-1))[:, None]
+    span = np.minimum(np.max(one, axis=-1), np.max(other, axis=-1))[:, None] - low
+    if not np.all(span > 0):
+        return none, none
+    here, there = (np.flatnonzero(np.all((points >= low) & (points <= low + span), axis=0)) for points in (one, other))
+    one, other = one[:, here] - low, other[:, there] - low
+    # as if points were spread evenly, and then as they are
+    side = float((_PAIRS * np.prod(span) / max(here.size * there.size, 1)) ** (1.0 / d))
+    for _ in range(_SIDES):
+        stride = np.cumprod(np.append(1.0, np.floor(span[:-1] / side) + 1.0))
+        mine, theirs = (stride @ np.floor(points / side) for points in (one, other))
+        order, orders = np.argsort(mine, kind="stable"), np.argsort(theirs, kind="stable")
+        # places that are sought in their order are quickly found
+        mine, theirs = mine[order], theirs[orders]
+        first, last = (np.searchsorted(mine, theirs, end) for end in ("left", "right"))
+        met = int(np.sum(last - first))
+        if _PAIRS <= 2 * met <= 4 * _PAIRS:
+            break
+        side *= (_PAIRS / max(met, 1)) ** (1.0 / d)
+    count = np.where(np.cumsum(last - first) <= 2 * _PAIRS, last - first, 0)
+    place = np.repeat(first - np.cumsum(count) + count, count) + np.arange(int(np.sum(count)))
+    return here[order[place]], there[np.repeat(orders, count)]
 
 
 class _Measure:
@@ -104,33 +133,38 @@ class _Measure:
         #: what the changes have to come to
         self.wanted = -_real(np.conj(turn.T) @ terms)
 
-    def change(self, slot: int, now: int) -> Real:
-        """What every option of a slot changes in place of the one that is there (O, d)."""
-        effect = self._effect[slot, self._options.exists[slot]]
-        return _real((effect - self._effect[slot, now]) @ self._scale.T)
+    def change(self, slot: int, some: np.ndarray, now: int) -> Real:
+        """What some options of a slot change in place of the one that is there (n, d)."""
+        return _real((self._effect[slot, some] - self._effect[slot, now]) @ self._scale.T)
 
 
-def _dealt(options: Options, most: int, chance: np.random.Generator) -> list[list[int]]:
+def _dealt(some: list[np.ndarray], most: int, chance: np.random.Generator) -> list[list[int]]:
     """Four lists of slots with a choice, each of at most so many sums."""
-    count = np.sum(options.exists, axis=-1)
     dealt: list[list[int]] = [[], [], [], []]
     size = np.ones(4)
-    for slot in chance.permutation(np.flatnonzero(count > 1)).tolist():
+    for slot in chance.permutation([k for k, each in enumerate(some) if each.size > 1]).tolist():
         smallest = int(np.argmin(size))
-        if size[smallest] * count[slot] <= most:
+        if size[smallest] * some[slot].size <= most:
             dealt[smallest].append(slot)
-            size[smallest] *= count[slot]
+            size[smallest] *= some[slot].size
     return dealt
 
 
-def _quarter(options: Options, measure: _Measure, chosen: np.ndarray, slots: list[int]) -> _Quarter:
-    points, code = np.zeros((1, measure.wanted.size)), np.zeros((1, 0), int)
+def _near(options: Options, chosen: np.ndarray, most: int) -> list[np.ndarray]:
+    """Of every slot what is there and what is nearest to it, so few that quarters of all slots have so many sums."""
+    useful = int(np.sum(np.sum(options.exists, axis=-1) > 1))
+    each = max(int(most ** (4.0 / useful)), _FEWEST_OPTIONS)
+    off = np.abs(options.unbalance - options.of(options.unbalance, chosen)[:, None])
+    order = np.argsort(np.where(options.exists, off, np.inf), axis=-1, kind="stable")[:, :each]
+    return [some[exists[some]] for some, exists in zip(order, options.exists, strict=True)]
+
+
+def _quarter(measure: _Measure, chosen: np.ndarray, slots: list[int], some: list[np.ndarray]) -> _Quarter:
+    points = np.zeros((measure.wanted.size, 1))
     for slot in slots:
-        change = measure.change(slot, int(chosen[slot]))
-        points = (points[:, None] + change).reshape(-1, points.shape[-1])
-        digits = np.tile(np.arange(len(change)), len(code))[:, None]
-        code = np.concatenate([np.repeat(code, len(change), axis=0), digits], axis=1)
-    return _Quarter(slots, code, points)
+        change = measure.change(slot, some[slot], int(chosen[slot]))
+        points = (points[:, :, None] + change.T[:, None]).reshape(len(points), -1)
+    return _Quarter(slots, [some[slot] for slot in slots], points)
 
 
 def _real(vectors: Complex) -> Real:

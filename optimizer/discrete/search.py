@@ -22,8 +22,8 @@ TREE = "branch and bound"
 _SUMS, _PAIRS = 300_000, 3_000_000
 #: sums of a half where they have so many coordinates that what is near is hardly found any quicker than by looking
 _FEW_SUMS, _COORDINATES = 10_000, 4
-#: how long neighbourhoods are tried before a tree, and the nodes of that: what it does not close is searched better
-_SEARCHES = ((1, 1), (0, 1_200.0), (6, np.inf))
+#: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
+_SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
 
 
 @dataclass(frozen=True)

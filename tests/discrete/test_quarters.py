@@ -16,10 +16,10 @@ from tests.benchmarks.discrete import choice
 from tests.verification.checking import optimized
 
 
-def test_what_no_tree_closes_is_found_to_a_thousandth() -> None:
-    """Regression: 32 webs whose options reach the floor, 10^32 sets; neighbourhoods and tree left 2e-3 open."""
+def test_what_no_tree_closes_is_found_to_a_ten_thousandth() -> None:
+    """Regression: 32 webs whose options reach the floor, 10^32 sets; few slots with all options left 4e-4."""
     body = choice(32, None, 5)
-    body["accuracy"] = {"relative_gap": 1e-3, "time_limit_s": 30}
+    body["accuracy"] = {"relative_gap": 1e-4, "time_limit_s": 30}
     found = optimized(body)
     assert found.status == "optimal"
     assert found.certificate is not None
@@ -28,7 +28,7 @@ def test_what_no_tree_closes_is_found_to_a_thousandth() -> None:
     assert found.residual.after is not None
     floor = found.floor.force_N + found.floor.moment_Nm / 4.7
     assert found.certificate.lower_bound == pytest.approx(floor, rel=1e-6)
-    assert 0 <= found.certificate.objective - floor <= 1e-3 * found.certificate.yardstick
+    assert 0 <= found.certificate.objective - floor <= 1e-4 * found.certificate.yardstick
 
 
 @pytest.mark.parametrize("limits", [{}, {"max_counterweights": 31}, {"max_total_mass_kg": 60.0}])
@@ -44,7 +44,7 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
         incumbent = Incumbent(problem, options, EQUAL * float(problem.at_rest))
         start(incumbent, best.found.unbalance[:1])
         neighbourhoods(incumbent, best.found.unbalance[0], 1, lambda: False, lambda: False)
-        before, rounds = incumbent.least, iter(range(8))
+        before, rounds = incumbent.least, iter(range(1))
         quarters(incumbent, lambda: False, lambda: next(rounds, None) is None)
         return before, incumbent
 
