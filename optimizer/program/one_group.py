@@ -53,11 +53,6 @@ def one_group(statement: Statement, case_of: np.ndarray, points: Complex, most: 
     return replace(_of_rows(statement, chosen), ceilings=_nearest_ceilings(statement.ceilings, points, most))
 
 
-def _below_largest(rows: Real) -> Real:
-    found: Real = np.max(rows, axis=-1, keepdims=True) - rows
-    return found
-
-
 def _nearest(slack: Real, most: int) -> np.ndarray:
     """Of what is so far below a level at points (M, n) the nearest, in their order."""
     return np.sort(np.argsort(np.min(slack, axis=0), kind="stable")[:most])
