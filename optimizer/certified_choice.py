@@ -13,8 +13,8 @@ from optimizer.arrays import Complex
 from optimizer.balance_shafts import chosen
 from optimizer.certified_discrete import certified_discrete
 from optimizer.certified_fitted import certified_fitted, fitted_search
-from optimizer.certified_robust import certified_robust, with_worst_case
-from optimizer.certified_turn import certified_turn, told
+from optimizer.certified_robust import certified_any_mass, with_worst_case
+from optimizer.certified_turn import told
 from optimizer.choice_rounds import Choice, Sought, in_rounds
 from optimizer.discrete.options import EQUAL
 from optimizer.discrete.search import Known
@@ -48,7 +48,7 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         if a machine lacks what the objective needs.
     """
     if request.machine.semicontinuous:
-        free = certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
+        free = certified_any_mass(request, scene, in_full)
         if free.chosen is None or _heavy_enough(request, free.chosen):
             return free
     any_mass = continuous(request)

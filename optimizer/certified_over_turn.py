@@ -2,8 +2,7 @@
 whole turn, or the worst of several cases; however they may be chosen."""
 
 from optimizer.certified_choice import certified_choice
-from optimizer.certified_robust import certified_robust
-from optimizer.certified_turn import certified_turn
+from optimizer.certified_robust import certified_any_mass
 from optimizer.program.reference.solver import Solver
 from optimizer.proven_turn import CertifiedTurn
 from optimizer.scene import Prepared
@@ -28,4 +27,4 @@ def certified_over_turn(
     """
     if request.machine.discrete or request.machine.semicontinuous:
         return certified_choice(request, scene, solver, in_full)
-    return certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
+    return certified_any_mass(request, scene, in_full)

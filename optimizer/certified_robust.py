@@ -1,4 +1,5 @@
-"""Certified counterweights in the worst case of one request, and what the worst case costs."""
+"""Certified counterweights of any mass, of a machine as it is given or in the worst case of several, and what the worst
+case costs."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -6,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.certified_turn import fitted
+from optimizer.certified_turn import certified_turn, fitted
 from optimizer.curve import TurnResponse
 from optimizer.formulate import RESPONSES
 from optimizer.goals import Goals, bearing_responses, goals
@@ -26,6 +27,21 @@ from schemas.robust import PriceOfRobustness, WorstCase
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
 _CLOSE, _ABOUT = 1e-10, 1e-2
 _NO_PRICE = " The time limit left the nominal optimum in price_of_robustness open."
+
+
+def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> CertifiedTurn:
+    """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
+
+    Parameters
+    ----------
+    in_full : with prices of the limits and what misplaced counterweights may cost.
+
+    Raises
+    ------
+    MissingInput
+        if a machine lacks what the objective needs.
+    """
+    return certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
 
 
 def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:

@@ -49,7 +49,7 @@ PARTS: dict[str, tuple[str, ...]] = {
     ),
     "brackets": ("optimizer.pieces:_bracketed",),
     "smallest circles": ("optimizer.figures.bearings:floors", "optimizer.program.cut_samples:smallest_circle"),
-    "rest of the proofs": ("optimizer.certified_over_turn:certified_turn",),
+    "rest of the proofs": ("optimizer.certified_robust:certified_turn",),
     "figures, warnings": ("optimizer.optimize:answered",),
 }
 
