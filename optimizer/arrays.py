@@ -49,6 +49,14 @@ def plain(array: NDArray[Any]) -> NDArray[Any]:
     return np.array(array, order="C")
 
 
+def in_order(array: NDArray[Any]) -> NDArray[Any]:
+    """The same numbers in the usual order in memory; not copied where they are in it, so that none may be written to.
+
+    As of :func:`plain`, kernels are compiled once for them.
+    """
+    return array if array.flags.carray else np.array(array, order="C")
+
+
 def total(terms: Complex) -> Complex:
     """Sum over the last axis; exactly zero where the terms cancel up to rounding.
 

@@ -26,19 +26,26 @@ def filled(gain, most, budget):  # type: ignore[no-untyped-def]
     masses, price = np.zeros((number, webs)), np.zeros(number)
     order, other = np.zeros(webs, np.int64), np.zeros(webs, np.int64)
     for n in range(number):
-        if budget[n] == np.inf:
-            for k in range(webs):
-                masses[n, k] = most[n, k]
-            continue
-        _in_falling_order(gain[n], order, other)
-        spent = 0.0
-        for k in order:
-            left = max(budget[n] - spent, 0.0)
-            masses[n, k] = min(most[n, k], left)
-            if most[n, k] > left:
-                price[n] = max(price[n], gain[n, k])
-            spent += min(most[n, k], budget[n])
+        price[n] = fill(gain[n], most[n], budget[n], order, other, masses[n])
     return masses, price
+
+
+@inner
+def fill(gain, most, budget, order, other, masses):  # type: ignore[no-untyped-def]
+    """The same of one program: its masses (K,), and the price. Of places (K,) two arrays to be written to."""
+    if budget == np.inf:
+        for k in range(gain.size):
+            masses[k] = most[k]
+        return 0.0
+    _in_falling_order(gain, order, other)
+    spent, price = 0.0, 0.0
+    for k in order:
+        left = max(budget - spent, 0.0)
+        masses[k] = min(most[k], left)
+        if most[k] > left:
+            price = max(price, gain[k])
+        spent += min(most[k], budget)
+    return price
 
 
 @inner

@@ -31,6 +31,11 @@ class Ceilings:
             return self.cap + np.zeros((*u.shape[:-1], 1))
         return (self.norms.sizes(u) - self.cap) / self.size
 
+    @property
+    def counted(self) -> Real:
+        """Caps up to which they count as kept (..., I)."""
+        return self.cap + self.tolerance * self.size
+
     def raised(self, share: float) -> "Ceilings":
         """Every ceiling higher by a share of its size, which is taken from the tolerance."""
         return replace(self, cap=self.cap + share * self.size, tolerance=self.tolerance - share)

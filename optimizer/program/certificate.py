@@ -5,7 +5,7 @@ affine function of u whose minimum over the limits is a support function and a k
 So any multipliers give a rigorous bound; better ones give a better bound.
 """
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -108,18 +108,25 @@ def objective_lower_bound(statement: Statement, multipliers: Multipliers) -> Rea
 
     -inf where the multipliers of the rows are all 0, which says nothing about the objective.
     """
-    usable, known = normalised(statement, multipliers)
-    minorant = _minorant(statement, usable, statement.ceilings.cap)
-    least = _least_over_limits(minorant, 0.0, statement.limits)
-    return np.where(known, minorant.constant + least - _rounding(statement, minorant.constant_size), -np.inf)
+
+    def in_full() -> Real:
+        usable, known = normalised(statement, multipliers)
+        minorant = _minorant(statement, usable, statement.ceilings.cap)
+        least = _least_over_limits(minorant, 0.0, statement.limits)
+        return np.where(known, minorant.constant + least - _rounding(statement, minorant.constant_size), -np.inf)
+
+    return _in_loops(statement, multipliers, None, in_full)
 
 
 def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Real, Multipliers]:
     """The highest of the lower bounds (...) that several multipliers prove, and those that prove it: the first of equal
     ones. All are evaluated at once, as many programs are."""
-    together = Multipliers(*(np.array(parts) for parts in zip(*(vars(each).values() for each in proofs), strict=True)))
+    each = list(proofs)
+    together = Multipliers(*(np.array(parts) for parts in zip(*(vars(one).values() for one in each), strict=True)))
     bound = objective_lower_bound(statement, together)
     best = np.where(np.isnan(bound), -np.inf, bound).argmax(axis=0)
+    if not best.any():
+        return bound[0], each[0]
     taken = (best, *np.indices(best.shape))
     return bound[taken], together.chosen(taken)
 
@@ -133,13 +140,32 @@ def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Rea
         the rows of a group is the price nu of P(u) <= target.
     target : (...) largest objective that still counts as optimal.
     """
-    usable = multipliers.admissible(statement)
-    ceilings = statement.ceilings
-    minorant = _minorant(statement, usable, ceilings.cap + ceilings.tolerance * ceilings.size)
-    charge = usable.price(statement) * target
-    least = _least_over_limits(minorant, 1.0, statement.limits)
-    rounding = _rounding(statement, minorant.constant_size + np.abs(charge))
-    return np.maximum(minorant.constant - charge + least - rounding, 0.0)
+
+    def in_full() -> Real:
+        usable = multipliers.admissible(statement)
+        minorant = _minorant(statement, usable, statement.ceilings.counted)
+        charge = usable.price(statement) * target
+        least = _least_over_limits(minorant, 1.0, statement.limits)
+        rounding = _rounding(statement, minorant.constant_size + np.abs(charge))
+        return np.maximum(minorant.constant - charge + least - rounding, 0.0)
+
+    return _in_loops(statement, multipliers, target, in_full)
+
+
+def _in_loops(statement: Statement, multipliers: Multipliers, target: Real | None, in_full: Callable[[], Real]) -> Real:
+    """A bound by compiled loops; in full where those are not for such programs, or finer numbers are called for.
+
+    Parameters
+    ----------
+    target : (...) of a bound on the mass; None of one on the objective.
+    """
+    flat = statement.flat
+    if flat is None or not flat.suits(multipliers.row.shape[:-1]):
+        return in_full()
+    if target is not None and target.shape != flat.leading:
+        return in_full()
+    bound, dear = flat.bounds(multipliers, target)
+    return np.where(dear, in_full(), bound) if dear.any() else bound
 
 
 def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Real, Complex, Real]:
@@ -151,8 +177,7 @@ def affine_minorant(statement: Statement, multipliers: Multipliers) -> tuple[Rea
     unbalances; and what the slopes may be off by (..., K).
     """
     usable, known = normalised(statement, multipliers)
-    ceilings = statement.ceilings
-    minorant = _minorant(statement, usable, ceilings.cap + ceilings.tolerance * ceilings.size)
+    minorant = _minorant(statement, usable, statement.ceilings.counted)
     constant = minorant.constant - _rounding(statement, minorant.constant_size)
     return np.where(known, constant, -np.inf), minorant.slope, minorant.slope_rounding
 

@@ -145,14 +145,14 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
     certify_s = time.perf_counter() - began
     rest, first, light = points_at(statement, np.array([np.zeros(smallest.shape), smallest, lightest])).each
     best = _better(rest, first)
-    target = np.maximum(best.objective, lower_bound + TARGET * share - statement.rounding(best.unbalance))
+    target = np.maximum(best.objective, lower_bound + TARGET * share - best.rounding)
     counted, chosen = np.maximum(best.objective, lower_bound) + share, best
     if not least_mass:
         mass_proof, mass_bound = nothing_proven(statement), np.zeros(share.shape)
     else:
         # what can be kept up to rounding is not traded for their tolerance
         kept = np.clip(light.excess, CEILING_ROUNDING, CEILING_TOLERANCE)
-        nearer = _nearer(statement, light, best, target)
+        nearer = _nearer(light, best, target)
         for point in (light, points_at(statement, nearer), rest):
             lighter = point.mass < chosen.mass
             admitted = (point.objective <= target) & (point.excess <= kept)
@@ -262,9 +262,9 @@ def _better(old: Points, new: Points) -> Points:
     return new.where(better, old)
 
 
-def _nearer(statement: Statement, lightest: Points, smallest: Points, target: Real) -> Complex:
+def _nearer(lightest: Points, smallest: Points, target: Real) -> Complex:
     """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target."""
-    over = lightest.objective - target + statement.rounding(smallest.unbalance)
+    over = lightest.objective - target + smallest.rounding
     fall = lightest.objective - smallest.objective
     needed = (over > 0) & (fall > over)
     step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)

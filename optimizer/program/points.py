@@ -16,6 +16,7 @@ class Points(NamedTuple):
     objective: Real  # (N,)
     mass: Real  # (N,) kg
     excess: Real  # (N,) largest relative excess over a ceiling, -inf without ceilings
+    rounding: Real  # (N,) of the objective
 
     @property
     def each(self) -> "Iterator[Points]":
@@ -49,7 +50,10 @@ class Points(NamedTuple):
 
 def points_at(statement: Statement, u: Complex) -> Points:
     """What unbalances (..., N, K) [kg m] come to."""
-    return Points(u, statement.objective(u), statement.mass(u), excess_at(statement, u))
+    flat = statement.flat
+    if flat is not None and flat.suits(u.shape[:-1]):
+        return Points(u, *flat.values(u))
+    return Points(u, statement.objective(u), statement.mass(u), excess_at(statement, u), statement.rounding(u))
 
 
 def excess_at(statement: Statement, u: Complex) -> Real:

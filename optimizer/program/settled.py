@@ -41,7 +41,7 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
         if not moved.size:
             return points, moved
         new = points_at(part, unbalance)
-        kept = new.objective <= np.maximum(target[programs], old.objective) + part.rounding(unbalance)
+        kept = new.objective <= np.maximum(target[programs], old.objective) + new.rounding
         kept &= new.excess <= np.maximum(old.excess, CEILING_ROUNDING)
         kept &= new.mass <= np.maximum(old.mass, heaviest[programs])
         return points.put(programs, new.where(kept, old)), programs[moved][~kept[moved]]

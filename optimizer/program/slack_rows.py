@@ -13,6 +13,7 @@ from optimizer.arrays import Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.compiled import BothStages, both_stages
 from optimizer.program.norms import Norms
+from optimizer.program.points import points_at
 from optimizer.program.statement import Names, Statement
 
 #: a row that is below the largest by this share of it is far below it
@@ -41,7 +42,7 @@ def settle_without_slack_rows(
             continue
         whole, terms = statement.chosen(programs), ~pattern[statement.row]
         part = both_stages(_of_rows(whole, ~pattern, terms), share[programs], demand[programs], least_mass)
-        objective = whole.objective(part.unbalance)
+        objective = points_at(whole, part.unbalance).objective
         # no row that was left out has become the largest
         kept = part.certified & (objective <= part.objective)
         part = replace(

@@ -13,6 +13,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real, mapped
 from optimizer.program.ceilings import Ceilings
+from optimizer.program.flat import Flat, flat
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 
@@ -74,6 +75,11 @@ class Statement:
         """The same of the influences (..., J + I, K)."""
         return np.concatenate([self.norms.influence, self.ceilings.norms.influence], axis=-2)
 
+    @cached_property
+    def flat(self) -> Flat | None:
+        """The same for compiled loops; None where those are not for such programs."""
+        return flat(self)
+
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""
         return self.objective_of(self.norms.sizes(u))
@@ -87,7 +93,7 @@ class Statement:
     @cached_property
     def at_rest(self) -> Real:
         """P(0) (...)."""
-        return self.objective(np.zeros(self.limits.radius.shape, complex))
+        return self.objective_of(np.abs(self.norms.counting(self.norms.constant)))
 
     @cached_property
     def single_reach(self) -> Real:

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, spread
+from optimizer.arrays import Complex, Real, Reals, spread
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, ceiling_allowance
+from optimizer.program.points import points_at
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Statement
 
@@ -85,15 +86,16 @@ def claim(
     mass : (...) kg, of the counterweights as they are returned.
     lower_bound, multipliers : of the objective, with its proof; None where there is none.
     """
-    excess = statement.ceilings.excess(u)
-    allowance = 0.0 if multipliers is None else ceiling_allowance(statement, multipliers, excess)
-    size = yardstick(statement)[..., None]
+    point, size = points_at(statement, u), yardstick(statement)[..., None]
+    allowance: Reals = 0.0
+    if multipliers is not None and (point.excess > 0).any():
+        allowance = ceiling_allowance(statement, multipliers, statement.ceilings.excess(u))
     return Claim(
-        statement.objective(u)[..., None],
+        point.objective[..., None],
         np.asarray(lower_bound - allowance)[..., None],
-        statement.rounding(u)[..., None],
+        point.rounding[..., None],
         size,
-        np.maximum.reduce(excess, axis=-1, initial=-np.inf),
+        point.excess,
         mass,
         mass_resolution(statement, size),
         mass_lower_bound,

@@ -1,5 +1,7 @@
 """The bound is true whatever the multipliers, and sharp for the right ones."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from hypothesis import given
@@ -14,6 +16,7 @@ from optimizer.program.certificate import (
     mass_lower_bound,
     objective_lower_bound,
 )
+from optimizer.program.points import points_at
 from tests.program.cases import COMBINATIONS, random_limits, random_point, random_statement, stacked
 
 
@@ -54,6 +57,25 @@ def test_the_best_of_several_proofs_is_the_best_one_by_one(seed: int, case: tupl
     bound, proof = best_proof(problem, each)
     assert float(bound) == np.nanmax(single)
     assert objective_lower_bound(problem, proof) == bound
+
+
+@given(seed=st.integers(0, 10**6), case=st.sampled_from(COMBINATIONS))
+def test_loops_prove_what_arrays_prove(seed: int, case: tuple) -> None:
+    problem, rng = random_statement(seed, *case), np.random.default_rng(seed + 1)
+    # independent: of complex influences the same by arrays
+    in_full = replace(problem, norms=replace(problem.norms, influence=problem.norms.influence.astype(complex)))
+    assert problem.flat is not None
+    assert in_full.flat is None
+    multipliers, target = _random_multipliers(rng, problem), np.asarray(rng.uniform(0.0, 3.0))
+    size = float(np.sum(np.abs(multipliers.term)) + np.sum(np.abs(multipliers.ceiling))) + 1.0
+    price = float(np.sum(np.maximum(multipliers.row, 0.0)))
+    bounds = [objective_lower_bound(each, multipliers) for each in (problem, in_full)]
+    assert bounds[0] == pytest.approx(bounds[1], rel=1e-12, abs=1e-11 * size / price if price > 0 else 0.0)
+    masses = [mass_lower_bound(each, multipliers, target) for each in (problem, in_full)]
+    assert masses[0] == pytest.approx(masses[1], rel=1e-12, abs=1e-11 * (size + price))
+    u = np.array([random_point(rng, problem.limits) for _ in range(3)])
+    for one, other in zip(points_at(problem, u), points_at(in_full, u), strict=True):
+        assert one == pytest.approx(other, rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("budget", [False, True])

@@ -1,0 +1,139 @@
+"""Programs as compiled loops take them, and what those loops are asked.
+
+An answer asks for a handful of numbers many times: a loop of simple operations takes a tenth of the time of arrays.
+"""
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optimizer.arrays import Complex, Real, in_order
+
+if TYPE_CHECKING:
+    from optimizer.program.certificate import Multipliers
+    from optimizer.program.statement import Statement
+
+
+@dataclass(frozen=True)
+class Flat:
+    """N programs in the usual order in memory: one group, real influences, webs that carry what they like."""
+
+    leading: tuple[int, ...]  # axes of the programs, of which one is made here
+    owner: np.ndarray  # (J,) row of a term
+    constant: Complex  # (N, J + I) of the terms, then of what is under ceilings
+    influence: Real  # (N, J + I, K)
+    floor: Real  # (N, rows)
+    cap: Real  # (N, I)
+    counted: Real  # (N, I) cap up to which a ceiling counts as kept
+    size: Real  # (N, I)
+    radius: Real  # (N, K)
+    max_mass: Real  # (N, K)
+    budget: Real  # (N,)
+    free: np.ndarray  # (N, K) bool
+    centre: Complex  # (N, K)
+    cosine: Real  # (N, K)
+    sine: Real  # (N, K)
+
+    def suits(self, leading: tuple[int, ...]) -> bool:
+        """Whether what has these axes is a number of points, or of proofs, for each of the programs."""
+        return leading[len(leading) - len(self.leading) :] == self.leading
+
+    def values(self, u: Complex) -> Real:
+        """What points (..., *leading, K) come to (4, ..., *leading).
+
+        Objective, mass, largest relative excess over a ceiling (-inf without ceilings), rounding of the objective.
+        """
+        # the compiler is loaded when it is first needed
+        from optimizer.program.kernel.values import values
+
+        *leading, webs = u.shape
+        found = np.empty((4, math.prod(leading)))
+        values(
+            in_order(u).reshape(-1, webs),
+            self.owner,
+            self.constant,
+            self.influence,
+            self.floor,
+            self.cap,
+            self.size,
+            self.radius,
+            np.empty(self.floor.shape[1]),
+            found,
+        )
+        return found.reshape(4, *leading)
+
+    def bounds(self, multipliers: "Multipliers", target: Real | None = None) -> tuple[Real, np.ndarray]:
+        """Lower bounds (..., *leading) on the objective, or on the mass, and which call for finer numbers.
+
+        Parameters
+        ----------
+        target : leading axes; largest objective that counts, for a bound on the mass.
+        """
+        from optimizer.program.kernel.bounds import bounds
+
+        leading = multipliers.row.shape[:-1]
+        many, (rows, terms, webs) = math.prod(leading), (self.floor.shape[1], *self.influence.shape[1:])
+        found, dear = np.empty(many), np.empty(many, np.bool_)
+        bounds(
+            0.0 if target is None else 1.0,
+            self.budget if target is None else in_order(target).reshape(-1),
+            self.cap if target is None else self.counted,
+            in_order(multipliers.term).reshape(many, -1),
+            in_order(multipliers.row).reshape(many, -1),
+            in_order(multipliers.ceiling).reshape(many, terms - self.owner.size),
+            self.owner,
+            self.constant,
+            self.influence,
+            self.floor,
+            self.radius,
+            self.max_mass,
+            self.budget,
+            self.free,
+            self.centre,
+            self.cosine,
+            self.sine,
+            np.empty(rows),
+            np.empty(terms, complex),
+            np.empty((2, webs)),
+            np.empty((2, webs), np.int64),
+            found,
+            dear,
+        )
+        return found.reshape(leading), dear.reshape(leading)
+
+
+def flat(statement: "Statement") -> Flat | None:
+    """Programs as loops take them; None where some are not of the kind that they are for."""
+    norms, ceilings, limits = statement.norms, statement.ceilings, statement.limits
+    influence, leading = statement.every_influence, statement.floor.shape[:-1]
+    if statement.group[-1] > 0 or limits.alike is not None or influence.dtype != float or not influence.size:
+        return None
+    if norms.scatter or ceilings.norms.scatter or any(norms.scalar) or any(ceilings.norms.scalar):
+        return None
+    if limits.radius.shape[:-1] != leading:
+        return None
+    many, webs = math.prod(leading), influence.shape[-1]
+    kept = ceilings.counted if ceilings.names else ceilings.cap
+
+    def of_programs(array: np.ndarray) -> np.ndarray:
+        return in_order(array).reshape(many, -1) if array.size else np.empty((many, 0), array.dtype)
+
+    return Flat(
+        leading=leading,
+        owner=in_order(statement.row),
+        constant=of_programs(statement.every_constant),
+        influence=in_order(influence).reshape(many, -1, webs),
+        floor=of_programs(statement.floor),
+        cap=of_programs(ceilings.cap),
+        counted=of_programs(kept),
+        size=of_programs(ceilings.size),
+        radius=of_programs(limits.radius),
+        max_mass=of_programs(limits.max_mass),
+        budget=in_order(limits.max_total_mass).reshape(many),
+        free=of_programs(limits.free),
+        centre=of_programs(limits.centre),
+        cosine=of_programs(limits.half_angle_cos),
+        sine=of_programs(limits.half_angle_sin),
+    )
