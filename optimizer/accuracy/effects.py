@@ -1,7 +1,7 @@
 """What accuracy costs in the simulated effects: the torque over the turn, and what a flywheel has to take.
 
-The reference is what the service computes: Gauss-Legendre panels between the angles at which valves open and
-rows reverse. Beside it stands what a spreadsheet does: values at equal steps, their average as the mean
+The reference agrees with what the service computes to rounding: Gauss-Legendre panels between the angles at which
+valves open and rows reverse. Beside it stands what a spreadsheet does: values at equal steps, their average as the mean
 (which the trapezoidal rule is over a whole turn), the running trapezoidal sum for the energy.
 """
 

@@ -22,14 +22,16 @@ from optimizer.effects.results import (
 from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, trace_rules, traces, without_gas
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import gas_forces
-from optimizer.mechanics.indicated import turns_of
+from optimizer.mechanics.indicated import TURN, turns_of
 from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.layout import layout as layout_of
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.rod import RodForces, rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data
+from optimizer.mechanics.row_work import RowWork
 from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
+from optimizer.pieces import ROUNDING
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
@@ -178,28 +180,48 @@ def _turns(context: Context) -> int:
     return turns_of(context.given["gas"].traces) if "gas" in context.given else 1
 
 
+def _row_work(context: Context) -> RowWork | None:
+    """Work of the rows in closed form, where there is one."""
+    gas: GasCycle | None = context.given.get("gas")
+    if context.fidelity.kinematics != "exact" or (gas is not None and gas.traces):
+        return None
+    friction = context.given["friction"].magnitude if "friction" in context.given else None
+    return RowWork(context.layout, friction, None if gas is None else gas.chambers)
+
+
 def _torque_integrals(context: Context) -> TorqueIntegrals:
-    fine = panels(_breaks(context), _WIDEST_PANEL, halved=True, turns=_turns(context))
-    rows, total = _torque_at(context, fine)
     omega = context.layout.omega
-    friction_power = np.zeros(omega.shape)
+    friction_power, rotating = np.zeros(omega.shape), np.zeros(omega.shape)
     if "friction" in context.given:
         friction = context.given["friction"]
         per_turn = np.sum(friction.magnitude * 4.0 * context.layout.reciprocating.crank_radius, axis=-1)
-        friction_power = per_turn * omega / (2.0 * np.pi) + friction.torque * omega
-    row_mean = np.zeros_like(context.layout.reciprocating.mass)
-    for k in range(rows.shape[-2]):
-        row_mean[..., k] = mean(fine, rows[..., k, :])
+        friction_power, rotating = per_turn * omega / TURN + friction.torque * omega, friction.torque
+    closed = _row_work(context)
+    if closed is None:
+        fine = panels(_breaks(context), _WIDEST_PANEL, halved=True, turns=_turns(context))
+        rows, total = _torque_at(context, fine)
+        row_mean = np.zeros_like(context.layout.reciprocating.mass)
+        for k in range(rows.shape[-2]):
+            row_mean[..., k] = mean(fine, rows[..., k, :])
+        whole, energy = mean(fine, total), fluctuation(fine, total)
+    else:
+        row_mean = closed.of_a_turn / TURN
+        whole = np.sum(row_mean, axis=-1) + rotating
+        energy = closed.fluctuation(context.given["whole_turn"].torque).value
     return TorqueIntegrals(
         row_mean=row_mean,
-        mean=mean(fine, total),
-        fluctuation=fluctuation(fine, total),
+        mean=whole,
+        fluctuation=energy,
         indicated_power=np.sum(_indicated_power(context), axis=-1),
         friction_power=friction_power,
     )
 
 
 def _torque_errors(context: Context) -> TorqueErrors:
+    closed, torque = _row_work(context), context.given["whole_turn"].torque
+    if closed is not None:
+        rounding = ROUNDING * torque.pieces.size.reshape(context.layout.omega.shape)
+        return TorqueErrors(mean=rounding, fluctuation=closed.fluctuation(torque).error)
     coarse = panels(_breaks(context), _WIDEST_PANEL, turns=_turns(context))
     fine = context.given["torque_integrals"]
     _, total = _torque_at(context, coarse)

@@ -102,7 +102,7 @@ def _switching(chambers: Chambers, layout: Layout) -> tuple[Real, Real, Real]:
     """Switching travels, and how far before full volume discharge opens: each by itself, without cancellation."""
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
     clear = chambers.clearance * stroke
-    log = _log_ratio(chambers)
+    log = log_ratio(chambers)
     suction = clear * np.expm1(log / chambers.expansion_exponent)
     # share of the full volume that compression takes away
     taken = -np.expm1(-log / chambers.compression_exponent)
@@ -111,7 +111,7 @@ def _switching(chambers: Chambers, layout: Layout) -> tuple[Real, Real, Real]:
     return np.where(opens, suction, np.nan), np.where(opens, discharge, np.nan), np.where(opens, before, np.nan)
 
 
-def _log_ratio(chambers: Chambers) -> Real:
+def log_ratio(chambers: Chambers) -> Real:
     """ln(p_d / p_s), 0 on open sides; good for pressures that hardly differ."""
     # an open side may be open to a vacuum
     low = np.where(chambers.closed, chambers.suction, 1.0)
@@ -153,7 +153,7 @@ def indicated_work(chambers: Chambers, layout: Layout) -> Real:
     """
     stroke = 2.0 * layout.reciprocating.crank_radius[..., :, None]
     clear = np.where(chambers.closed, chambers.clearance, 1.0) * stroke
-    low, rise, log = chambers.suction, chambers.discharge - chambers.suction, _log_ratio(chambers)
+    low, rise, log = chambers.suction, chambers.discharge - chambers.suction, log_ratio(chambers)
     suction, discharge = switching_travels(chambers, layout)
     compression, expansion = (
         _above_start(log, n) for n in (chambers.compression_exponent, chambers.expansion_exponent)

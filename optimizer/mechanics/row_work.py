@@ -1,0 +1,229 @@
+"""Work of the rows on the shaft from one angle to another, in closed form, and what a flywheel takes up of it.
+
+With the exact motion the lever of a row is dx/dphi, so that its torque does the work of the piston force: of m a that
+is m c^2 / 2, of the friction the force times the way, of the gas -integral of p dV over the processes of a chamber.
+A motion cut off after the second order has levers that are not its own, and tables of pressures have no such form: for
+those there is the quadrature of :mod:`optimizer.mechanics.turn`.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.mechanics.gas import Chambers, head_sides, indicated_work, log_ratio, switching_travels
+from optimizer.mechanics.indicated import TURN
+from optimizer.mechanics.kinematics import motion
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.whole_turn import TurnCurves
+from optimizer.pieces import ROUNDING, Index
+
+#: halvings of an interval, between which Newton's method takes over
+_STEPS = 24
+#: of the secant method by the torque itself, from the roots and slopes of its cubics
+_EXACT_STEPS = 5
+
+
+class Range(NamedTuple):
+    """Range over the turn of what a flywheel takes up and gives back (...) J, and what it may be short by."""
+
+    value: Real
+    error: Real
+
+
+@dataclass(frozen=True)
+class RowWork:
+    """Work that the rows take from the shaft, with the leading axes (...) of the layout.
+
+    friction : (..., rows) N; None where there is none.
+    chambers : of the rows, none of them with a table of pressures; None where there is no gas.
+    """
+
+    layout: Layout
+    friction: Real | None
+    chambers: Chambers | None
+
+    @cached_property
+    def of_a_turn(self) -> Real:
+        """Work of every row in one turn (..., rows) J."""
+        gas = 0.0 if self._indicated is None else np.sum(self._indicated, axis=-1)
+        found: Real = gas + self._rubbed
+        return found
+
+    def beside_mean(self, angle: Real) -> Real:
+        """Running integral of torque - mean, of all rows, but for a constant, at shaft angles (..., n) rad: (..., n) J.
+
+        It repeats with every turn.
+        """
+        rows, moving = self.layout.reciprocating, motion(self.layout, angle)
+        assert moving.remaining is not None  # of the exact motion
+        own = np.mod(moving.crank_angle, TURN)
+        stroke = 2.0 * rows.crank_radius[..., None]
+        # both ways count from the outer dead centre
+        way = np.where(own < 0.5 * TURN, moving.displacement, stroke + moving.remaining)
+        work = 0.5 * rows.mass[..., None] * moving.velocity**2
+        work += self._rubbed[..., None] * (0.5 * way / stroke - own / TURN)
+        if self.chambers is not None and self._indicated is not None:
+            heads = head_sides(self.chambers.area)[:, None]
+            moved, left = moving.displacement[..., None, :], moving.remaining[..., None, :]
+            # a chamber counts from the dead centre at which it is smallest
+            since = np.mod(own[..., None, :] + np.where(heads, 0.0, 0.5 * TURN), TURN)
+            travel, rest = np.where(heads, moved, left), np.where(heads, left, moved)
+            gas = _gas_work(self.chambers, stroke[..., None], travel, rest, since < 0.5 * TURN, self._switching)
+            work += np.sum(gas - self._indicated[..., None] * (since / TURN), axis=-2)
+        found: Real = np.sum(work, axis=-2)
+        return found
+
+    def fluctuation(self, torque: TurnCurves) -> Range:
+        """Range of the running integral of torque - mean, of the torque of all rows: it turns where they are equal."""
+        leading, mean = self.layout.omega.shape, np.sum(self.of_a_turn, axis=-1) / TURN
+        angle, error = _crossings(torque, np.reshape(mean, -1))
+        work = self.beside_mean(angle.reshape(*leading, -1))
+        rounding = ROUNDING * np.max(np.abs(work), axis=-1)
+        return Range(np.max(work, axis=-1) - np.min(work, axis=-1), error.reshape(leading) + rounding)
+
+    @cached_property
+    def _rubbed(self) -> Real:
+        """Work of the friction in one turn (..., rows) J."""
+        rows = self.layout.reciprocating
+        if self.friction is None:
+            return np.zeros(rows.mass.shape)
+        work: Real = 4.0 * rows.crank_radius * self.friction
+        return work
+
+    @cached_property
+    def _indicated(self) -> Real | None:
+        """Work put into the gas of every chamber in one turn (..., rows, C) J."""
+        return None if self.chambers is None else indicated_work(self.chambers, self.layout)
+
+    @cached_property
+    def _switching(self) -> tuple[Real, Real]:
+        assert self.chambers is not None  # there is gas
+        return switching_travels(self.chambers, self.layout)
+
+
+def _gas_work(
+    chambers: Chambers, stroke: Real, travel: Real, rest: Real, growing: np.ndarray, switching: tuple[Real, Real]
+) -> Real:
+    """Work put into the gas of every chamber since it was smallest, (..., rows, C, n) J.
+
+    With l = ln(V / V_end) a polytropic of exponent n takes p V l phi((n - 1) l) from p and V, phi(z) = (e^z - 1) / z.
+
+    Parameters
+    ----------
+    stroke : (..., rows, 1, 1) m.
+    travel, rest : (..., rows, C, n) m, of the stroke, from where the chamber is smallest.
+    growing : (..., rows, C, n).
+    switching : (..., rows, C) m, travels at which suction and discharge open; nan on open sides.
+    """
+    closed, low, high = (each[..., None] for each in (chambers.closed, chambers.suction, chambers.discharge))
+    opens, delivers = (np.where(closed, each[..., None], 0.0) for each in switching)
+    expansion, compression = chambers.expansion_exponent[..., None], chambers.compression_exponent[..., None]
+    clear = np.where(closed, chambers.clearance[..., None], 1.0) * stroke
+    log, full = log_ratio(chambers)[..., None], stroke + clear
+
+    def given_back(travel: Real) -> Real:
+        length = np.minimum(np.log1p(travel / clear), log / expansion)
+        return high * clear * length * _growth((1.0 - expansion) * length) + low * np.maximum(travel - opens, 0.0)
+
+    length = np.minimum(-np.log1p(-rest / full), log / compression)
+    put_in = low * full * length * _growth((compression - 1.0) * length) + high * np.maximum(delivers - travel, 0.0)
+    of_cycle = np.where(growing, -given_back(travel), put_in - given_back(stroke))
+    # what is open takes the one pressure both ways
+    work: Real = chambers.area[..., None] * np.where(closed, of_cycle, -low * travel)
+    return work
+
+
+def _growth(power: Real) -> Real:
+    """(e^z - 1) / z, 1 at 0."""
+    safe = np.where(power == 0.0, 1.0, power)
+    return np.where(power == 0.0, 1.0, np.expm1(safe) / safe)
+
+
+def _crossings(torque: TurnCurves, mean: Real) -> tuple[Real, Real]:
+    """Shaft angles (N, n) rad at which one curve each crosses its mean (N,), jumps included, and what the integral up
+    to there may be off by (N,); where a design has fewer than another its angles are 0."""
+    pieces = torque.pieces
+    cubic, half = pieces.cubic.real.copy(), pieces.half
+    cubic[..., 0] -= mean[:, None]
+    # between its ends and where it turns a cubic has at most one root
+    ends = np.stack([np.full(half.shape, -1.0), *_turning(cubic), np.ones(half.shape)], axis=-1)
+    value, there = _cubic_at(cubic[..., None, :], ends), half > 0.0
+    design, piece, number = np.nonzero((value[..., :-1] * value[..., 1:] < 0.0) & there[..., None])
+    low, high = ends[design, piece, number], ends[design, piece, number + 1]
+    place = _roots(cubic[design, piece], low, high, value[design, piece, number])
+    angle, off = _polished(torque, mean, (design, piece), place, (low, high))
+    error = np.zeros(len(half))
+    np.maximum.at(error, design, off)
+    # what comes before each piece, of those that have a width
+    known = np.maximum.accumulate(np.where(there, np.arange(half.shape[1]), -1), axis=-1)
+    before = np.concatenate([known[:, -1:], known[:, :-1]], axis=-1)
+    before = np.where(before < 0, known[:, -1:], before)
+    last = np.take_along_axis(value[..., -1], before, axis=-1)
+    jumped, at = np.nonzero((last * value[..., 0] <= 0.0) & there)
+    every = np.concatenate([design, jumped])
+    return _by_design(every, np.concatenate([angle, (pieces.centre - half)[jumped, at]]), len(half)), 2.0 * error
+
+
+def _polished(
+    torque: TurnCurves, mean: Real, where: tuple[Index, Index], place: Real, between: tuple[Real, Real]
+) -> tuple[Real, Real]:
+    """Angles (m,) where the curve itself is its mean, from places in pieces, and what the integral may be off by."""
+    design, piece = where
+    centre, half = torque.pieces.centre[where], torque.pieces.half[where]
+    slope, step, before = _slope_at(torque.pieces.cubic[where].real, place), np.zeros(place.shape), None
+    for _ in range(_EXACT_STEPS if design.size else 0):
+        value = torque.values(design, piece, centre + half * place).real - mean[design]
+        if before is not None:
+            slope = np.where(step == 0.0, slope, (value - before) / np.where(step == 0.0, 1.0, step))
+        next_ = np.clip(place - value / np.where(slope == 0.0, np.inf, slope), *between)
+        place, step, before = next_, next_ - place, value
+    # the integral is flat there
+    return centre + half * place, np.zeros(place.shape) if before is None else np.abs(before * step * half)
+
+
+def _by_design(design: Index, values: Real, designs: int) -> Real:
+    """Values (m,) of some designs as rows (N, n), ended by zeros."""
+    order, count = np.argsort(design, kind="stable"), np.bincount(design, minlength=designs)
+    column = np.arange(design.size) - np.repeat(np.cumsum(count) - count, count)
+    # never a single angle, for which numpy would add the rows in another order
+    found = np.zeros((designs, int(np.max(count, initial=0)) + 2))
+    found[design[order], column] = values[order]
+    return found
+
+
+def _turning(cubic: Real) -> tuple[Real, Real]:
+    """Places in [-1, 1] at which cubics (..., 4) turn, rising; where they do not, an end."""
+    _, slope, bend, third = np.moveaxis(cubic, -1, 0)
+    square = bend**2 - 3.0 * slope * third
+    # the larger root first, the smaller by it: nothing cancels
+    larger = -(bend + np.copysign(np.sqrt(np.maximum(square, 0.0)), bend))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        found = np.stack([larger / (3.0 * third), slope / larger])
+    found = np.where((square > 0.0) & np.isfinite(found), np.clip(found, -1.0, 1.0), 1.0)
+    return np.min(found, axis=0), np.max(found, axis=0)
+
+
+def _roots(cubic: Real, low: Real, high: Real, at_low: Real) -> Real:
+    """Roots (m,) of cubics (m, 4) that change their sign once between low and high (m,)."""
+    low, high, place = low.copy(), high.copy(), 0.5 * (low + high)
+    for _ in range(_STEPS):
+        value = _cubic_at(cubic, place)
+        same = value * at_low > 0.0
+        low, high = np.where(same, place, low), np.where(same, high, place)
+        slope = _slope_at(cubic, place)
+        step = place - value / np.where(slope == 0.0, 1.0, slope)
+        place = np.where((step > low) & (step < high), step, 0.5 * (low + high))
+    return place
+
+
+def _cubic_at(cubic: Real, place: Real) -> Real:
+    value: Real = cubic[..., 0] + place * (cubic[..., 1] + place * (cubic[..., 2] + place * cubic[..., 3]))
+    return value
+
+
+def _slope_at(cubic: Real, place: Real) -> Real:
+    value: Real = cubic[..., 1] + place * (2.0 * cubic[..., 2] + place * 3.0 * cubic[..., 3])
+    return value

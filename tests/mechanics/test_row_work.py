@@ -1,0 +1,102 @@
+"""Work of the rows in closed form: what their torque integrates to, and what a flywheel takes up of it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.arrays import Real
+from optimizer.effects.registry import run
+from optimizer.mechanics.indicated import TURN
+from optimizer.mechanics.layout import layout
+from optimizer.mechanics.row_work import RowWork
+from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
+from optimizer.mechanics.whole_turn import WholeTurn, break_angles
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import Fidelity
+from tests.analyze.driven import STYLES, random_driven
+
+
+@dataclass(frozen=True)
+class Case:
+    """One machine: the work of its rows, their torque, and the angles between which that is smooth."""
+
+    work: RowWork
+    whole: WholeTurn
+    breaks: Real
+
+    def panels(self) -> Turn:
+        return panels(self.breaks, np.deg2rad(5.0))
+
+    def torque(self, turn: Turn) -> Real:
+        """Of all rows, at the nodes of panels, N m."""
+        found: Real = np.sum(self.whole.rows.crank_radius.T * self.whole.tangential(turn)[0], axis=0)
+        return found
+
+
+def case(seed: int, style: str, rod_ratio: float | None = None, **rest: Any) -> Case:
+    body = random_driven(seed, style, **rest)
+    for throw in body["throws"]:
+        for row in throw["rows"]:
+            if rod_ratio is not None:
+                row["connecting_rod"]["length_m"] = throw["crank_radius_m"] / rod_ratio
+    machine = ReciprocatingMachine.model_validate(body)
+    plan = layout(machine)
+    found = run(machine, plan, ("gas", "friction", "whole_turn"), Fidelity(), np.zeros(1))
+    friction = found["friction"].magnitude if "friction" in found else None
+    return Case(
+        RowWork(plan, friction, found["gas"].chambers), found["whole_turn"], break_angles(plan, found["gas"].opens)
+    )
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("seed", range(4))
+def test_the_work_of_a_turn_is_that_of_the_torque(seed: int, style: str) -> None:
+    one = case(seed, style)
+    turn = one.panels()
+    radius = one.whole.rows.crank_radius[0]
+    by_row = [TURN * float(mean(turn, force)) for force in radius[:, None] * one.whole.tangential(turn)[0]]
+    # independent: by Gauss quadrature of the tangential forces
+    assert one.work.of_a_turn == pytest.approx(np.array(by_row), rel=1e-11)
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("rod_ratio", [1e-6, None, 0.9])
+@pytest.mark.parametrize("friction", [None, {"mechanical_efficiency": 0.9, "reciprocating_share": 0.6}])
+def test_from_one_angle_to_another(style: str, rod_ratio: float | None, friction: dict[str, float] | None) -> None:
+    one = case(5, style, rod_ratio, friction=friction)
+    turn = one.panels()
+    over_mean = one.torque(turn) - np.sum(one.work.of_a_turn) / TURN
+    nodes = turn.rule.weights.size
+    of_panel = over_mean.reshape(-1, nodes) @ turn.rule.weights * (0.5 * turn.width)
+    # independent: by Gauss quadrature, from panel to panel
+    running = np.concatenate([[0.0], np.cumsum(of_panel)])
+    found = one.work.beside_mean(np.append(turn.start, TURN))
+    assert found - found[0] == pytest.approx(running, rel=1e-11, abs=1e-12 * np.max(np.abs(found)))
+
+
+@pytest.mark.parametrize("style", STYLES)
+@pytest.mark.parametrize("seed", range(4))
+def test_its_range_is_what_a_flywheel_takes_up(seed: int, style: str) -> None:
+    one = case(seed, style)
+    turn, found = one.panels(), one.work.fluctuation(one.whole.torque)
+    # independent: by the interpolants of the torque
+    assert found.value == pytest.approx(float(fluctuation(turn, one.torque(turn))), rel=1e-12)
+    assert found.error <= 1e-9 * found.value
+
+
+@pytest.mark.parametrize("rod_ratio", [0.99, 0.9999])
+def test_the_error_covers_rods_hardly_longer_than_the_crank(rod_ratio: float) -> None:
+    for seed in range(4):
+        one = case(seed, "v", rod_ratio)
+        turn, found = one.panels(), one.work.fluctuation(one.whole.torque)
+        by_quadrature = float(fluctuation(turn, one.torque(turn)))
+        assert abs(found.value - by_quadrature) <= found.error + 1e-10 * by_quadrature
+
+
+def test_more_angles_change_no_bit() -> None:
+    one = case(1, "w")
+    angle = np.linspace(0.0, TURN, 7)
+    together = one.work.beside_mean(angle)
+    assert np.array_equal(one.work.beside_mean(angle[2:4]), together[2:4])
