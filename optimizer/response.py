@@ -42,7 +42,8 @@ class Phasors:
     def major_axis_deg(self) -> Real:
         """Direction of the major axis in [0, 180) degrees; 0 for a circle, which has none."""
         both = (self.co != 0) & (self.counter != 0)
-        axis = np.rad2deg(0.5 * (np.angle(self.co) + np.angle(self.counter)))
+        both_phases = np.arctan2(self.co.imag, self.co.real) + np.arctan2(self.counter.imag, self.counter.real)
+        axis = np.rad2deg(0.5 * both_phases)
         axis = np.mod(axis, 180.0)
         return np.where(both & (axis < 180.0), axis, 0.0)
 

@@ -52,17 +52,21 @@ class Prepared:
         """Sampled shaft angles as an answer holds them."""
         return tuple(self.angle_deg.tolist())
 
-    @property
+    @cached_property
     def omega_squared(self) -> float:
         return float(self.layout.omega**2)
 
     def first_order(self, unbalance: Complex | None = None) -> Wrench:
         """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
-        wrench = self.simulated.first_order
-        if unbalance is not None:
-            wrench = wrench.plus(counterweights(self.layout, unbalance))
-            wrench = self.with_shafts(wrench, 1)
-        return wrench.times(self.layout.omega**2)
+        if unbalance is None:
+            return self._bare
+        wrench = self.simulated.first_order.plus(counterweights(self.layout, unbalance))
+        return self.with_shafts(wrench, 1).times(self.layout.omega**2)
+
+    @cached_property
+    def _bare(self) -> Wrench:
+        """First-order force [N] and moment [N m] without counterweights."""
+        return self.simulated.first_order.times(self.layout.omega**2)
 
     def with_shafts(self, wrench: Wrench, order: int) -> Wrench:
         """Force and moment of an order over omega^2, with what the balance shafts add."""

@@ -52,3 +52,13 @@ class Effect:
     problems: Callable[[Machine], Iterator[FieldProblem]] = _none
     rules: Callable[[Machine], Iterator[Rule]] = _none
     applies: Callable[[Machine], bool] = _always
+
+    @property
+    def demanding(self) -> bool:
+        """Whether it asks anything of the request."""
+        return self.problems is not _none or self.rules is not _none
+
+    @property
+    def universal(self) -> bool:
+        """Whether every machine has it."""
+        return self.applies is _always

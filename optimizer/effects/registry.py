@@ -3,7 +3,7 @@
 import time
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cache, cached_property, lru_cache
 from typing import Any
 
 import numpy as np
@@ -30,7 +30,8 @@ _UNUSED = EffectUse(simulated=False, needed_by=(), time_ms=0.0)
 
 def closure(machine: Machine, needs: Sequence[str]) -> list[str]:
     """Effects that have to run for these, in the order in which they can; those that do not apply left out."""
-    return [name for name in effects_of(needs) if EFFECTS[name].applies(machine)]
+    names = effects_of(needs)
+    return [*names] if _universal(names) else [name for name in names if EFFECTS[name].applies(machine)]
 
 
 def effects_of(needs: Sequence[str]) -> tuple[str, ...]:
@@ -47,6 +48,18 @@ def _effects_of(needs: tuple[str, ...]) -> tuple[str, ...]:
     return tuple(name for name in EFFECTS if name in wanted)
 
 
+@lru_cache(maxsize=256)
+def _universal(names: tuple[str, ...]) -> bool:
+    """Whether every machine has these effects."""
+    return all(EFFECTS[name].universal for name in names)
+
+
+@cache
+def _demanding(name: str) -> bool:
+    """Whether an effect, or one that it needs, asks anything of a machine."""
+    return any(EFFECTS[each].demanding for each in effects_of((name,)))
+
+
 def problems_of(machine: Machine, needs: Sequence[str]) -> Iterator[FieldProblem]:
     """Fields that these effects need, and all that they need, and the machine does not give."""
     for name in closure(machine, needs):
@@ -60,6 +73,8 @@ def rules_of(machine: Machine, name: str) -> Iterator[Rule]:
     ----------
     machine : its fields may hold columns (n,); a verdict is then one for all, or one for each.
     """
+    if not _demanding(name):
+        return
     for path, message in EFFECTS[name].problems(machine):
         yield Rule(True, path, message)
     if not any(problems_of(machine, (name,))):

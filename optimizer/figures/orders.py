@@ -5,7 +5,7 @@ from typing import Any
 from optimizer.arrays import Complex, Real
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS
 from optimizer.figures.output import Columns, Output
-from optimizer.figures.phasors import orders_of
+from optimizer.figures.phasors import orders_of, vectors_of
 from optimizer.mechanics.inertia import Wrench
 from optimizer.scene import Prepared
 from schemas.outputs import OrdersComparison
@@ -24,7 +24,8 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
 
     def found(fitted: Complex | None) -> list[dict[str, Any]]:
-        return orders_of([*_by_order(scene, fitted).items()])
+        by_order = _by_order(scene, fitted)
+        return orders_of([*by_order], vectors_of([*by_order.values()]))
 
     return OrdersComparison.model_validate(
         {"before": tuple(found(None)), "after": None if unbalance is None else tuple(found(unbalance))}

@@ -5,14 +5,24 @@ from typing import Any
 
 import numpy as np
 
+from optimizer.arrays import Complex
 from optimizer.mechanics.inertia import Wrench
 
 
-def orders_of(wrenches: Sequence[tuple[int, Wrench]]) -> list[dict[str, Any]]:
-    """Fields of orders (:class:`schemas.outputs.Order`) of force [N] and moment [N m] of one machine."""
-    pairs = [[(pair.co, pair.counter) for pair in wrench] for _, wrench in wrenches]
-    vectors = np.array(pairs, dtype=complex).reshape(len(pairs), 2, 2)
-    phase = np.where(vectors == 0, 0.0, np.rad2deg(np.angle(vectors)))
+def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
+    """Phasors (n, 2, 2) of wrenches: of force [N] and moment [N m] that which turns with the shaft and the other."""
+    vectors = [vector for wrench in wrenches for pair in wrench for vector in (pair.co, pair.counter)]
+    return np.array(vectors, dtype=complex).reshape(-1, 2, 2)
+
+
+def orders_of(numbers: Sequence[int], vectors: Complex) -> list[dict[str, Any]]:
+    """Fields of orders (:class:`schemas.outputs.Order`) of force [N] and moment [N m] of one machine.
+
+    Parameters
+    ----------
+    vectors : (n, 2, 2) of the wrenches of these orders.
+    """
+    phase = np.where(vectors == 0, 0.0, np.rad2deg(np.arctan2(vectors.imag, vectors.real)))
     size = np.abs(vectors)
     parts = zip(vectors.tolist(), phase.tolist(), (size[..., 0] + size[..., 1]).tolist(), strict=True)
     return [
@@ -29,7 +39,7 @@ def orders_of(wrenches: Sequence[tuple[int, Wrench]]) -> list[dict[str, Any]]:
                 )
             },
         }
-        for (number, _), each in zip(wrenches, parts, strict=True)
+        for number, each in zip(numbers, parts, strict=True)
     ]
 
 

@@ -1,18 +1,19 @@
 """Directions from angles in degrees, exact where they can be."""
 
 import numpy as np
-from numpy.typing import NDArray
 
 from optimizer.arrays import Complex, Real
 
 _QUADRANTS = np.array([1, 1j, -1, -1j])
+#: a degree in radians, as an exponent
+_DEGREE = 1j * np.pi / 180.0
 
 
 def direction(angle_deg: Real) -> Complex:
     """Unit vector e^{j angle} for angles in degrees.
 
-    The angle is first reduced to an eighth of a turn, in degrees, where the reduction is exact. So
-    angles 90, 120 or 180 degrees apart give unit vectors whose sum is exactly zero, and a machine
+    The angle is first reduced to an eighth of a turn to either side of an axis, in degrees, where the reduction is
+    exact. So angles 90, 120 or 180 degrees apart give unit vectors whose sum is exactly zero, and a machine
     that balances itself does so in the numbers as well.
 
     Parameters
@@ -23,11 +24,15 @@ def direction(angle_deg: Real) -> Complex:
     -------
     (...) complex, dimensionless.
     """
-    turn = np.mod(np.asarray(angle_deg, dtype=float), 360.0)
-    quadrant = np.floor(turn / 90.0)
-    rest = turn - 90.0 * quadrant
-    cosine, sine = _cosine(np.array([rest, 90.0 - rest]))
-    return (cosine + 1j * sine) * _QUADRANTS[quadrant.astype(int) % 4]
+    angle = np.asarray(angle_deg, dtype=float)
+    quarters = np.rint(angle / 90.0)
+    rest = angle - 90.0 * quarters
+    vector = np.asarray(np.exp(_DEGREE * rest))
+    # sin 30 = 1/2, and sin 45 = cos 45
+    size = np.abs(rest)
+    np.copysign(0.5, rest, out=vector.imag, where=size == 30.0)
+    np.copysign(vector.real, rest, out=vector.imag, where=size == 45.0)
+    return vector * _QUADRANTS.take(np.asarray(quarters).astype(np.int64), mode="wrap")
 
 
 def turned(sense: Real, angle_rad: Real) -> Complex:
@@ -46,15 +51,6 @@ def turned(sense: Real, angle_rad: Real) -> Complex:
     return np.where(sense[..., None] > 0.0, vector, np.conj(vector))
 
 
-def _cosine(angle_deg: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Cosine on [0, 90] degrees; cos 60 = 1/2 and cos 90 = 0 exactly."""
-    small = np.cos(np.deg2rad(angle_deg))
-    large = np.sin(np.deg2rad(90.0 - angle_deg))
-    value: Real = np.where(angle_deg <= 45.0, small, large)
-    value[angle_deg == 60.0] = 0.5
-    return value
-
-
 def angle_deg(vector: Complex) -> Real:
     """Angle of a vector in degrees, in [0, 360); 0 for the zero vector.
 
@@ -62,6 +58,6 @@ def angle_deg(vector: Complex) -> Real:
     ----------
     vector : (...) complex, any unit.
     """
-    value = np.rad2deg(np.angle(vector))
+    value = np.rad2deg(np.arctan2(vector.imag, vector.real))
     value = np.where(value < 0.0, value + 360.0, value)
     return np.where((value >= 360.0) | (vector == 0), 0.0, value)

@@ -33,8 +33,9 @@ def rotating(layout: Layout) -> Wrench:
 
     Source: Qian and Qu eqs (12)-(18); docs/mathematics.md section 2.
     """
-    force, couple = _summed(layout, rotating_forces(layout).co, layout.rotating.position)
-    return Wrench(Phasors(force, np.zeros(force.shape, complex)), Phasors(couple, np.zeros(couple.shape, complex)))
+    force, couple = _summed(layout, rotating_forces(layout).co[..., None, :], layout.rotating.position)
+    nothing = np.zeros(force.shape[:-1], complex)
+    return Wrench(Phasors(force[..., 0], nothing), Phasors(couple[..., 0], nothing))
 
 
 def rotating_forces(layout: Layout) -> Phasors:
@@ -57,8 +58,8 @@ def reciprocating(layout: Layout, order: int, harmonic: Callable[[int, Real], Re
     harmonic : (order, rod ratio) -> A_k; exact by default.
     """
     forces = reciprocating_forces(layout, order, harmonic)
-    co, counter = (_summed(layout, each, layout.reciprocating.position) for each in (forces.co, forces.counter))
-    return Wrench(Phasors(co[0], counter[0]), Phasors(co[1], counter[1]))
+    force, couple = _summed(layout, np.stack([forces.co, forces.counter], axis=-2), layout.reciprocating.position)
+    return Wrench(*(Phasors(pair[..., 0], pair[..., 1]) for pair in (force, couple)))
 
 
 def reciprocating_forces(
@@ -113,16 +114,16 @@ def first_order_responses(layout: Layout, baseline: Wrench) -> tuple[Response, R
 
 
 def _summed(layout: Layout, forces: Complex, position: Real) -> tuple[Complex, Complex]:
-    """Sum of forces (..., n) in planes, and their couple about the reference plane (...).
+    """Sums (..., m) of m times the forces (..., m, n) in planes (..., n), and their couples about the reference plane.
 
     Where the sum vanishes the couple is the same about any plane, and is summed about the centre, where the arms are
     short. Else it is summed with its own arms: moved there from the centre it loses what is small beside the span.
     """
-    force, about = _sums(forces, position - layout.reference_plane[..., None])
+    force, about = _sums(forces, (position - layout.reference_plane[..., None])[..., None, :])
     balanced = force == 0
-    if not balanced.any():
+    if layout.central or not balanced.any():
         return force, about
-    return force, np.where(balanced, total((position - layout.centre_plane[..., None]) * forces), about)
+    return force, np.where(balanced, total((position - layout.centre_plane[..., None])[..., None, :] * forces), about)
 
 
 def _sums(forces: Complex, arm: Real) -> tuple[Complex, Complex]:

@@ -6,6 +6,7 @@ the same formulas. Angles are unit vectors (complex), as drawn at shaft angle 0.
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields, replace
+from itertools import accumulate
 from typing import Any
 
 import numpy as np
@@ -79,6 +80,11 @@ class Layout:
     webs: Webs
     balance: BalanceWebs | None = None  # None where there are no balance shafts
 
+    @property
+    def central(self) -> bool:
+        """Whether couples are reported about the plane in which they are summed, as where none is given."""
+        return self.reference_plane is self.centre_plane
+
 
 def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     """Arrays of one machine, or of many; rods are shared between crosshead and pin here.
@@ -88,20 +94,22 @@ def layout(machine: ReciprocatingMachine | ScrollMachine) -> Layout:
     Source: lecture slides on compressors and slides on balancing (share of the rod).
     """
     if isinstance(machine, ScrollMachine):
-        turning, reciprocating, planes = _scroll(machine)
+        turning, moving, planes = _scroll(machine)
     else:
-        turning, reciprocating, planes = _reciprocating(machine)
+        turning, moving, planes = _reciprocating(machine)
+    turning_mass, turning_radius, angle, place = _table([*turning, *_unbalances(machine)], 4)
+    mass, radius, crank_angle, axis_angle, position, ratio, rest = _table(moving, 7)
+    towards, crank, axis = _directions(angle, crank_angle, axis_angle)
     places = stacked(planes)
-    centre = 0.5 * (np.minimum.reduce(places, axis=-1) + np.maximum.reduce(places, axis=-1))
+    centre = np.asarray(0.5 * (np.minimum.reduce(places, axis=-1) + np.maximum.reduce(places, axis=-1)))
+    given = machine.reference_plane_m
     return Layout(
         omega=np.asarray(machine.speed_rpm * np.pi / 30.0),
         sense=np.asarray(1.0 if machine.rotation == "ccw" else -1.0),
-        centre_plane=np.asarray(centre),
-        reference_plane=np.asarray(
-            centre if machine.reference_plane_m is None else machine.reference_plane_m, dtype=float
-        ),
-        rotating=_rotating_table([*turning, *_unbalances(machine)]),
-        reciprocating=reciprocating,
+        centre_plane=centre,
+        reference_plane=centre if given is None else np.asarray(given, dtype=float),
+        rotating=Rotating(turning_mass, turning_radius, towards, place),
+        reciprocating=Reciprocating(mass, radius, crank, axis, position, ratio, rest),
         webs=_webs(machine),
         balance=_balance_webs(machine),
     )
@@ -114,11 +122,12 @@ def spread(plan: Layout, leading: tuple[int, ...]) -> Layout:
         arrays = {field.name: getattr(part, field.name) for field in fields(part)}
         return replace(part, **{name: np.broadcast_to(one, (*leading, one.shape[-1])) for name, one in arrays.items()})
 
+    centre = np.broadcast_to(plan.centre_plane, leading)
     return Layout(
         omega=np.broadcast_to(plan.omega, leading),
         sense=np.broadcast_to(plan.sense, leading),
-        centre_plane=np.broadcast_to(plan.centre_plane, leading),
-        reference_plane=np.broadcast_to(plan.reference_plane, leading),
+        centre_plane=centre,
+        reference_plane=centre if plan.central else np.broadcast_to(plan.reference_plane, leading),
         rotating=each(plan.rotating),
         reciprocating=each(plan.reciprocating),
         webs=each(plan.webs),
@@ -177,9 +186,10 @@ def _unbalances(machine: Rotor) -> Iterator[Any]:
             yield np.abs(component), 1.0, np.where(np.less(component, 0.0), angle + 180.0, angle), each.position_m
 
 
-def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], Reciprocating, list[float]]:
+def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], list[Any], list[float]]:
+    """What turns with the shaft, what moves along axes, and the planes of the throws."""
     turning: list[Any] = []  # mass, radius, angle, position
-    moving = []  # mass, radius, crank angle, axis, position, rod ratio and its rest
+    moving: list[Any] = []  # mass, radius, crank angle, axis, position, rod ratio and its rest
     for throw in machine.throws:
         radius, angle, plane = throw.crank_radius_m, throw.crank_angle_deg, throw.position_m
         turning.append((throw.rotating_mass_kg, radius, angle, plane))
@@ -192,26 +202,33 @@ def _reciprocating(machine: ReciprocatingMachine) -> tuple[list[Any], Reciprocat
                 # the big end turns in the plane of its own row, not in that of the throw
                 turning.append((row.rotating_kg, radius, angle, plane + row.offset_m))
             moving.append((row.reciprocating_kg, radius, angle, row.axis_deg, plane + row.offset_m, ratio, rest))
-    return turning, _reciprocating_table(moving), [throw.position_m for throw in machine.throws]
+    return turning, moving, [throw.position_m for throw in machine.throws]
 
 
-def _scroll(machine: ScrollMachine) -> tuple[list[Any], Reciprocating, list[float]]:
+def _scroll(machine: ScrollMachine) -> tuple[list[Any], list[Any], list[float]]:
     orbit, guide = machine.orbit_radius_m, machine.anti_rotation
     turning: list[Any] = [(machine.orbiting_mass_kg, orbit, 0.0, machine.orbiting_position_m)]
-    moving = []
+    moving: list[Any] = []
     if guide.type == "oldham":
         # the ring slides along one axis with the orbit's projection: a crank with an infinite rod
         moving.append((guide.mass_kg, orbit, 0.0, guide.axis_deg, guide.position_m, 0.0, 0.0))
     else:
         turning.append((guide.count * guide.eccentric_mass_kg, orbit, 0.0, guide.position_m))
-    return turning, _reciprocating_table(moving), [machine.orbiting_position_m]
+    return turning, moving, [machine.orbiting_position_m]
 
 
-def _rotating_table(rows: list[Any]) -> Rotating:
-    mass, radius, angle, position = (stacked([row[part] for row in rows]) for part in range(4))
-    return Rotating(mass, radius, direction(angle), position)
+def _table(rows: Sequence[Any], parts: int) -> Sequence[Real]:
+    """The parts of rows side by side, each (..., rows), as :func:`stacked`."""
+    every = list(zip(*rows, strict=True)) if rows else [()] * parts
+    if any(np.ndarray in map(type, part) for part in every):
+        return [stacked(part) for part in every]
+    return [*np.array(every, dtype=float)]
 
 
-def _reciprocating_table(rows: list[Any]) -> Reciprocating:
-    mass, radius, angle, axis, position, ratio, rest = (stacked([row[part] for row in rows]) for part in range(7))
-    return Reciprocating(mass, radius, direction(angle), direction(axis), position, ratio, rest)
+def _directions(*angles_deg: Real) -> Sequence[Complex]:
+    """Directions of several angles (..., n), at once where they have no leading axes: few cost by their number."""
+    if any(each.ndim > 1 for each in angles_deg):
+        return [direction(each) for each in angles_deg]
+    ends = list(accumulate(each.size for each in angles_deg))
+    every = direction(np.concatenate(angles_deg))
+    return [every[first:last] for first, last in zip([0, *ends], ends, strict=False)]
