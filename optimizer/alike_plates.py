@@ -5,15 +5,15 @@ nearly the same are opened alike: as far as they go, or else as little as leaves
 are chosen anew, and what is found is taken where it is within what is proven.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.mechanics.envelope import Envelope
+from optimizer.mechanics.plates import Plates
 from optimizer.plate_pieces import pieces, tangents
-from optimizer.program.compiled import both_stages, suits_kernel
+from optimizer.program.compiled import suits_kernel, unproven
 from optimizer.program.points import excess_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
@@ -30,21 +30,14 @@ _SAME = 1e-12
 
 
 def alike(
-    whole: Statement,
-    plates: Mapping[int, Envelope],
-    nodes: Mapping[int, Real],
-    kinds: np.ndarray,
-    u: Complex,
-    optimum: tuple[float, float],
-    least_mass: float,
+    whole: Statement, plates: Plates, nodes: Real, u: Complex, optimum: tuple[float, float], least_mass: float
 ) -> Complex:
     """Unbalances (K,) kg m with plates opened alike where they are no worse for it.
 
     Parameters
     ----------
     whole : one program of a leading axis (1,), whose limits hold what the plates hold.
-    nodes : half-angles between which plates are taken for webs, rad.
-    kinds : (K,) webs with the same plate have the same number.
+    nodes : (n, P) half-angles between which plates are taken for webs, rad.
     u : (K,) kg m, within the limits.
     optimum : proven lower bound of the objective, and largest objective of an optimum; that of ``u`` may be larger.
     least_mass : kg, no optimum is lighter; inf where the mass does not count.
@@ -52,19 +45,21 @@ def alike(
     if not suits_kernel(whole):
         return u
     limits, held, lower_bound = whole.limits, np.abs(u) == 0.0, optimum[0]
-    plain = [k for k in range(u.size) if k not in plates]
+    most = plates.unbalance(plates.most)
+    plain = np.setdiff1d(np.arange(u.size), plates.webs)
 
     def mass(u: Complex) -> Real:
         """kg (...)."""
-        cut = sum(plate.mass(plate.opened(np.abs(u[..., k]))) for k, plate in plates.items())
-        return np.asarray(cut + np.sum(np.abs(u[..., plain]) / limits.radius[0, plain], axis=-1))
+        cut = np.add.reduce(plates.mass_of(np.abs(u[..., plates.webs])), axis=-1)
+        return np.asarray(cut + np.add.reduce(np.abs(u[..., plain]) / limits.radius[0, plain], axis=-1))
 
-    for webs in _clusters(plates, kinds, u):
+    for some in _clusters(plates, most, np.abs(u[plates.webs])):
+        webs = plates.webs[some]
         held[webs] = True
-        plate, size = plates[webs[0]], np.abs(u[webs])
-        full = float(plate.unbalance(plate.most)) * (1.0 - _NEAR) <= np.max(size)
-        low, high = (float(plate.opened(each)) for each in (np.min(size), np.max(size)))
-        high = float(plate.most) if full else high
+        size = np.abs(u[webs])
+        full = float(most[some[0]]) * (1.0 - _NEAR) <= np.max(size)
+        angle = plates.opened(np.abs(u[plates.webs]))[some]
+        low, high = float(np.min(angle)), float(plates.most[some[0]] if full else np.max(angle))
         if high - low <= _SAME * high:
             continue
         many, before = whole.chosen(np.zeros(_TRIED, int)), u
@@ -74,7 +69,8 @@ def alike(
         for _ in range(_ROUNDS):
             openings = np.linspace(low, high, _TRIED)
             tried = np.repeat(before[None], _TRIED, axis=0)
-            tried[:, webs] = plate.unbalance(openings)[:, None] * (before[webs] / size)
+            every = np.repeat(openings[:, None], plates.webs.size, axis=1)
+            tried[:, webs] = plates.unbalance(every)[:, some] * (before[webs] / size)
             share = _OF_OBJECTIVE * float(largest - lower_bound)
             tried = _others(many, plates, nodes, held, tried, share, np.isfinite(least_mass))
             close = many.objective(tried) <= largest + many.rounding(tried)
@@ -91,27 +87,24 @@ def alike(
     return u
 
 
-def _clusters(plates: Mapping[int, Envelope], kinds: np.ndarray, u: Complex) -> Iterator[np.ndarray]:
-    """Webs whose plates are of one kind and hold nearly the same, and plates that are all but full."""
-    size = np.abs(u)
-    for kind in np.unique(kinds[list(plates)]):
-        webs = np.array([k for k in plates if kinds[k] == kind and size[k] > 0], int)
-        webs = webs[np.argsort(size[webs], kind="stable")]
-        apart = np.flatnonzero(np.diff(size[webs]) > _NEAR * size[webs][1:]) + 1
-        for some in np.split(webs, apart):
-            plate = plates[some[0]] if some.size else None
-            if plate and (some.size > 1 or size[some[0]] >= (1.0 - _NEAR) * plate.unbalance(plate.most)):
+def _clusters(plates: Plates, most: Real, size: Real) -> Iterator[np.ndarray]:
+    """Plates of one kind that hold nearly the same, and plates that are all but full: their places (n,) among all.
+
+    Parameters
+    ----------
+    most, size : (P,) what they hold at most, and what is cut of them, kg m.
+    """
+    for kind in np.unique(plates.kinds):
+        places = np.flatnonzero((plates.kinds == kind) & (size > 0))
+        places = places[np.argsort(size[places], kind="stable")]
+        apart = np.flatnonzero(np.diff(size[places]) > _NEAR * size[places][1:]) + 1
+        for some in np.split(places, apart):
+            if some.size > 1 or np.any(size[some] >= (1.0 - _NEAR) * most[some]):
                 yield some
 
 
 def _others(
-    many: Statement,
-    plates: Mapping[int, Envelope],
-    nodes: Mapping[int, Real],
-    held: np.ndarray,
-    u: Complex,
-    share: float,
-    least_mass: bool,
+    many: Statement, plates: Plates, nodes: Real, held: np.ndarray, u: Complex, share: float, least_mass: bool
 ) -> Complex:
     """Unbalances (N, K) with those that are not held chosen anew.
 
@@ -120,24 +113,11 @@ def _others(
     held : (K,) bool.
     share : by which the objective may be above the smallest.
     """
-    rest = np.flatnonzero(~held & np.all(many.limits.reach > 0, axis=0)).tolist()
-    fixed = np.where(held, u, 0.0)
-    if not rest:
+    left, fixed = ~held & np.all(many.limits.reach > 0, axis=0), np.where(held, u, 0.0)
+    if not left.any():
         return fixed
-
-    spent = sum(plate.mass(plate.opened(np.abs(fixed[:, k]))) for k, plate in plates.items())
-    owner = np.repeat(rest, [nodes[k].size - 1 if k in plates else 1 for k in rest])
-    left = pieces(
-        replace(
-            many.about(fixed),
-            limits=replace(many.limits, max_total_mass=many.limits.max_total_mass - spent),
-        ),
-        owner,
-        {k: tangents(plate, nodes[k]) for k, plate in plates.items() if k in rest},
-    )
-    shares = np.full(len(u), share)
-    found = both_stages(left, shares, shares, least_mass).unbalance
-    new = fixed.copy()
-    for place, k in enumerate(owner):
-        new[:, k] += found[:, place]
-    return new
+    spent = np.add.reduce(plates.mass_of(np.abs(fixed[:, plates.webs])), axis=-1)
+    limits = replace(many.limits, max_total_mass=many.limits.max_total_mass - spent)
+    laid = pieces(replace(many.about(fixed), limits=limits), plates, tangents(plates, nodes), left)
+    found, _ = unproven(laid.program, np.full(len(u), share), least_mass)
+    return fixed + laid.carried(found)

@@ -11,7 +11,7 @@ from optimizer.errors import refuse
 from optimizer.figures.counterweights import as_given
 from optimizer.given import on_webs
 from optimizer.outputs import fields, prepare
-from optimizer.shapes import envelopes, fitted_masses
+from optimizer.shapes import fitted_masses, plates
 from schemas.answers import AnalyzeAnswer, Timing
 from schemas.base import FieldProblem
 from schemas.requests import AnalyzeRequest
@@ -58,8 +58,10 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
 
 def _too_heavy(request: AnalyzeRequest) -> Iterator[FieldProblem]:
     """Counterweights that are more than the envelope of their web holds."""
-    names = [web.name for web in request.machine.webs]
-    most = {names[k]: float(plate.mass(plate.most)) for k, plate in envelopes(request.machine).items()}
+    cut, webs = plates(request.machine), request.machine.webs
+    if cut is None:
+        return
+    most = {webs[k].name: mass for k, mass in zip(cut.webs.tolist(), cut.mass(cut.most).tolist(), strict=True)}
     for index, one in enumerate(request.counterweights):
         if one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ROUNDING):
             message = f"the envelope of this web holds {most[str(one.web)]:.6g} kg at most"

@@ -19,7 +19,7 @@ from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.remembered import remembered
-from optimizer.shapes import envelopes
+from optimizer.shapes import plates
 from schemas.limits import MachineLimit, WebLimit
 from schemas.machine import Machine
 
@@ -106,10 +106,10 @@ class _Budget:
 
 def _largest_unbalances(machine: Machine) -> Real:
     """What the envelopes of the webs hold (K,), kg m; inf where there is none."""
-    plates = envelopes(machine)
-    return np.array(
-        [plates[k].unbalance(plates[k].most) if k in plates else np.inf for k in range(len(machine.webs))], dtype=float
-    )
+    most, cut = np.full(len(machine.webs), np.inf), plates(machine)
+    if cut is not None:
+        most[cut.webs] = cut.unbalance(cut.most)
+    return most
 
 
 def _largest_force(machine: Machine) -> Real:

@@ -33,7 +33,7 @@ from optimizer.program.statement import Statement
 from optimizer.required import missing
 from optimizer.scene import Prepared
 from optimizer.searched import continuous
-from optimizer.shapes import envelopes
+from optimizer.shapes import plates
 from optimizer.turn_residual import with_turn
 from schemas.answers import Certificate, OptimizeAnswer, Timing
 from schemas.counterweights import Counterweight
@@ -66,7 +66,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     solving = time.perf_counter()
     asked, square = posed(request), np.array([scene.omega_squared])
     asked, best = certified_one(asked, scene.responses, square, solver)
-    if envelopes(request.machine):
+    if plates(request.machine) is not None:
         # of what is cut from a plate the radius follows; no balance shafts stand beside plates
         request, scene = asked, replace(scene, request=asked)
 

@@ -8,11 +8,10 @@ from optimizer.arrays import Complex, Real
 from optimizer.fixed import beside
 from optimizer.limits import given_limits, sectors
 from optimizer.mechanics.angles import angle_deg, direction
-from optimizer.mechanics.envelope import Envelope
 from optimizer.mechanics.layout import stacked
 from optimizer.own_cranks import own_throws
 from optimizer.program.limits import Limits
-from optimizer.shapes import envelopes
+from optimizer.shapes import plates
 from schemas.counterweights import Counterweight, Shape
 from schemas.fitted import FittedCounterweight, GivenCounterweight
 from schemas.machine import Machine
@@ -120,7 +119,7 @@ def _placed(
     if vectors is None:
         vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
     throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
-    plates = envelopes(machine)
+    shapes = _shapes(machine, mass_kg)
     fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
     return tuple(
         Counterweight(
@@ -140,7 +139,7 @@ def _placed(
             centrifugal_force_N=mass * web.radius_m * fastest**2,
             active_limits=() if web.fixed else tuple(name for name, webs in touched.items() if webs[k]),
             fixed=web.fixed is not None,
-            shape=_shape(plates[k], mass * web.radius_m) if k in plates and mass > 0.0 else None,
+            shape=shapes.get(k) if mass > 0.0 else None,
         )
         for k, (web, mass, angle, vector, throw) in enumerate(
             zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
@@ -148,12 +147,22 @@ def _placed(
     )
 
 
-def _shape(plate: Envelope, unbalance: float) -> Shape:
-    half_angle = plate.opened(unbalance)
-    chord = plate.chord(half_angle)
-    return Shape(
-        half_angle_deg=float(np.rad2deg(half_angle)),
-        chord_height_m=None if chord is None else float(chord),
-        outer_radius_m=float(plate.outer),
-        inertia_kg_m2=float(plate.inertia(half_angle)),
-    )
+def _shapes(machine: Machine, mass_kg: Real) -> dict[int, Shape]:
+    """What is cut of the plates of a machine, by number of the web."""
+    cut = plates(machine)
+    if cut is None:
+        return {}
+    radius = np.array([machine.webs[k].radius_m for k in cut.webs])
+    half_angle = cut.opened(mass_kg[cut.webs] * radius)
+    figures = (np.rad2deg(half_angle), cut.chord(half_angle), cut.outer, cut.inertia(half_angle))
+    return {
+        k: Shape(
+            half_angle_deg=opening,
+            chord_height_m=None if np.isnan(chord) else chord,
+            outer_radius_m=outer,
+            inertia_kg_m2=inertia,
+        )
+        for k, opening, chord, outer, inertia in zip(
+            cut.webs.tolist(), *(each.tolist() for each in figures), strict=True
+        )
+    }

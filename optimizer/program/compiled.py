@@ -104,6 +104,21 @@ def both_stages(
     return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
 
 
+def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
+    """Where both stages of N statements end, a guess: whether it is near an optimum is not looked at.
+
+    Parameters are those of :func:`both_stages`.
+
+    Returns
+    -------
+    Unbalances (N, K) kg m, and multipliers (N, J + I) of the terms and ceilings in the last stage.
+    """
+    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs() if plain_discs(statement).all() else None)
+    proof = found.mass_proof if least_mass else found.proof
+    prices = np.concatenate([proof.term, proof.ceiling], axis=-1)
+    return found.lightest if least_mass else found.smallest, prices
+
+
 def plain_discs(statement: Statement) -> np.ndarray:
     """Programs that :mod:`optimizer.program.kernel.discs` takes (N,) bool: one row, no ceilings, sectors or budgets."""
     norms, limits = statement.norms, statement.limits

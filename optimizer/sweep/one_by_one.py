@@ -10,7 +10,7 @@ from optimizer.formulate import responses
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.program.reference.solver import Solver
-from optimizer.shapes import envelopes
+from optimizer.shapes import plates
 from optimizer.sweep.counterweights import Columns, columns_of
 from schemas.requests import OptimizeRequest
 
@@ -36,10 +36,10 @@ def optimal_alone(request: OptimizeRequest, solver: Solver, multipliers: bool) -
 
 def _openings(request: OptimizeRequest, best: Certified) -> Columns:
     """Half-angles of what is cut from plates, deg; nan where nothing is."""
-    plates, u = envelopes(request.machine), np.abs(best.unbalance)
-    return {
-        f"half_angle_deg.{request.machine.webs[k].name}": np.where(
-            (best.status != "infeasible") & (u[:, k] > 0), np.rad2deg(plate.opened(u[:, k])), np.nan
-        )
-        for k, plate in plates.items()
-    }
+    cut = plates(request.machine)
+    if cut is None:
+        return {}
+    u = np.abs(best.unbalance[:, cut.webs])
+    fits = (best.status != "infeasible")[:, None] & (u > 0)
+    openings = np.where(fits, np.rad2deg(cut.opened(u)), np.nan)
+    return {f"half_angle_deg.{request.machine.webs[k].name}": openings[:, n] for n, k in enumerate(cut.webs)}
