@@ -103,6 +103,40 @@ class Flat:
         )
         return found.reshape(leading), dear.reshape(leading)
 
+    def settle(self, u: Complex, found: Real, target: Real, heaviest: Real, rounding: float, rungs: Real) -> None:
+        """Points (*leading, K) without dust and at the limits that they touch, and what they come to, in place.
+
+        As :func:`optimizer.program.kernel.settling.settle`.
+        """
+        from optimizer.program.kernel.settling import settle
+
+        many, terms, webs = self.influence.shape
+        settle(
+            u.reshape(many, webs),
+            found.reshape(4, many),
+            in_order(target).reshape(many),
+            in_order(heaviest).reshape(many),
+            rounding,
+            rungs,
+            self.owner,
+            self.constant,
+            self.influence,
+            self.floor,
+            self.cap,
+            self.size,
+            self.radius,
+            self.max_mass,
+            self.budget,
+            self.free,
+            self.centre,
+            self.cosine,
+            self.sine,
+            np.empty(self.floor.shape[1]),
+            np.empty(webs),
+            np.empty((4, max(terms, webs)), complex),
+            np.empty((2, terms, webs), complex),
+        )
+
 
 def flat(statement: "Statement") -> Flat | None:
     """Programs as loops take them; None where some are not of the kind that they are for."""

@@ -17,6 +17,14 @@ from optimizer.program.statement import Statement
 
 #: how near to nothing, or to a limit, as a share of the largest mass or of the limit: the next where one is too much
 NEAR = (1e-4, 1e-6, 1e-8)
+#: one after the other: of dust, of limits, and the next one where that did no harm, or nothing
+_RUNGS = np.array(
+    [
+        (NEAR[0], NEAR[0], 2 * len(NEAR)),
+        *((dust, 0.0, len(NEAR)) for dust in NEAR[1:]),
+        *((0.0, touched, 2 * len(NEAR)) for touched in NEAR),
+    ]
+)
 #: relative gap of the least mass that may be left
 HEAVIER = 1e-5
 
@@ -31,8 +39,13 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     target : (N,) largest objective of an optimum; the points may be above it.
     mass_bound : (N,) kg, no optimum is lighter; None where the mass does not count.
     """
-    every = np.arange(target.size)
     heaviest = np.full(target.shape, np.inf) if mass_bound is None else mass_bound / (1.0 - HEAVIER)
+    flat = statement.flat
+    if flat is not None and flat.leading == target.shape:
+        u, found = points.unbalance.copy(), np.array(points[1:])
+        flat.settle(u, found, target, heaviest, CEILING_ROUNDING, _RUNGS)
+        return Points(u, *found)
+    every = np.arange(target.size)
 
     def attempt(points: Points, programs: np.ndarray, dust: float, touched: float) -> tuple[Points, np.ndarray]:
         part = statement if programs is every else statement.chosen(programs)

@@ -10,7 +10,7 @@ import pytest
 from optimizer.compile_kernels import all_else, any_limits, budgets
 from optimizer.kernel import knapsack, parts
 from optimizer.mechanics.kernel import curves, readings, rows
-from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, symmetries, values
+from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
 from optimizer.warm_up import warm_up
 
 _SOLVERS = {"numba", "cvxpy", "clarabel"}
@@ -45,6 +45,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         discs: ("solve",),
         bounds: ("bounds",),
         values: ("values",),
+        settling: ("settle",),
         symmetries: ("means",),
         outlines: ("worst_turned",),
         cancelling: ("least_changes",),

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import kernel
+from optimizer.program.kernel.compiling import inner, kernel
 
 #: a term whose influence is this close to those before it is not cancelled on its own
 _DEPENDENT = 1e-13
@@ -15,29 +15,35 @@ def least_changes(influence, constant, passes):  # type: ignore[no-untyped-def]
     found = np.zeros((number, webs), np.complex128)
     row, basis = np.empty(webs, np.complex128), np.empty((terms, webs), np.complex128)
     for n in range(number):
-        u = found[n]
-        for _ in range(passes):
-            for j in range(terms):
-                size = 0.0
-                for k in range(webs):
-                    size = max(size, abs(influence[n, j, k]))
-                left = constant[n, j] / size if size > 0.0 else 0.0j
-                for k in range(webs):
-                    row[k] = influence[n, j, k] / (size if size > 0.0 else 1.0)
-                    left += row[k] * u[k]
-                for before in range(j * passes):
-                    other = basis[before % j]
-                    share = 0.0j
-                    for k in range(webs):
-                        share += row[k] * np.conj(other[k])
-                    for k in range(webs):
-                        row[k] -= share * other[k]
-                length = 0.0
-                for k in range(webs):
-                    length += abs(row[k]) ** 2
-                length = np.sqrt(length)
-                new = length > _DEPENDENT
-                for k in range(webs):
-                    basis[j, k] = row[k] / length if new else 0.0
-                    u[k] -= np.conj(basis[j, k]) * (left / length if new else left)
+        change(influence[n], constant[n], passes, row, basis, found[n])
     return found
+
+
+@inner
+def change(influence, constant, passes, row, basis, u):  # type: ignore[no-untyped-def]
+    """The same of one program, added to u (K,); row (K,) and basis (J, K) are to be written to."""
+    terms, webs = influence.shape
+    for _ in range(passes):
+        for j in range(terms):
+            size = 0.0
+            for k in range(webs):
+                size = max(size, abs(influence[j, k]))
+            left = constant[j] / size if size > 0.0 else 0.0j
+            for k in range(webs):
+                row[k] = influence[j, k] / (size if size > 0.0 else 1.0)
+                left += row[k] * u[k]
+            for before in range(j * passes):
+                other = basis[before % j]
+                share = 0.0j
+                for k in range(webs):
+                    share += row[k] * np.conj(other[k])
+                for k in range(webs):
+                    row[k] -= share * other[k]
+            length = 0.0
+            for k in range(webs):
+                length += abs(row[k]) ** 2
+            length = np.sqrt(length)
+            new = length > _DEPENDENT
+            for k in range(webs):
+                basis[j, k] = row[k] / length if new else 0.0
+                u[k] -= np.conj(basis[j, k]) * (left / length if new else left)

@@ -5,49 +5,56 @@ For objectives of one group of real influences.
 
 import numpy as np
 
-from optimizer.program.kernel.compiling import in_place
+from optimizer.program.kernel.compiling import in_place, inner
 
 #: of a sum, in units of the sum of the magnitudes of its terms
 ROUNDING = 4 * float(np.finfo(float).eps)
 
 
-@in_place
-def values(u, owner, constant, influence, floor, cap, size, radius, rows, found):  # type: ignore[no-untyped-def]
-    """Objective, mass, largest relative excess over a ceiling, and rounding of the objective (4, M).
+@inner
+def value(u, owner, constant, influence, floor, cap, size, radius, rows):  # type: ignore[no-untyped-def]
+    """Objective, mass, largest relative excess over a ceiling, and rounding of the objective, of one point.
 
     Parameters
     ----------
-    u : (M, K) kg m, M = P N points, point m of program m % N.
+    u : (K,) kg m.
     owner : (J,) row of a term.
-    constant, influence, floor : (N, J + I), (N, J + I, K), (N, R).
-    cap, size : (N, I) of the ceilings.
+    constant, influence, floor : (J + I,), (J + I, K), (R,).
+    cap, size : (I,) of the ceilings.
     rows : (R,) to be written to.
     """
-    number, terms, webs = influence.shape
-    own = owner.size
+    mass, rounding, excess, own = 0.0, 0.0, -np.inf, owner.size
+    for k in range(u.size):
+        long = abs(u[k])
+        mass += long / radius[k]
+        for j in range(own):
+            rounding += abs(influence[j, k]) * long
+    rows[:] = 0.0
+    for j in range(constant.size):
+        x, y = 0.0, 0.0
+        for k in range(u.size):
+            x, y = x + influence[j, k] * u[k].real, y + influence[j, k] * u[k].imag
+        long = abs(complex(constant[j].real + x, constant[j].imag + y))
+        if j < own:
+            rounding += abs(constant[j])
+            rows[owner[j]] += long
+        else:
+            over = (long - cap[j - own]) / size[j - own]
+            # no number is larger than what is none
+            excess = over if over > excess or over != over else excess
+    objective = -np.inf
+    for r in range(rows.size):
+        row = floor[r] + rows[r]
+        objective = row if row > objective or row != row else objective
+    return objective, mass, excess, ROUNDING * rounding
+
+
+@in_place
+def values(u, owner, constant, influence, floor, cap, size, radius, rows, found):  # type: ignore[no-untyped-def]
+    """The same (4, M) of M = P N points of N programs, point m of program m % N, which all have a leading axis."""
+    number = influence.shape[0]
     for m in range(found.shape[1]):
         n = m % number
-        mass, rounding, excess = 0.0, 0.0, -np.inf
-        for k in range(webs):
-            long = abs(u[m, k])
-            mass += long / radius[n, k]
-            for j in range(own):
-                rounding += abs(influence[n, j, k]) * long
-        rows[:] = 0.0
-        for j in range(terms):
-            x, y = 0.0, 0.0
-            for k in range(webs):
-                x, y = x + influence[n, j, k] * u[m, k].real, y + influence[n, j, k] * u[m, k].imag
-            long = abs(complex(constant[n, j].real + x, constant[n, j].imag + y))
-            if j < own:
-                rounding += abs(constant[n, j])
-                rows[owner[j]] += long
-            else:
-                over = (long - cap[n, j - own]) / size[n, j - own]
-                # no number is larger than what is none
-                excess = over if over > excess or over != over else excess
-        objective = -np.inf
-        for r in range(rows.size):
-            row = floor[n, r] + rows[r]
-            objective = row if row > objective or row != row else objective
-        found[0, m], found[1, m], found[2, m], found[3, m] = objective, mass, excess, ROUNDING * rounding
+        found[0, m], found[1, m], found[2, m], found[3, m] = value(
+            u[m], owner, constant[n], influence[n], floor[n], cap[n], size[n], radius[n], rows
+        )
