@@ -1,5 +1,7 @@
 """All different arrangements of things of which some are alike."""
 
+from math import comb
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -11,12 +13,20 @@ def arrangements(times: NDArray[np.int64], places: int, most: int) -> NDArray[np
     ----------
     times : (kinds,) how many there are of every kind, together at least as many as places.
     """
+    if _number(times, places) > most:
+        return None
     left, chosen = np.asarray(times)[None, :], np.zeros((1, 0), dtype=np.int64)
     for _ in range(places):
         before, kind = np.nonzero(left)
-        if before.size > most:
-            return None
         left = left[before]
         left[np.arange(before.size), kind] -= 1
         chosen = np.concatenate([chosen[before], kind[:, None]], axis=1)
     return chosen
+
+
+def _number(times: NDArray[np.int64], places: int) -> int:
+    """How many arrangements there are: kind by kind, of the places that are left some for it."""
+    ways = [1, *(0 for _ in range(places))]
+    for most in np.asarray(times).tolist():
+        ways = [sum(comb(p, j) * ways[p - j] for j in range(min(most, p) + 1)) for p in range(places + 1)]
+    return ways[-1]

@@ -1,8 +1,9 @@
 """Two lists of sums that all but cancel, set by set of the parts; compiled.
 
-The places of a class are dealt into two halves. A map of the cells of space that sums of the first half lie in tells
-which of the second may cancel one, and a map of the cells that those want which of the first; what is left of both is
-compared pair by pair. Sums of a half are those of its quarters (:mod:`optimizer.matching.quarters`).
+The places of a class are dealt into two halves. Of the sums of either only those are listed that the other reaches in
+every coordinate. A map of the cells of space that those of the first half lie in tells which of the second may cancel
+one, and a map of the cells that those want which of the first; what is left of both is compared pair by pair. Sums of
+a half are those of its quarters (:mod:`optimizer.matching.quarters`).
 """
 
 from typing import NamedTuple
@@ -14,11 +15,13 @@ from optimizer.compiling import inner, kernel
 from optimizer.matching.quarters import BITS, LANE, LANES, packed, put_on
 
 #: bits of a place in the maps
-MAP = 20
+MAP = 18
 #: units that a sum may be off: roundings of the words of all quarters, and what they carry
 _OFF = 8.0
-#: ways of a set on the first quarter of a half, of at most four places each
-_BLOCKS = 70 * 24
+#: orders of a quarter, of at most four places, and bits that number them
+_ORDERS, _ORDER = 24, 5
+#: sums of a half: sets on its first quarter, in every order of both
+_SUMS = 70 * _ORDERS * _ORDERS
 #: bits of a chain of sums that met
 _CHAINS = 12
 _TOPS = np.uint64(0x8000800080008000)
@@ -32,11 +35,19 @@ class Window(NamedTuple):
 
     cell: np.uint64  # bits of a word that number its cell
     inside: np.uint64  # bits that tell where in its cell it is; coordinates that are not used have neither
-    start: Real  # (LANES,) what is there without the parts
-    anchor: Real  # (LANES,)
-    down: Real  # (LANES,)
-    up: Real  # (LANES,)
-    height: float  # along the plane, without the parts
+    start: Real  # (C,) what is there without the parts
+    anchor: Real  # (C,)
+    down: Real  # (C,)
+    up: Real  # (C,)
+
+
+class Sets(NamedTuple):
+    """Sets of parts on the first half."""
+
+    parts: np.ndarray  # (N,) as bits
+    least: Real  # (N,) height that no assignment with one is below
+    low: Real  # (N, 2, C) the smallest that the parts of either half come to, in units
+    high: Real  # (N, 2, C) and the largest
 
 
 class Peaks(NamedTuple):
@@ -52,9 +63,11 @@ class Work(NamedTuple):
     """What one set after another is worked out in."""
 
     places: np.ndarray  # (2, 2^MAP / 64) bits of cells: of sums of the first half, and of those that the second wants
-    block: np.ndarray  # (2, b, 4) of a half: set on its first quarter, its order, set on its second; the first as bits
     word: np.ndarray  # (2, w) what is left of either half
-    code: np.ndarray  # (2, w) where that is from: block and order
+    code: np.ndarray  # (2, w) where that is from: set on the first quarter as bits, its order, that of the others
+    within: np.ndarray  # (p,) which orders of the others lie between
+    begin: Real  # (2, C) what a sum of a half has to be above
+    end: Real  # (2, C) and below
     first: np.ndarray  # (2^_CHAINS,) the first sum in each chain, -1 where there is none
     after: np.ndarray  # (w,) the next in its chain
     put: Real  # (n,) masses place by place
@@ -67,7 +80,7 @@ def joined(quarters, tables, window, peaks, sets, level, most):  # type: ignore[
 
     Parameters
     ----------
-    sets : (N,) as bits, and (N,) the height that no assignment with one is below.
+    sets : with heights below the level.
     level : that the peak is to be below.
     most : pairs that are looked at.
 
@@ -77,84 +90,128 @@ def joined(quarters, tables, window, peaks, sets, level, most):  # type: ignore[
     int : how many sets were looked at, fewer than all where they have more pairs.
     (n,) : masses place by place, where there is one.
     """
-    halves, least = sets
-    left, everything = most, quarters.taken.size - 1
+    left, everything, used = most, quarters.taken.size - 1, window.start.size
     work = Work(
         np.zeros((2, 1 << (MAP - 6)), np.uint64),
-        np.zeros((2, _BLOCKS, 4), np.int64),
-        np.zeros((2, _BLOCKS * 24), np.uint64),
-        np.zeros((2, _BLOCKS * 24), np.int64),
+        np.zeros((2, _SUMS + 1), np.uint64),
+        np.zeros((2, _SUMS + 1), np.int64),
+        np.zeros(_ORDERS, np.bool_),
+        np.zeros((2, used)),
+        np.zeros((2, used)),
         np.full(1 << _CHAINS, -1),
-        np.zeros(_BLOCKS * 24, np.int64),
+        np.zeros(_SUMS, np.int64),
         np.zeros(peaks.mass.size),
         np.zeros(peaks.mass.size),
     )
-    for s in range(halves.size):
-        if least[s] >= level:
+    for s in range(sets.parts.size):
+        if sets.least[s] >= level:
             continue
-        half, rest, room = halves[s], everything - halves[s], level - window.height
-        corner, wide = _corner(window, level, level - least[s])
-        low, low_of_rest = _lowest(quarters, tables, 0, half), _lowest(quarters, tables, 2, rest)
-        blocks = _blocks(quarters, tables, 0, half, room - low_of_rest, work)
-        work.places[:] = 0
-        _mapped(quarters, tables, blocks, window.cell, work)
-        blocks_of_rest = _blocks(quarters, tables, 2, rest, room - low, work)
-        kept = _kept(quarters, tables, blocks_of_rest, window, corner, wide, work)
-        met = _met(quarters, tables, blocks, window.cell, work)
+        half = sets.parts[s]
+        rest = everything - half
+        corner, wide = _corner(window, level, level - sets.least[s], sets.low[s], sets.high[s], work)
+        one, other = _listed(quarters, tables, 0, half, work), _listed(quarters, tables, 2, rest, work)
+        _mapped(one, window.cell, work)
+        kept = _kept(other, window, corner, wide, work)
+        met = _met(one, window.cell, work)
         level, left = _compared(quarters, window, peaks, (half, rest), (met, kept), wide, (level, left), work)
         if left < 0:
             return level, s, work.found
-    return level, halves.size, work.found
+    return level, sets.parts.size, work.found
 
 
 @inner
-def _mapped(quarters, tables, blocks, cell, work):  # type: ignore[no-untyped-def]
+def _corner(window, level, slack, low, high, work):  # type: ignore[no-untyped-def]
+    """Of what is wanted the least word, and how wide it is; and between what the sums of either half have to lie."""
+    corner, wide = np.uint64(0), np.uint64(0)
+    for lane in range(window.start.size):
+        begin = window.anchor[lane] * level - window.down[lane] * slack - window.start[lane] - _OFF
+        width = (window.down[lane] + window.up[lane]) * slack + 2.0 * _OFF
+        corner |= packed(begin, lane)
+        wide |= packed(width, lane)
+        for side in range(2):
+            work.begin[side, lane] = begin - high[1 - side, lane]
+            work.end[side, lane] = begin + width - low[1 - side, lane]
+    for lane in range(window.start.size, LANES):
+        wide |= packed(-1.0, lane)
+    return corner, wide
+
+
+@inner
+def _listed(quarters, tables, q, half, work):  # type: ignore[no-untyped-def]
+    """Sums of the parts of a half, and where they are from, that the other half reaches: how many."""
+    count, one, side, within = 0, half, q // 2, work.within
+    lanes, orders = tables.units.shape[2], quarters.ways[q + 1]
+    while True:
+        if quarters.taken[one] == quarters.size[q]:
+            number, rest = quarters.number[one], quarters.number[half ^ one]
+            for order in range(quarters.ways[q]):
+                fits = True
+                for lane in range(lanes):
+                    begin = work.begin[side, lane] - tables.units[q, number, lane, order]
+                    end = work.end[side, lane] - tables.units[q, number, lane, order]
+                    fits &= (tables.high[q + 1, rest, lane] >= begin) & (tables.low[q + 1, rest, lane] <= end)
+                if not fits:
+                    continue
+                for k in range(orders):
+                    within[k] = True
+                for lane in range(lanes):
+                    begin = work.begin[side, lane] - tables.units[q, number, lane, order]
+                    end = work.end[side, lane] - tables.units[q, number, lane, order]
+                    for k in range(orders):
+                        at = tables.units[q + 1, rest, lane, k]
+                        within[k] &= (at >= begin) & (at <= end)
+                base, code = tables.word[q, number, order], (one << _ORDER | order) << _ORDER
+                for k in range(orders):
+                    work.word[side, count], work.code[side, count] = base + tables.word[q + 1, rest, k], code | k
+                    count += within[k]
+        if one == 0:
+            return count
+        one = (one - 1) & half
+
+
+@inner
+def _mapped(count, cell, work):  # type: ignore[no-untyped-def]
     """Mark the cells of all sums of the first half."""
-    for i in range(blocks):
-        base, rest = tables.word[0, work.block[0, i, 0], work.block[0, i, 1]], work.block[0, i, 2]
-        for k in range(quarters.ways[1]):
-            _mark(work.places, 0, (base + tables.word[1, rest, k]) & cell)
+    work.places[:] = 0
+    for i in range(count):
+        _mark(work.places, 0, work.word[0, i] & cell)
 
 
 @inner
-def _kept(quarters, tables, blocks, window, corner, wide, work):  # type: ignore[no-untyped-def]
+def _kept(count, window, corner, wide, work):  # type: ignore[no-untyped-def]
     """Sums of the second half, as what is wanted beside them, that have a marked cell: how many; mark theirs."""
     kept, cell = 0, window.cell
-    for i in range(blocks):
-        base, rest = corner - tables.word[2, work.block[1, i, 0], work.block[1, i, 1]], work.block[1, i, 2]
-        for k in range(quarters.ways[3]):
-            wanted = base - tables.word[3, rest, k]
-            over = _over(window, wanted, wide)
+    for i in range(count):
+        wanted = corner - work.word[1, i]
+        over = _over(window, wanted, wide)
+        some = over
+        while not _marked(work.places, 0, _plus(wanted & cell, some)):
+            if some == 0:
+                break
+            some = (some - _ONE) & over
+        else:
+            work.word[1, kept], work.code[1, kept] = wanted, work.code[1, i]
+            kept += 1
             some = over
-            while not _marked(work.places, 0, _plus(wanted & cell, some)):
+            while True:
+                _mark(work.places, 1, _plus(wanted & cell, some))
                 if some == 0:
                     break
                 some = (some - _ONE) & over
-            else:
-                work.word[1, kept], work.code[1, kept] = wanted, i * quarters.ways[3] + k
-                kept += 1
-                some = over
-                while True:
-                    _mark(work.places, 1, _plus(wanted & cell, some))
-                    if some == 0:
-                        break
-                    some = (some - _ONE) & over
     return kept
 
 
 @inner
-def _met(quarters, tables, blocks, cell, work):  # type: ignore[no-untyped-def]
+def _met(count, cell, work):  # type: ignore[no-untyped-def]
     """Sums of the first half in cells that the second has marked: how many, chained by their cells."""
     met = 0
-    for i in range(blocks):
-        base, rest = tables.word[0, work.block[0, i, 0], work.block[0, i, 1]], work.block[0, i, 2]
-        for k in range(quarters.ways[1]):
-            word = base + tables.word[1, rest, k]
-            if _marked(work.places, 1, word & cell):
-                chain = _chain(word & cell)
-                work.word[0, met], work.code[0, met] = word, i * quarters.ways[1] + k
-                work.after[met], work.first[chain] = work.first[chain], met
-                met += 1
+    for i in range(count):
+        word = work.word[0, i]
+        if _marked(work.places, 1, word & cell):
+            chain = _chain(word & cell)
+            work.word[0, met], work.code[0, met] = word, work.code[0, i]
+            work.after[met], work.first[chain] = work.first[chain], met
+            met += 1
     return met
 
 
@@ -186,52 +243,6 @@ def _compared(quarters, window, peaks, halves, counts, wide, state, work):  # ty
     for j in range(met):
         work.first[_chain(work.word[0, j] & cell)] = -1
     return level, left
-
-
-@inner
-def _lowest(quarters, tables, q, half):  # type: ignore[no-untyped-def]
-    """Height that no order of a set on a half is below."""
-    low, one = np.inf, half
-    while True:
-        if quarters.taken[one] == quarters.size[q]:
-            rest = quarters.number[half ^ one]
-            low = min(low, tables.low[q, quarters.number[one]] + tables.low[q + 1, rest])
-        if one == 0:
-            return low
-        one = (one - 1) & half
-
-
-@inner
-def _blocks(quarters, tables, q, half, room, work):  # type: ignore[no-untyped-def]
-    """Ways of a set on the first quarter of a half that leave room for others on the second: how many.
-
-    Of each there are the number of the set, of its order, and of the set that is left.
-    """
-    count, one, side = 0, half, q // 2
-    while True:
-        if quarters.taken[one] == quarters.size[q]:
-            number, rest = quarters.number[one], quarters.number[half ^ one]
-            if tables.low[q, number] + tables.low[q + 1, rest] <= room:
-                for order in range(quarters.ways[q]):
-                    if tables.height[q, number, order] + tables.low[q + 1, rest] <= room:
-                        work.block[side, count, 0], work.block[side, count, 1] = number, order
-                        work.block[side, count, 2], work.block[side, count, 3] = rest, one
-                        count += 1
-        if one == 0:
-            return count
-        one = (one - 1) & half
-
-
-@inner
-def _corner(window, level, slack):  # type: ignore[no-untyped-def]
-    """Of what is wanted the least word, and how wide it is."""
-    corner, wide = np.uint64(0), np.uint64(0)
-    for lane in range(LANES):
-        begin = window.anchor[lane] * level - window.down[lane] * slack - window.start[lane]
-        corner |= packed(begin - _OFF, lane)
-        used = window.cell >> np.uint64(BITS * lane) & LANE != 0
-        wide |= packed((window.down[lane] + window.up[lane]) * slack + 2.0 * _OFF if used else -1.0, lane)
-    return corner, wide
 
 
 @inner
@@ -276,13 +287,12 @@ def _within(word, corner, wide):  # type: ignore[no-untyped-def]
 @inner
 def _assigned(quarters, half, q, code, mass, work):  # type: ignore[no-untyped-def]
     """The parts of a set on the places of a half."""
-    many, begin = quarters.ways[q + 1], 0
-    i = code // many
-    one = work.block[q // 2, i, 3]
+    begin, orders = 0, (1 << _ORDER) - 1
+    one = code >> 2 * _ORDER
     for before in range(q):
         begin += quarters.size[before]
-    put_on(quarters, q, work.block[q // 2, i, 1], one, mass, begin, work.put)
-    put_on(quarters, q + 1, code % many, half ^ one, mass, begin + quarters.size[q], work.put)
+    put_on(quarters, q, code >> _ORDER & orders, one, mass, begin, work.put)
+    put_on(quarters, q + 1, code & orders, half ^ one, mass, begin + quarters.size[q], work.put)
 
 
 @inner

@@ -28,46 +28,48 @@ class Quarters(NamedTuple):
 
 
 class Tables(NamedTuple):
-    """What the parts of a set come to in a quarter, in every order."""
+    """What the parts of a set come to in a quarter, in every order, along C <= LANES coordinates."""
 
     word: np.ndarray  # (4, sets, p)
-    height: Real  # (4, sets, p) along the plane
-    low: Real  # (4, sets) the smallest of these
+    units: Real  # (4, sets, C, p) the same, not rounded
+    low: Real  # (4, sets, C) the smallest of these
+    high: Real  # (4, sets, C) the largest
 
 
 @kernel
-def tabled(quarters, mass, lanes, lever):  # type: ignore[no-untyped-def]
+def tabled(quarters, mass, lanes):  # type: ignore[no-untyped-def]
     """The fields of :class:`Tables`.
 
     Parameters
     ----------
     mass : (n,) of the parts.
-    lanes : (LANES, n) what a kilogram at a place adds to a coordinate, in units.
-    lever : (n,) and to the height.
+    lanes : (C, n) what a kilogram at a place adds to a coordinate, in units.
     """
-    shape = 4, np.max(quarters.number) + 1, quarters.orders.shape[1]
-    word, height, low = np.zeros(shape, np.uint64), np.zeros(shape), np.full(shape[:2], np.inf)
-    put, begin = np.zeros(mass.size), 0
+    sets, used, most = np.max(quarters.number) + 1, lanes.shape[0], quarters.orders.shape[1]
+    word, units = np.zeros((4, sets, most), np.uint64), np.zeros((4, sets, used, most))
+    low, high = np.full((4, sets, used), np.inf), np.full((4, sets, used), -np.inf)
+    part, begin = np.zeros(mass.size), 0
     for q in range(4):
-        end = begin + quarters.size[q]
+        size = quarters.size[q]
         for some in range(quarters.taken.size):
-            if quarters.taken[some] != quarters.size[q]:
+            if quarters.taken[some] != size:
                 continue
-            number = quarters.number[some]
+            number, k = quarters.number[some], 0
+            for each in range(mass.size):
+                if some >> each & 1:
+                    part[k] = mass[each]
+                    k += 1
             for p in range(quarters.ways[q]):
-                put_on(quarters, q, p, some, mass, begin, put)
-                for lane in range(LANES):
+                for lane in range(used):
                     total = 0.0
-                    for place in range(begin, end):
-                        total += put[place] * lanes[lane, place]
+                    for k in range(size):
+                        total += part[k] * lanes[lane, begin + quarters.orders[q, p, k]]
                     word[q, number, p] |= packed(total, lane)
-                total = 0.0
-                for place in range(begin, end):
-                    total += put[place] * lever[place]
-                height[q, number, p] = total
-                low[q, number] = min(low[q, number], total)
-        begin = end
-    return word, height, low
+                    units[q, number, lane, p] = total
+                    low[q, number, lane] = min(low[q, number, lane], total)
+                    high[q, number, lane] = max(high[q, number, lane], total)
+        begin += size
+    return word, units, low, high
 
 
 @inner

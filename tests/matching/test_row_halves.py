@@ -71,6 +71,25 @@ def test_it_is_the_best_of_all_orders(cranks: list[float], axes: list[float], go
     assert found.complete
 
 
+@pytest.mark.parametrize("heavier_kg", [0.0, 0.1])
+@pytest.mark.parametrize("equal", [1, 3])
+@pytest.mark.parametrize("rows", [7, 8])
+def test_a_machine_the_same_from_both_ends_is_looked_at_once(heavier_kg: float, equal: int, rows: int) -> None:
+    """Independent: every order of the parts, some of the same weight, on rows of which the first may be heavier."""
+    cranks = mirrored(8) if rows == 8 else [0.0, 120.0, 240.0, 50.0, 240.0, 120.0, 0.0]
+    body = {"machine": machine(cranks, [90.0] * rows), "parts": parts(5, rows)}
+    body["machine"]["throws"][0]["rows"][0]["reciprocating_mass_kg"] += heavier_kg
+    body["parts"][0]["masses_kg"][:equal] = [41.0] * equal
+    problem = problem_of(MatchRequest.model_validate(body))
+    values = problem.peaks.at(problem.vectors(np.array(list(permutations(problem.listed)))))
+    known = float(np.partition(values, 20 * equal)[20 * equal])
+    found = exhausted(problem, best_plane(problem, problem.peaks, known, 0.0), known, 0.0, never)
+    assert found.complete
+    assert found.mass is not None
+    assert found.value == pytest.approx(np.min(values), abs=problem.rounding)
+    assert found.lower_bound <= np.min(values) + problem.rounding
+
+
 def test_ten_rows_of_each_kind_are_proven() -> None:
     """Metamorphic: what a random assignment comes to is no less than the answer, nor than the bound."""
     request = asked([36.0 * k for k in (0, 5, 3, 8, 1, 6, 4, 9, 2, 7)], [90.0] * 10, {})
@@ -96,6 +115,21 @@ def test_sixteen_rows_with_cranks_in_some_order_are_proven() -> None:
     assert one.certificate.method == "exhaustion"
     assert one.certificate.objective == turned.certificate.objective
     assert one.assignments == turned.assignments
+
+
+def test_sixteen_rows_whose_equal_masses_balance_are_proven() -> None:
+    """Metamorphic: the bound by sorting is nothing; listed and counted from the other end nothing changes."""
+    body = {
+        "machine": machine(mirrored(16), [90.0] * 16),
+        "parts": parts(16, 16),
+        "accuracy": {"relative_gap": 1e-6, "time_limit_s": 30},
+    }
+    one = match(MatchRequest.model_validate(body))
+    body["machine"]["throws"][0]["rows"][0]["reciprocating_mass_kg"] += 1e-7
+    assert match(MatchRequest.model_validate(body)).certificate.objective == pytest.approx(
+        one.certificate.objective, rel=1e-3
+    )
+    assert (one.status, one.certificate.method) == ("optimal", "exhaustion")
 
 
 def test_the_time_ends_it_and_is_said() -> None:
