@@ -94,6 +94,8 @@ def judged(
         "method": found.method,
         **of_mass,
     }
-    status = np.where(found.unreachable, "infeasible", judged.status)
-    reason = np.where(found.unreachable, INFEASIBLE, judged.reason)
+    status, reason = judged.status, judged.reason
+    if found.unreachable.any():
+        status = np.where(found.unreachable, "infeasible", status)
+        reason = np.where(found.unreachable, INFEASIBLE, reason)
     return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)

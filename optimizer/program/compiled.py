@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _REACH = 10.0
 
 
-#: both stages of scaled programs, as :func:`optimizer.program.kernel.interior_point.solve`
+#: both stages, as :func:`optimizer.program.kernel.interior_point.solve`, of programs in units of their own
 Method = Callable[..., tuple[Any, ...]]
 
 
@@ -89,13 +89,13 @@ def both_stages(
     if precision is not None:
         finest = precision.finest
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
-        solved = _solve(statement, share, least_mass, finer, solve_in(precision), at_least)
+        solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
     plain, level = np.flatnonzero(plain_discs(statement)), np.broadcast_to(at_least, share.shape)
     if not plain.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])
-    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs(), level[plain]))
+    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[plain]))
     if quick.certified.all() and plain.size == share.size:
         return quick
     done = plain[quick.certified]
@@ -113,7 +113,7 @@ def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Compl
     -------
     Unbalances (N, K) kg m, and multipliers (N, J + I) of the terms and ceilings in the last stage.
     """
-    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs() if plain_discs(statement).all() else None)
+    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs if plain_discs(statement).all() else None)
     proof = found.mass_proof if least_mass else found.proof
     prices = np.concatenate([proof.term, proof.ceiling], axis=-1)
     return found.lightest if least_mass else found.smallest, prices
@@ -237,28 +237,24 @@ def _solve(
     reachable = np.add.reduce(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
     # a level far above where the search starts is hardly found
     unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
-    # interpreted numbers would warn where compiled ones end in a NaN, and the search with it
-    with np.errstate(all="ignore"):
-        v, cone, row, mass_unit = (method or _compiled())(
-            _programs(statement, reach, unit, tolerances.ceilings),
-            least_mass,
-            share / unit,
-            np.clip(tolerances.sharpness * share / unit, tolerances.finest, tolerances.coarsest),
-            tolerances.mass,
-        )
-    v, cone, row, mass_unit = (np.asarray(values, dtype=float) for values in (v, cone, row, mass_unit))
-    points = limits.into(reach * limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2]))
-    vectors, terms = cone[..., 0] + 1j * cone[..., 1], norms.constant.shape[-1]
-
-    def multipliers(stage: int, value: Real) -> Multipliers:
-        """In ``value`` (N,), the unit of what is minimised (0: any), per unit of objective or response."""
-        return Multipliers(
-            term=vectors[stage, :, :terms] * (value / unit)[:, None],
-            row=row[stage] * (value / unit)[:, None],
-            ceiling=vectors[stage, :, terms:] * value[:, None] / ceilings.size,
-        )
-
-    return _Solved(points[0], points[1], multipliers(0, np.ones_like(share)), multipliers(1, mass_unit))
+    v, cone, row, mass_unit = (method or _by_interior_point)(
+        statement,
+        reach,
+        unit,
+        tolerances.ceilings,
+        least_mass,
+        share / unit,
+        (tolerances.sharpness * share / unit).clip(tolerances.finest, tolerances.coarsest),
+        tolerances.mass,
+    )
+    points = reach * limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2])
+    points = limits.into(points) if statement.flat is None else statement.flat.into(points)
+    # in units of what is minimised (the first is any), per unit of objective or response
+    value, terms = np.array([np.ones_like(share), mass_unit]), norms.constant.shape[-1]
+    vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
+    parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
+    proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
+    return _Solved(points[0], points[1], *proofs)
 
 
 def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
@@ -286,17 +282,30 @@ def _nearer(lightest: Points, smallest: Points, target: Real) -> Complex:
     return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
 
 
-def _compiled() -> Method:
+def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
     # the compiler is loaded when it is first needed
     from optimizer.program.kernel.interior_point import solve
 
-    return solve
+    return solve(_programs(statement, reach, unit, margin), *stages)
 
 
-def _in_discs() -> Method:
-    from optimizer.program.kernel.discs import solve
+def _in(precision: Precision) -> Method:
+    """Interpreted, in finer numbers, which warn where compiled ones end in a NaN, and the search with it."""
 
-    return solve
+    def method(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+        with np.errstate(all="ignore"):
+            found = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
+        return tuple(np.asarray(values, dtype=float) for values in found)
+
+    return method
+
+
+def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+    from optimizer.program.kernel.discs import Discs, solve
+
+    norms, radius = statement.norms, statement.limits.radius
+    influence = norms.influence / unit[:, None, None] * reach[:, None, :]
+    return solve(Discs(_parts(norms.constant / unit[:, None]), plain(influence), plain(reach / radius)), *stages)
 
 
 def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":

@@ -103,6 +103,23 @@ class Flat:
         )
         return found.reshape(leading), dear.reshape(leading)
 
+    def into(self, u: Complex) -> Complex:
+        """Unbalances (..., *leading, K) within all limits, close to those that are nearly so."""
+        from optimizer.program.kernel.settling import bring
+
+        found = np.array(u, order="C")
+        bring(
+            found.reshape(-1, u.shape[-1]),
+            self.radius,
+            self.max_mass,
+            self.budget,
+            self.free,
+            self.centre,
+            self.cosine,
+            self.sine,
+        )
+        return found
+
     def settle(self, u: Complex, found: Real, target: Real, heaviest: Real, rounding: float, rungs: Real) -> None:
         """Points (*leading, K) without dust and at the limits that they touch, and what they come to, in place.
 

@@ -24,7 +24,8 @@ def resting_multipliers(statement: Statement) -> Iterator[Multipliers]:
     size = np.abs(norms.constant)
     none = np.zeros_like(statement.ceilings.norms.constant)
     yield Multipliers(np.zeros_like(norms.constant), statement.where_largest(statement.floor), none)
-    largest = statement.where_largest(statement.rows(size))
+    # the largest row of one is that one
+    largest = statement.where_largest(statement.rows(size) if statement.floor.shape[-1] > 1 else statement.floor)
     direction = norms.constant / np.where(size > 0, size, 1.0)
     yield Multipliers(direction * largest[..., statement.row], largest, none)
 

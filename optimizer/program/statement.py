@@ -62,17 +62,23 @@ class Statement:
     @cached_property
     def _many_in_order(self) -> bool:
         """Whether rows are so many that a matrix of them costs more than it saves, and their terms are side by side."""
+        if self.floor.shape[-1] <= _MANY:
+            return False
         step = np.diff(self.row, prepend=-1)
-        return bool(self.floor.shape[-1] > _MANY and np.all((step == 0) | (step == 1)))
+        return bool(np.all((step == 0) | (step == 1)))
 
     @cached_property
     def every_constant(self) -> Complex:
         """Constants of the terms of the objective, then of what is under ceilings (..., J + I)."""
+        if not self.ceilings.names:
+            return self.norms.constant
         return np.concatenate([self.norms.constant, self.ceilings.norms.constant], axis=-1)
 
     @cached_property
     def every_influence(self) -> Real | Complex:
         """The same of the influences (..., J + I, K)."""
+        if not self.ceilings.names:
+            return self.norms.influence
         return np.concatenate([self.norms.influence, self.ceilings.norms.influence], axis=-2)
 
     @cached_property
@@ -99,7 +105,7 @@ class Statement:
     def single_reach(self) -> Real:
         """The largest unbalance that one term or one limited response calls for by itself, kg m (...)."""
         largest = np.zeros(())
-        for each in (self.norms, self.ceilings.norms):
+        for each in (self.norms, self.ceilings.norms) if self.ceilings.names else (self.norms,):
             apart = np.where((each.influence != 0).any(axis=-1), np.abs(each.constant) / each.largest_influence, 0.0)
             largest = np.maximum(largest, np.maximum.reduce(apart, axis=-1, initial=0.0))
         return largest
@@ -121,6 +127,8 @@ class Statement:
 
     def where_largest(self, rows: Real) -> Real:
         """1 at the first of the largest rows of each group, 0 elsewhere (..., rows)."""
+        if rows.shape[-1] == 1:
+            return np.ones(rows.shape)
         if self.group[-1] == 0:
             return (np.arange(rows.shape[-1]) == np.argmax(rows, axis=-1)[..., None]).astype(float)
         largest = np.zeros(rows.shape)

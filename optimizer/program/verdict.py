@@ -114,9 +114,10 @@ def verdict(claim: Claim, asked: float) -> Verdict:
     false = (over > claim.rounding).all(axis=-1) | claim.contradicted
     bound, gap = np.where(over > 0, claim.value, claim.lower_bound), np.maximum(-over, 0.0)
     relative = np.maximum.reduce(relative_gap(gap, claim.yardstick), axis=-1)
-    mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
     mass_yardstick = np.maximum(claim.mass, claim.mass_resolution)
-    if claim.mass_lower_bound is not None:
+    if claim.mass_lower_bound is None:
+        mass_bound, mass_gap, light = np.zeros_like(claim.mass), np.zeros_like(claim.mass), np.ones_like(false)
+    else:
         false = false | (claim.mass_lower_bound > claim.mass * (1.0 + _MASS_ROUNDING))
         mass_bound = np.minimum(claim.mass_lower_bound, claim.mass)
         mass_gap = relative_gap(claim.mass - mass_bound, mass_yardstick)
@@ -124,14 +125,18 @@ def verdict(claim: Claim, asked: float) -> Verdict:
     if false.any():
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
     kept, close = claim.excess <= CEILING_TOLERANCE, relative <= asked
-    nothing = false | ~np.isfinite(relative)
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
+    optimal = ~false & kept & close & light
+    if optimal.all() and asked < np.inf:
+        # all is finite then
+        every = np.full(optimal.shape, "optimal"), np.full(optimal.shape, why)
+        return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)
+    nothing = false | ~np.isfinite(relative)
     # the last of these that is so
     said = np.maximum.reduce([1 * ~light, 2 * ~close, 3 * ~kept, 4 * false])
-    reason = np.array([why, NOT_LIGHT, NOT_CLOSE, NOT_KEPT, CONTRADICTED])[said]
     return Verdict(
-        np.where(~false & kept & close & light, "optimal", "inaccurate"),
-        reason,
+        np.where(optimal, "optimal", "inaccurate"),
+        np.array([why, NOT_LIGHT, NOT_CLOSE, NOT_KEPT, CONTRADICTED])[said],
         np.where(nothing[..., None], np.nan, bound),
         np.where(nothing[..., None], np.nan, gap),
         np.where(nothing, np.nan, relative),
@@ -143,6 +148,8 @@ def verdict(claim: Claim, asked: float) -> Verdict:
 
 def relative_gap(gap: Real, yardstick: Real) -> Real:
     """Gap over yardstick; where the yardstick is 0 any gap is infinitely large, and no gap is none."""
+    if (yardstick > 0).all():
+        return gap / yardstick
     return np.where(yardstick > 0, gap / np.where(yardstick > 0, yardstick, 1.0), np.where(gap > 0, np.inf, 0.0))
 
 
@@ -173,10 +180,10 @@ def mass_resolution(statement: Statement, yardstick: Real) -> Real:
     """
     limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
     radius = np.where(limits.reach > 0, limits.radius, 0.0)[..., None, :]
-    does = np.concatenate(
-        [statement.membership @ (np.abs(norms.influence) * radius), np.abs(ceilings.norms.influence) * radius], axis=-2
-    )
+    does, size = statement.membership @ (np.abs(norms.influence) * radius), spread(yardstick, statement.floor.shape)
+    if ceilings.names:
+        does = np.concatenate([does, np.abs(ceilings.norms.influence) * radius], axis=-2)
+        size = np.concatenate([size, ceilings.size], axis=-1)
     most = np.maximum.reduce(does, axis=-1, initial=0.0)
-    size = np.concatenate([spread(yardstick, statement.floor.shape), ceilings.size], axis=-1)
     least = np.minimum.reduce(np.where(most > 0, size / np.where(most > 0, most, 1.0), np.inf), axis=-1)
     return _MASS_SHARE * np.where(np.isfinite(least), least, 0.0)

@@ -45,7 +45,7 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         discs: ("solve",),
         bounds: ("bounds",),
         values: ("values",),
-        settling: ("settle",),
+        settling: ("bring", "settle"),
         symmetries: ("means",),
         outlines: ("worst_turned",),
         cancelling: ("least_changes",),

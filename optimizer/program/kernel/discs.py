@@ -10,8 +10,11 @@ It has one answer to all trouble, which is none: what does not reach its gap in 
 nothing, and is for :mod:`optimizer.program.kernel.interior_point`. Notation as there.
 """
 
+from typing import NamedTuple
+
 import numpy as np
 
+from optimizer.arrays import Real
 from optimizer.program.kernel.compiling import inner, kernel
 from optimizer.program.kernel.disc_steps import (
     AIM,
@@ -132,12 +135,20 @@ def run(least_mass, programs, starts, tolerance, middle, ends, reached):  # type
         go(webs, web, own, step)
 
 
+class Discs(NamedTuple):
+    """N scaled programs of one row of J terms, as in :class:`optimizer.program.kernel.interior_point.Programs`."""
+
+    constant: Real  # (N, J, 2)
+    influence: Real  # (N, J, K)
+    mass: Real  # (N, K) mass at full reach
+
+
 @kernel
 def solve(programs, least_mass, share, tolerance, mass_tolerance):  # type: ignore[no-untyped-def]
-    """Both stages of N programs of one row, without ceilings, sectors and budgets.
+    """Both stages of N programs, Discs, without ceilings, sectors and budgets.
 
-    Parameters and results are those of :func:`optimizer.program.kernel.interior_point.solve`; of a stage that did not
-    end well all is 0.
+    Other parameters, and results, are those of :func:`optimizer.program.kernel.interior_point.solve`; of a stage that
+    did not end well all is 0.
     """
     number, terms, webs = programs.influence.shape
     v, p = np.zeros((2, number, 3, webs)), np.zeros((2, number, terms, 2))

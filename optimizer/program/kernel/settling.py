@@ -9,7 +9,7 @@ from optimizer.program.kernel.values import value
 
 @inner
 def into(u, radius, max_mass, budget, free, centre, cosine, sine):  # type: ignore[no-untyped-def]
-    """An unbalance (K,) to within all limits: :meth:`optimizer.program.limits.Limits.into`."""
+    """An unbalance (K,) within all limits, in place: :meth:`optimizer.program.limits.Limits.into`."""
     mass = 0.0
     for k in range(u.size):
         if not free[k]:
@@ -24,6 +24,14 @@ def into(u, radius, max_mass, budget, free, centre, cosine, sine):  # type: igno
     if mass > budget:
         for k in range(u.size):
             u[k] = complex(u[k].real * (budget / mass), u[k].imag * (budget / mass))
+
+
+@in_place
+def bring(u, radius, max_mass, budget, free, centre, cosine, sine):  # type: ignore[no-untyped-def]
+    """The same of M = P N unbalances (M, K) of N programs, unbalance m of program m % N."""
+    for m in range(u.shape[0]):
+        n = m % budget.size
+        into(u[m], radius[n], max_mass[n], budget[n], free[n], centre[n], cosine[n], sine[n])
 
 
 @inner
