@@ -1,6 +1,7 @@
 """All outputs: what they need, and what they come to in an answer and in a sweep."""
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from types import MappingProxyType
 from typing import Any
 
@@ -11,17 +12,19 @@ from optimizer.figures.balance_quality import balance_quality
 from optimizer.figures.balance_rate import BALANCE_RATE, balance_rate
 from optimizer.figures.bearings import MAIN_BEARINGS
 from optimizer.figures.cautions import cautions
+from optimizer.figures.details import DETAILED
 from optimizer.figures.dynamics import OVER_THE_TURN
 from optimizer.figures.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
 from optimizer.figures.internal_moment import INTERNAL_MOMENT
 from optimizer.figures.loads import LOADS
 from optimizer.figures.orders import ORDERS
-from optimizer.figures.output import Output
+from optimizer.figures.output import Columns, Output
 from optimizer.figures.pins import PIN_LOADS
 from optimizer.figures.roll import ROLL
 from optimizer.figures.stages import STAGES
 from optimizer.scene import Prepared, simulated, turns_over
 from schemas.base import FieldProblem
+from schemas.details import usual_keys
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Scene
@@ -90,7 +93,7 @@ def fields(
     return found
 
 
-def columns(request: Scene, unbalance: Complex, always: tuple[str, ...] = ()) -> dict[str, Real]:
+def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted: frozenset[str]) -> dict[str, Real]:
     """Columns (n,) of the outputs of many designs, as many as have any.
 
     Parameters
@@ -98,22 +101,28 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...] = ()) ->
     request : of columns (n,), valid and complete.
     unbalance : (n, webs) kg m, the counterweights; nan where there are none.
     always : outputs whose columns are needed whether they were asked for or not.
+    wanted : keys of the columns that are (:func:`schemas.details.key`); what comes along beside them costs little.
     """
-    outputs = dict.fromkeys((*always, *request.outputs))
-    asked = {name: OUTPUTS[name] for name in outputs if OUTPUTS[name].columns is not None}
-    samples = request.angles.count if needs_samples(request) else 1
-    scene = simulated(request, {name: each.column_needs for name, each in asked.items()}, samples, unbalance.shape[:1])
+    asked = column_groups(request, always, wanted)
+    samples = request.angles.count if any(each.sampled for each in asked) else 1
+    needs = {str(k): each.needs or () for k, each in enumerate(asked)}
+    scene = simulated(request, needs, samples, unbalance.shape[:1])
     found: dict[str, Real] = {}
-    for each in asked.values():
-        if each.columns is not None:
-            found |= each.columns.values(scene, unbalance)
+    for each in asked:
+        found |= each.values(scene, unbalance)
     return found
 
 
-def needs_samples(request: Scene) -> bool:
-    """Whether columns of a request are read off the samples of the turn."""
-    wanted = (OUTPUTS[name].columns for name in request.outputs)
-    return any(each is not None and each.sampled for each in wanted)
+def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str]) -> list[Columns]:
+    """The columns of a request's outputs that are wanted, in the groups in which they are worked out."""
+    found = []
+    for name in dict.fromkeys((*always, *request.outputs)):
+        output = OUTPUTS[name]
+        keys = usual_keys(name)
+        if output.columns is not None and (not keys or not wanted.isdisjoint(keys)):
+            found.append(replace(output.columns, needs=output.column_needs))
+        found += [each for each in DETAILED.get(name, ()) if not wanted.isdisjoint(each.keys)]
+    return found
 
 
 def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:

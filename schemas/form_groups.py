@@ -97,7 +97,7 @@ GROUPS: dict[str, Groups] = {
     "SweepRequest": {
         "What is computed": ("task", "base"),
         "Designs": ("design", "axes", "angles_deg", "samples", "seed"),
-        "Result": ("columns", "top", "pareto", "multipliers", "dry_run"),
+        "Result": ("columns", "details", "top", "pareto", "multipliers", "dry_run"),
     },
     "MatchRequest": {
         "Machine": ("machine",),

@@ -10,6 +10,7 @@ from optimizer.figures.output import Columns, Output
 from optimizer.figures.peaks import Extremes, bracket, largest_of_rows, of_rows, of_torque
 from optimizer.mechanics.row_series import Reading
 from optimizer.scene import Prepared
+from schemas.details import Case
 from schemas.dynamics import (
     Chamber,
     Flywheel,
@@ -30,7 +31,6 @@ from schemas.dynamics import (
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import row_cylinders
 
-Case = Literal["running", "no_load", "sudden_stop"]
 _SIDES: tuple[Literal["head", "crank"], ...] = ("head", "crank")
 
 
@@ -124,14 +124,14 @@ def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce
 
 
 #: rod force of every load case (design calculation of the 2D12, section 2.5)
-_CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "sudden_stop": "rod_at_rest"}
+CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "sudden_stop": "rod_at_rest"}
 
 
 def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
     """Forces in the mechanism, and the load cases of every rod."""
     found = scene.results["rod_forces"]
     rod, side, tangential, radial = found.rod, found.side, found.tangential, found.radial
-    by_case = {case: of_rows(scene, reading) for case, reading in _CASES.items()}
+    by_case = {case: of_rows(scene, reading) for case, reading in CASES.items()}
     on_guide = of_rows(scene, "side").magnitude
     rows = []
     for k, labels in rows_of(scene):
@@ -265,7 +265,7 @@ def _piston_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
 
 
 def _rod_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
-    return {"peak_rod_load_N": np.max([largest_of_rows(scene, reading).lower for reading in _CASES.values()], axis=0)}
+    return {"peak_rod_load_N": np.max([largest_of_rows(scene, reading).lower for reading in CASES.values()], axis=0)}
 
 
 def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

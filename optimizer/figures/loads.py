@@ -43,7 +43,9 @@ def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
         # J eps is what the constant torque of the driver leaves over
         angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
         bearing_weights=tuple(_weights(scene, machine, fitted)),
-        foundation_weight_N=_whole_weight(scene, machine, fitted),
+        foundation_weight_N=(
+            None if machine.stationary_mass_kg is None else float(whole_weight(scene, machine, fitted))
+        ),
         gravity_deg=machine.gravity_deg,
     )
 
@@ -63,7 +65,7 @@ def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
 def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
     forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
     piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
-    at_centres = _at_dead_centres(scene)
+    at_centres = at_dead_centres(scene)
     guides = _guides(scene, machine)
     rows = [row for throw in machine.throws for row in throw.rows]
     for k, place in rows_of(scene):
@@ -94,17 +96,18 @@ def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
         )
 
 
-def _at_dead_centres(scene: Prepared) -> Real:
-    """Gas force of every row at its own outer and inner dead centre, (rows, 2) N."""
+def at_dead_centres(scene: Prepared) -> Real:
+    """Gas force of every row at its own outer and inner dead centre, (..., rows, 2) N."""
     cycle: GasCycle | None = scene.results.get("gas")
-    count = scene.layout.reciprocating.mass.shape[-1]
+    masses = scene.layout.reciprocating.mass
     if cycle is None:
-        return np.zeros((count, 2))
+        return np.zeros((*masses.shape, 2))
     ahead = own_angle(scene.layout, np.zeros(1))[..., 0]
-    angle = np.concatenate([-ahead, np.pi - ahead])
+    angle = np.concatenate([-ahead, np.pi - ahead], axis=-1)
     total = gas_forces(cycle.chambers, motion(scene.layout, angle), scene.layout, cycle.traces).total
+    count = masses.shape[-1]
     rows = np.arange(count)
-    return np.stack([total[rows, rows], total[rows, count + rows]], axis=-1)
+    return np.stack([total[..., rows, rows], total[..., rows, count + rows]], axis=-1)
 
 
 def _covers(scene: Prepared, k: int, cylinders: int) -> Iterator[CoverLoad]:
@@ -129,13 +132,18 @@ def _frame(gas: Real) -> FrameLoad:
     )
 
 
-def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] | None:
-    if machine.gravity_deg is None:
-        return None
+def on_guides(scene: Prepared, machine: ReciprocatingMachine) -> tuple[Real, Real]:
+    """Forces (..., rows, T) N on the guides, and weights (..., rows) N, of a machine that says where gravity pulls."""
     layout = scene.layout
     down = np.asarray(direction(np.asarray(machine.gravity_deg)))
     masses = layout.reciprocating.mass
-    force, weight = on_guide(scene.results["rod_forces"].side, layout.reciprocating.axis, layout.sense, masses, down)
+    return on_guide(scene.results["rod_forces"].side, layout.reciprocating.axis, layout.sense, masses, down)
+
+
+def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] | None:
+    if machine.gravity_deg is None:
+        return None
+    force, weight = on_guides(scene, machine)
     return [
         GuideLoad(
             weight_N=float(weight[k]),
@@ -144,7 +152,7 @@ def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] |
             lifts=None if weight[k] == 0.0 else bool(np.any(force[k] < 0.0)),
             lifted_share=0.0 if weight[k] == 0.0 else float(np.mean(force[k] < 0.0)),
         )
-        for k in range(masses.shape[-1])
+        for k in range(len(weight))
     ]
 
 
@@ -167,7 +175,7 @@ def _joined(one: Any, other: Any) -> Any:
     return np.concatenate([np.broadcast_to(each, (*leading, each.shape[-1])) for each in (one, other)], axis=-1)
 
 
-def _on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:
+def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:
     """Weights on the main bearings, (..., B) N, with counterweights (..., webs) kg m."""
     places, masses = _turning(scene, machine, fitted)
     # without a direction they have one all the same, whichever it is
@@ -184,7 +192,7 @@ def _on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex
 def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[BearingWeight]:
     if not machine.bearings:
         return
-    for bearing, weight in zip(machine.bearings, _on_bearings(scene, machine, fitted).tolist(), strict=True):
+    for bearing, weight in zip(machine.bearings, on_bearings(scene, machine, fitted).tolist(), strict=True):
         yield BearingWeight(
             name=bearing.name,
             weight_N=abs(weight),
@@ -193,16 +201,14 @@ def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | N
         )
 
 
-def _whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> float | None:
-    """Weight of the machine on its foundation, N; None where it is not said what stands still."""
-    if machine.stationary_mass_kg is None:
-        return None
+def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Real:
+    """Weight of a machine that says what stands still on its foundation, (...) N."""
     _, turning = _turning(scene, machine, fitted)
     shafts = 0.0
     if scene.layout.balance is not None and scene.shafts is not None:
         shafts = float(np.sum(np.abs(scene.shafts) / scene.layout.balance.radius))
-    moving = float(np.sum(turning) + np.sum(scene.layout.reciprocating.mass)) + shafts
-    return (machine.stationary_mass_kg + moving) * GRAVITY
+    moving = np.sum(turning, axis=-1) + np.sum(scene.layout.reciprocating.mass, axis=-1) + shafts
+    return np.asarray((machine.stationary_mass_kg + moving) * GRAVITY)
 
 
 def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
@@ -217,7 +223,7 @@ def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
         "shared_base_peak_Nm": of_torque(scene, constant - mean).lower,
     }
     if machine.bearings:
-        weights = np.abs(_on_bearings(scene, machine, fitted))
+        weights = np.abs(on_bearings(scene, machine, fitted))
         names = labels([bearing.name for bearing in machine.bearings])
         found |= {f"bearing_weight_N.{name}": weights[..., k] for k, name in enumerate(names)}
     return found

@@ -17,11 +17,15 @@ class Columns:
     values : of a scene of designs and their counterweights (n, webs) kg m, nan where there are none; (n,) by column.
     sampled : whether they are read off the samples of the turn.
     needs : effects whose results they read, where the figure reads others.
+    keys : of those in detail (:mod:`schemas.details`), which are worked out only where one of them is wanted.
+    alone : whether every design is worked out by itself, as a single answer is.
     """
 
     values: Callable[[Prepared, Complex], Mapping[str, Real]]
     sampled: bool = False
     needs: tuple[str, ...] | None = None
+    keys: tuple[str, ...] = ()
+    alone: bool = False
 
 
 @dataclass(frozen=True)

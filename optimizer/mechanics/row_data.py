@@ -39,6 +39,16 @@ class RowData:
     closed: Real | None = None
     traces: tuple[Trace, ...] = ()  # of chambers whose pressure is given
 
+    def of_design(self, number: int) -> "RowData":
+        """Data of one of the designs alone."""
+
+        def one(value: Any) -> Any:
+            return value[number : number + 1] if len(value) > 1 else value
+
+        arrays = {name: one(value) for name, value in vars(self).items() if isinstance(value, np.ndarray)}
+        traces = tuple(replace(trace, table=one(trace.table), lead=one(trace.lead)) for trace in self.traces)
+        return replace(self, designs=1, traces=traces, **arrays)
+
     @cached_property
     def packed(self) -> "Rows":
         """What is compiled takes it as."""

@@ -76,6 +76,11 @@ class WholeTurn:
         """Sums of a force of the rows over weights (N, C, R), with constants (N, C): N C curves."""
         return TurnCurves(self, reading, weights, np.broadcast_to(constant, weights.shape[:2]))
 
+    def of_design(self, number: int) -> "WholeTurn":
+        """The turn of one of the designs alone."""
+        one = slice(number, number + 1)
+        return WholeTurn(self.rows.of_design(number), self.centre[one], self.half[one], self.turns)
+
     @cached_property
     def torque(self) -> "TurnCurves":
         """Torque of all rows against rotation, N m."""
@@ -155,6 +160,11 @@ class TurnCurves:
     @property
     def period_deg(self) -> float:
         return 360.0 * self.whole.turns
+
+    def of_design(self, number: int) -> "TurnCurves":
+        """The curves of one of the designs alone."""
+        weights, constant = (each[number : number + 1] for each in (self.weights, self.constant))
+        return TurnCurves(self.whole.of_design(number), self.reading, weights, constant)
 
     @cached_property
     def pieces(self) -> Pieces:

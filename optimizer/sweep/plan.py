@@ -8,7 +8,7 @@ from optimizer.errors import MissingInput
 from optimizer.outputs import missing_inputs
 from optimizer.required import missing
 from optimizer.sweep.table import result_schema
-from optimizer.sweep.work import curves_over_turn, work_per_design
+from optimizer.sweep.work import curves_over_turn, work_per_design, worked_out_alone
 from schemas.base import FieldProblem
 from schemas.requests import OptimizeRequest
 from schemas.rules import Path
@@ -22,6 +22,8 @@ _PROGRAM_S = 7e-6
 #: and for each row at each angle of the turn, in the outputs
 _SAMPLE_S = 3.5e-7
 _ROW_S = 6e-6
+#: for what is worked out design by design among the columns in detail
+_DETAIL_S = 0.005
 #: for a program by itself, of plates or alike webs, and for a search among discrete choices
 _ALONE_S, _SEARCH_S = 0.02, 0.5
 #: for the program over the turn, and for each curve that it cuts
@@ -139,14 +141,16 @@ def block_rows(request: SweepRequest) -> int:
 
 
 def _chunk_rows(request: SweepRequest) -> int:
-    largest = min(_CHUNK_S / _seconds_per_design(request), _CELLS / len(request.all_columns), 100_000)
+    cells = max(len(request.all_columns), len(request.chosen_columns))
+    largest = min(_CHUNK_S / _seconds_per_design(request), _CELLS / cells, 100_000)
     fair = max(-(-request.total // _FEWEST_CHUNKS), _SMALLEST_CHUNK)
     return max(1, min(round(largest), fair), -(-request.total // _MOST_CHUNKS))
 
 
 def _seconds_per_design(request: SweepRequest) -> float:
     """Rough time of a design on one core."""
-    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always)
+    seconds = _ROW_S + _SAMPLE_S * work_per_design(request.base, request.always, request.wanted)
+    seconds += _DETAIL_S * worked_out_alone(request)
     if request.over_the_turn:
         seconds += _TURN_S + _CUTS_S * curves_over_turn(request)
     elif request.searched and isinstance(request.base, OptimizeRequest):

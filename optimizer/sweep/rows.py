@@ -34,7 +34,7 @@ class Rows:
         count = stop - start
         self.columns: dict[str, Any] = {
             column.name: np.full(count, np.nan) if column.kind == "number" else np.full(count, None, dtype=object)
-            for column in request.all_columns
+            for column in (*request.all_columns, *request.chosen_columns)
         }
         self.columns["index"] = np.arange(start, stop, dtype=np.int64)
 
@@ -71,6 +71,7 @@ class Group:
     def __init__(self, request: SweepRequest, values: Sequence[Real]) -> None:
         self._base, self._targets, self._values = request.base, request.targets, values
         self.multipliers, self.always, self.one_by_one = request.multipliers, request.always, request.one_by_one
+        self.wanted = request.wanted
         self._over_the_turn = bool(request.over_the_turn)
 
     def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
@@ -179,13 +180,13 @@ def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Comple
     # without counterweights there is nothing with them
     none = table.columns["status"][designs] == "infeasible"
     fitted = np.where(none[:, None], np.nan, unbalance)
-    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), group.always), 1))
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), group.always, group.wanted), 1))
     for first in range(0, designs.size, size):
         block = designs[first : first + size]
         part = group.of(block)
         always = ("residual", *group.always) if isinstance(part, OptimizeRequest) else ()
         part = on_webs(part) if isinstance(part, AnalyzeRequest) else part
-        table.put(block, columns(part, fitted[first : first + size], always))
+        table.put(block, columns(part, fitted[first : first + size], always, group.wanted))
 
 
 def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule]) -> Designs:

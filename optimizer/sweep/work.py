@@ -2,25 +2,27 @@
 
 from optimizer.effects.registry import effects_of
 from optimizer.mechanics.cylinders import cycle_turns, entry_count
-from optimizer.outputs import OUTPUTS, needs_samples
+from optimizer.outputs import column_groups
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
 
 
-def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str, ...] = ()) -> int:
+def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str, ...], wanted: frozenset[str]) -> int:
     """Rows times angles that one design needs at once, which bounds the memory of a block; 0 without any.
 
     Parameters
     ----------
     always : outputs that rows hold whether they were asked for or not.
+    wanted : keys of the columns that are.
     """
-    effects = effects_of([need for output in (*always, *request.outputs) for need in OUTPUTS[output].column_needs])
+    groups = column_groups(request, always, wanted)
+    effects = effects_of([need for group in groups for need in group.needs or ()])
     if not isinstance(request.machine, ReciprocatingMachine) or "kinematics" not in effects:
         return 0
     rows = sum(len(throw.rows) for throw in request.machine.throws)
     turns = cycle_turns(request.machine)
-    samples = turns * request.angles.count if needs_samples(request) else 1
+    samples = turns * request.angles.count if any(group.sampled for group in groups) else 1
     # a row brings at most 6 breaks in a turn, a trace its entries; the halved panels of 10 degrees have 12 nodes each,
     # where integrals have no closed form
     breaks = 6 * rows * turns + entry_count(request.machine)
@@ -29,6 +31,11 @@ def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str
     # and the pieces of 5 degrees have ten coefficients each
     pieces = 10 * (72 * turns + breaks) if "whole_turn" in effects else 1
     return max(rows, 1) * max(samples, nodes, pieces)
+
+
+def worked_out_alone(request: SweepRequest) -> int:
+    """How many groups of columns every design is worked out by itself for."""
+    return sum(group.alone for group in column_groups(request.base, request.always, request.wanted))
 
 
 def curves_over_turn(request: SweepRequest) -> int:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
+from schemas.details import detail_columns
 from schemas.machine import Machine
 from schemas.objective import Objective
 from schemas.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
@@ -45,15 +46,17 @@ def result_columns(
     targets: Sequence[Target],
     multipliers: bool = False,
     always: Sequence[str] = (),
+    details: bool = False,
 ) -> tuple[Column, ...]:
     """All columns of a sweep, in the order of the result: index, axes, status, figures, counterweights.
 
     Parameters
     ----------
     always : outputs that rows hold whether they were asked for or not.
+    details : whether those in detail come along.
     """
     found: dict[str, Column] = {}
-    for column in _columns(base, targets, always):
+    for column in _columns(base, targets, always, details):
         found.setdefault(column.name, column)
     if multipliers:
         meaning = "multipliers of the certificate, or of the conflict of the ceilings, as JSON"
@@ -71,7 +74,7 @@ def goal_columns(objective: Objective) -> Iterator[Column]:
 
 
 def _columns(
-    base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target], always: Sequence[str]
+    base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target], always: Sequence[str], details: bool
 ) -> Iterator[Column]:
     yield Column("index", "integer", None, "number of the design, from 0")
     for target in targets:
@@ -81,6 +84,8 @@ def _columns(
     optimizes = isinstance(base, OptimizeRequest)
     if optimizes or "residual" in base.outputs:
         yield from _RESIDUAL
+        if details:
+            yield from detail_columns(base.machine, "residual")
     yield _TOTAL_MASS
     if optimizes:
         yield from _CERTIFICATE
@@ -89,6 +94,8 @@ def _columns(
     for output in dict.fromkeys((*always, *base.outputs)):
         yield from OUTPUT_COLUMNS[output]
         yield from _of_each(base.machine, output)
+        if details:
+            yield from detail_columns(base.machine, output)
     if optimizes:
         for k, web in enumerate(base.machine.webs):
             path = pointer(("machine", "webs", k))

@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
 from schemas.base import FieldProblem, Model
+from schemas.details import key
 from schemas.objective import OVER_THE_TURN, of_the_shaft
 from schemas.outputs import OUTPUT_COLUMNS, Column
 from schemas.quantities import Angle, Count, Flag
@@ -88,6 +89,12 @@ class SweepRequest(Ruled):
         None,
         description="keep the designs that no other beats in all these columns, each to be small; null keeps all",
         examples=[["force_peak_N", "moment_peak_Nm"]],
+    )
+    details: Flag = Field(
+        False,
+        description="every column in detail comes along: by bearing, row and load case, what single answers have beside"
+        " the usual columns; otherwise only those that are named in columns, top or pareto",
+        examples=[False],
     )
     multipliers: Flag = Field(
         False,
@@ -171,20 +178,29 @@ class SweepRequest(Ruled):
 
     @property
     def all_columns(self) -> tuple[Column, ...]:
-        """Every column that the result could have."""
-        return result_columns(self.base, self.targets, self.multipliers, self.always)
+        """The columns that come along where none are named."""
+        return result_columns(self.base, self.targets, self.multipliers, self.always, self.details)
+
+    @property
+    def possible_columns(self) -> tuple[Column, ...]:
+        """Every column that the result could have, those in detail too."""
+        return result_columns(self.base, self.targets, self.multipliers, self.always, True)
 
     @property
     def chosen_columns(self) -> tuple[Column, ...]:
         """The columns of the result, in their usual order."""
-        if self.columns is None:
-            return self.all_columns
-        wanted = {"index", "status", *self.columns, *(self.pareto or ())}
+        usual = [column.name for column in self.all_columns] if self.columns is None else self.columns
+        wanted = {"index", "status", *usual, *(self.pareto or ())}
         if self.top is not None:
             wanted.add(self.top.by)
         if self.multipliers:
             wanted.add(MULTIPLIERS)
-        return tuple(column for column in self.all_columns if column.name in wanted)
+        return tuple(column for column in self.possible_columns if column.name in wanted)
+
+    @property
+    def wanted(self) -> frozenset[str]:
+        """Names of these, without the parts that they are about: what rows need hold."""
+        return frozenset(key(column.name) for column in self.chosen_columns)
 
     def _output_problems(self) -> Iterator[FieldProblem]:
         if self.multipliers and self.task != "optimize":
@@ -279,7 +295,7 @@ class SweepRequest(Ruled):
             yield FieldProblem(("samples",) if self.design == "latin_hypercube" else ("axes",), message)
 
     def _column_problems(self) -> Iterator[FieldProblem]:
-        kinds = {column.name: column.kind for column in self.all_columns}
+        kinds = {column.name: column.kind for column in self.possible_columns}
         for j, name in enumerate(self.columns or ()):
             if name not in kinds:
                 yield FieldProblem(("columns", j), "the result has no column of this name")

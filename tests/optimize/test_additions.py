@@ -70,7 +70,9 @@ NAMED_IN = {
     "figures/dynamics.py": "of the piston",
     # columns by their names
     "figures/orders.py": "columns of sweeps",
+    "figures/details/first_order.py": "columns of sweeps",
     "mechanics/gas.py": "of the gas",
+    "figures/details/loads.py": "of the gas",
 }
 
 

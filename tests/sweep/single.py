@@ -19,6 +19,7 @@ from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest
 from schemas.target import BadPointer, find_target
 from service.validation import InvalidRequest, check, pointer
+from tests.sweep.details import detail_figures
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 #: agreement of a row with the single call, relative to the larger of the value and its natural size
@@ -70,6 +71,7 @@ def assert_row_is_the_single_answer(request: SweepRequest, row: dict[str, Any], 
         assert all(row[name] is None for name in figures)
         return "invalid"
     expected = dict(_figures(request, answer))
+    expected |= {name: value for name, value in detail_figures(request, answer) if name in row}
     for name, value in expected.items():
         if name in ("status", "method"):
             assert row[name] == value, (name, row, value)

@@ -9,7 +9,7 @@ def test_rows_are_the_single_answers_independent() -> None:
         "machine": machine(
             [{"cylinders": [FIRST, SECOND]}, {"cylinder": SECOND}], friction={"mechanical_efficiency": 0.9}
         ),
-        "outputs": ["gas", "piston_force", "rod_loads", "torque"],
+        "outputs": ["gas", "piston_force", "rod_loads", "torque", "loads"],
     }
     place = "/machine/throws/0/rows/0/cylinders/1"
     request = sweep(
@@ -17,6 +17,7 @@ def test_rows_are_the_single_answers_independent() -> None:
         {"path": f"{place}/bore_m", "values": [0.2, 0.3, 0.05]},
         {"path": f"{place}/discharge_pressure_Pa", "values": [1.1e6, 1.6e6]},
         task="analyze",
+        details=True,
     )
     found = [assert_row_is_the_single_answer(request, row) for row in table(request).to_pylist()]
     # a bore below that of the piston rod is refused, and ends nothing
