@@ -1,5 +1,6 @@
 """From request to answer: machine -> responses -> program -> counterweights -> report."""
 
+import math
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -16,7 +17,14 @@ from optimizer.errors import MissingInput
 from optimizer.figures.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.figures.limits import of_ceilings, of_limits, quantity_of, touched_limits
 from optimizer.figures.limits import shadow_prices as priced
-from optimizer.figures.proof import implied_max_mass, named, named_proofs, physical
+from optimizer.figures.proof import (
+    PhysicalMultipliers,
+    implied_max_mass,
+    named,
+    named_proofs,
+    physical,
+    physical_proofs,
+)
 from optimizer.figures.sensitivity import of_first_order
 from optimizer.fixed import beside
 from optimizer.formulate import given_ceilings, limited, smallest_peak
@@ -145,12 +153,13 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted:
     machine, goal, u = request.machine, request.objective, best.unbalance[0]
     mass, _ = beside(machine, best.mass_kg[0], best.angle_deg[0])
     touched = touched_limits(machine, goal, scene.responses, mass, u, scene.omega_squared)
-    (proofs,) = named_proofs(best.program, best.found, best.omega_squared, goal.least_mass)
-    figures = {name: column[0] for name, column in best.certificate.items()}
+    in_units = physical_proofs(best.program, best.found, best.omega_squared)
+    (proofs,) = named_proofs(best.program, best.found, in_units, best.omega_squared, goal.least_mass)
+    figures = {name: column.item(0) for name, column in best.certificate.items()}
     return {
         **fitted.fields,
         "active_limits": touched,
-        "shadow_prices": _prices(request, scene, best, fitted.all_of_them, touched),
+        "shadow_prices": _prices(request, scene, best, in_units.objective, fitted.all_of_them, touched),
         "sensitivity": of_first_order(best.program, best.unbalance, scene.omega_squared),
         "certificate": Certificate(
             **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
@@ -164,9 +173,11 @@ def _prices(
     request: OptimizeRequest,
     scene: Prepared,
     best: Certified,
+    proof: PhysicalMultipliers,
     fitted: tuple[Counterweight, ...],
     touched: tuple[MachineLimit, ...],
 ) -> tuple[ShadowPrice, ...]:
+    """What limits cost, from the multipliers (1, ...) of the bound on the objective."""
     gap = float(best.verdict.gap[0, 0])
     if np.isnan(gap) or best.searched or request.machine.web_groups:
         # what limits cost those of any mass says nothing of what can be chosen, nor does one web of a group give way
@@ -174,7 +185,8 @@ def _prices(
     machine, objective = request.machine, request.objective
     quantity = quantity_of(machine, objective)
     assert quantity is not None  # the first order has a weight, or the objective looks at the whole turn
-    prices = mapped(shadow_prices(best.program, best.unbalance, best.found.multipliers), lambda array: array[0])
+    found = shadow_prices(best.program, best.unbalance, Multipliers(proof.term, proof.row, proof.ceiling))
+    prices = mapped(found, lambda array: array[0])
     return priced(
         machine,
         quantity,
@@ -189,7 +201,7 @@ def _prices(
 
 def finite_or_null(value: Real | float) -> float | None:
     """A figure, null where nothing is proven."""
-    return float(value) if np.isfinite(value) else None
+    return float(value) if math.isfinite(value) else None
 
 
 def _conflict(
@@ -245,7 +257,8 @@ def _infeasible(
             # of the reach that the conflict is proven for, if peaks by themselves could need a larger one
             most, of_excess = best.program.limits.max_mass, (best.program, best.found)
             alone = by_itself(most)
-        (proof,) = named_proofs(*of_excess, square, request.objective.least_mass)
+        in_units = physical_proofs(*of_excess, square)
+        (proof,) = named_proofs(*of_excess, in_units, square, request.objective.least_mass)
         against = proof.conflict
     proofs = {
         name: named(peak, physical(peak, found.multipliers, "objective", square).chosen(0))

@@ -5,15 +5,15 @@ of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Web
 multipliers of their own, so none is missing where the program went without them.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, Reals, mapped
+from optimizer.arrays import Complex, Real, Reals
 from optimizer.limits import largest_mass
-from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven
+from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, proves, together
 from optimizer.program.optima import Optima
 from optimizer.program.statement import Statement
 from schemas.machine import Machine
@@ -36,7 +36,7 @@ class PhysicalMultipliers:
 
     def chosen(self, program: int) -> "PhysicalMultipliers":
         """Those of one program of one leading axis."""
-        return mapped(self, lambda array: array[program])
+        return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])
 
 
 def physical(
@@ -50,15 +50,27 @@ def physical(
     bounded : "objective": in units of the objective, the rows sum to 1; "mass": in kg; "parameter": a plain number.
     omega_squared : (...) rad^2/s^2.
     """
-    if bounded == "objective":
-        usable, _ = normalised(statement, multipliers)
-        price = budget_price(statement, usable, 0.0) * omega_squared
-    else:
-        usable = multipliers.admissible(statement)
-        price = budget_price(statement, usable, 1.0 if bounded == "mass" else 0.0)
-        usable = usable.times(1.0 / np.asarray(omega_squared))
-    term = _no_longer(usable.term, usable.row[..., statement.row])
-    return PhysicalMultipliers(term, usable.row, usable.ceiling, price)
+    (found,) = _physical(statement, {bounded: multipliers}, omega_squared)
+    return found
+
+
+def _physical(
+    statement: Statement, bounds: Mapping[Bounded, Multipliers], omega_squared: Reals
+) -> Iterator[PhysicalMultipliers]:
+    """The same of several bounds on the same programs at once, in their order."""
+    usable = together(bounds.values()).admissible(statement)
+    price = usable.price(statement)
+    of_price, per_newton = 1.0 / np.where(proves(price), price, 1.0), 1.0 / np.asarray(omega_squared)
+    scaled = usable.times(
+        np.array([of_price[n] if name == "objective" else per_newton for n, name in enumerate(bounds)])
+    )
+    term = _no_longer(scaled.term, scaled.row[..., statement.row])
+    for n, name in enumerate(bounds):
+        if name == "objective":
+            budget = budget_price(statement, scaled.chosen(n), 0.0) * omega_squared
+        else:
+            budget = budget_price(statement, usable.chosen(n), 1.0 if name == "mass" else 0.0)
+        yield PhysicalMultipliers(term[n], scaled.row[n], scaled.ceiling[n], budget)
 
 
 def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) -> PhysicalMultipliers:
@@ -85,23 +97,38 @@ class Proofs(NamedTuple):
     conflict: BoundMultipliers | None
 
 
-def named_proofs(statement: Statement, found: Optima, omega_squared: Real, least_mass: bool) -> Iterator[Proofs]:
+class PhysicalProofs(NamedTuple):
+    """Multipliers of both bounds on N designs (N, ...)."""
+
+    objective: PhysicalMultipliers
+    mass: PhysicalMultipliers
+
+
+def physical_proofs(statement: Statement, found: Optima, omega_squared: Real) -> PhysicalProofs:
+    """Those of N programs, one leading axis (N,)."""
+    bounds: dict[Bounded, Multipliers] = {"objective": found.multipliers, "mass": found.mass_multipliers}
+    return PhysicalProofs(*_physical(statement, bounds, omega_squared))
+
+
+def named_proofs(
+    statement: Statement, found: Optima, proofs: PhysicalProofs, omega_squared: Real, least_mass: bool
+) -> Iterator[Proofs]:
     """The proofs of N programs, one leading axis (N,), one by one."""
-    objective = physical(statement, found.multipliers, "objective", omega_squared)
-    mass = physical(statement, found.mass_multipliers, "mass", omega_squared)
     for n, unreachable in enumerate(found.unreachable.tolist()):
         if unreachable:
             alone = statement.chosen(n)
             against = conflict(alone, found.conflict.chosen(n), omega_squared[n])
             yield Proofs(None, None, named_conflict(alone, against))
         else:
-            of_mass = named(statement, mass.chosen(n)) if least_mass else None
-            yield Proofs(named(statement, objective.chosen(n)), of_mass, None)
+            of_mass = named(statement, proofs.mass.chosen(n)) if least_mass else None
+            yield Proofs(named(statement, proofs.objective.chosen(n)), of_mass, None)
 
 
 def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
     """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
     smaller = most < largest_mass(machine)
+    if not smaller.any():
+        return [{} for _ in most]
     return [
         {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
         for of_design in zip(most.tolist(), smaller.tolist(), strict=True)

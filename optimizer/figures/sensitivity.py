@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.program.cut import EXACT
-from optimizer.program.misplaced import largest_objective, worst_by_angle, worst_by_mass
+from optimizer.program.misplaced import farthest_by_angle, farthest_by_mass
 from optimizer.program.misplaced_turn import largest_last_goals
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.statement import Statement
@@ -18,15 +18,18 @@ _CLOSE = 1e-10
 
 
 def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Sensitivity:
-    """Of one program (no leading axes, or axes of length 1) with counterweights (..., K) kg m.
+    """Of one program of vectors (no leading axes, or axes of length 1) with counterweights (..., K) kg m.
 
     Parameters
     ----------
     statement : over omega^2.
     """
     norms = statement.norms
-    sizes = norms.sizes(u), worst_by_angle(norms, u, _DEGREE), worst_by_mass(norms, u, _PERCENT)
-    as_it_is, by_angle, by_mass = largest_objective(statement, np.array(sizes)).reshape(3).tolist()
+    middle, vectors = norms.at(u), norms.influence * u[..., None, :]
+    worst = farthest_by_angle(norms.constant, vectors, _DEGREE), farthest_by_mass(middle, vectors, _PERCENT)
+    # of a sum of peaks no less than they come to together
+    objectives = statement.objective_of(np.array([np.abs(middle), *worst]))
+    as_it_is, by_angle, by_mass = objectives.reshape(3).tolist()
     return _rises(as_it_is, by_angle, by_mass, omega_squared)
 
 

@@ -9,6 +9,7 @@ from optimizer.figures.limits import Priced, Quantity, of_ceilings, of_limits, p
 from optimizer.formulate import RESPONSES
 from optimizer.goals import Goals
 from optimizer.program import sensitivity
+from optimizer.program.certificate import normalised
 from optimizer.program.cut_proof import Proof
 from optimizer.program.sensitivity import ShadowPrices
 from schemas.counterweights import Counterweight
@@ -44,7 +45,8 @@ def prices_over_turn(
     gap : certified gap, over omega^2.
     """
     (case,) = asked.cases
-    prices = sensitivity.shadow_prices(proof.statement, u, proof.multipliers)
+    usable, _ = normalised(proof.statement, proof.multipliers)
+    prices = sensitivity.shadow_prices(proof.statement, u, usable)
     exact = of_ceilings(request.objective, prices, case.omega_squared) if asked.program.ceilings else ()
     return shadow_prices(
         request.machine,

@@ -122,13 +122,18 @@ def best_proof(statement: Statement, proofs: Iterable[Multipliers]) -> tuple[Rea
     """The highest of the lower bounds (...) that several multipliers prove, and those that prove it: the first of equal
     ones. All are evaluated at once, as many programs are."""
     each = list(proofs)
-    together = Multipliers(*(np.array(parts) for parts in zip(*(vars(one).values() for one in each), strict=True)))
-    bound = objective_lower_bound(statement, together)
+    every = together(each)
+    bound = objective_lower_bound(statement, every)
     best = np.where(np.isnan(bound), -np.inf, bound).argmax(axis=0)
     if not best.any():
         return bound[0], each[0]
     taken = (best, *np.indices(best.shape))
-    return bound[taken], together.chosen(taken)
+    return bound[taken], every.chosen(taken)
+
+
+def together(several: Iterable[Multipliers]) -> Multipliers:
+    """Several multipliers of the same programs as those of one more leading axis."""
+    return Multipliers(*(np.array(parts) for parts in zip(*(vars(each).values() for each in several), strict=True)))
 
 
 def mass_lower_bound(statement: Statement, multipliers: Multipliers, target: Real) -> Real:
@@ -228,8 +233,13 @@ def normalised(statement: Statement, multipliers: Multipliers) -> tuple[Multipli
     """Admissible multipliers whose rows sum to 1 in every group, and where there are any (...)."""
     usable = multipliers.admissible(statement)
     total = usable.price(statement)
-    known = (total > 0) & np.isfinite(total)
+    known = proves(total)
     return usable.times(1.0 / np.where(known, total, 1.0)), known
+
+
+def proves(price: Real) -> np.ndarray:
+    """Whether rows that sum to this in every group say anything about the objective (...)."""
+    return (price > 0) & np.isfinite(price)
 
 
 def _minorant(statement: Statement, multipliers: Multipliers, cap: Real) -> _Minorant:

@@ -12,13 +12,16 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real, plain
 from optimizer.program.norms import Norms
-from optimizer.program.statement import Statement
 
 
 def worst_by_mass(norms: Norms, u: Complex, share: float) -> Real:
     """Largest sizes (..., J) of norms where every counterweight (..., K) is off by up to a share of its mass."""
-    middle, corners = norms.at(u), mass_corners(norms.influence * u[..., None, :])
-    return np.maximum.reduce(np.abs(middle[..., None] + share * corners), axis=-1)
+    return farthest_by_mass(norms.at(u), norms.influence * u[..., None, :], share)
+
+
+def farthest_by_mass(middle: Complex, vectors: Complex, share: float) -> Real:
+    """Largest |middle + sum_k e_k v_k| (...) of vectors (..., K), |e_k| up to a share."""
+    return np.maximum.reduce(np.abs(middle[..., None] + share * mass_corners(vectors)), axis=-1)
 
 
 def mass_corners(vectors: Complex) -> Complex:
@@ -36,19 +39,18 @@ def mass_corners(vectors: Complex) -> Complex:
 
 def worst_by_angle(norms: Norms, u: Complex, angle: float) -> Real:
     """Largest sizes (..., J) of norms where every counterweight (..., K) is off by up to an angle [rad] below pi/2."""
+    vectors = norms.influence * u[..., None, :]
+    return farthest_by_angle(norms.at(u) - np.add.reduce(vectors, axis=-1), vectors, angle)
+
+
+def farthest_by_angle(fixed: Complex, vectors: Complex, angle: float) -> Real:
+    """Largest |fixed + sum_k v_k e^{j psi_k}| (...) of vectors (..., K), |psi_k| up to an angle [rad] below pi/2."""
     # the compiler is loaded when it is first needed
     from optimizer.program.kernel.outlines import worst_turned
 
-    vectors = norms.influence * u[..., None, :]
-    fixed = norms.at(u) - np.add.reduce(vectors, axis=-1)
     rows = plain(vectors).reshape(fixed.size, vectors.shape[-1])
     found: Real = worst_turned(rows, plain(fixed).reshape(-1), angle).reshape(fixed.shape)
     return found
-
-
-def largest_objective(statement: Statement, sizes: Real) -> Real:
-    """The objective (...) of norms of these sizes (..., J): of a sum of peaks no less than they come to together."""
-    return np.add.reduce(statement.largest(statement.rows(sizes)), axis=-1)
 
 
 def angle_corners(vectors: Complex, angle: float) -> Complex:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.certificate import Multipliers, normalised
+from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement
 
 
@@ -30,12 +30,12 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     Parameters
     ----------
     u : (..., K) kg m, an optimum.
-    multipliers : with rows that are not all 0.
+    multipliers : admissible, with rows of sum 1.
     """
-    usable, _ = normalised(statement, multipliers)
-    limits = statement.limits
-    slope = np.add.reduce(np.conj(statement.norms.influence) * usable.term[..., :, None], axis=-2)
-    slope = slope + np.add.reduce(np.conj(statement.ceilings.norms.influence) * usable.ceiling[..., :, None], axis=-2)
+    limits, ceilings = statement.limits, statement.ceilings
+    slope = np.add.reduce(np.conj(statement.norms.influence) * multipliers.term[..., :, None], axis=-2)
+    if ceilings.names:
+        slope = slope + np.add.reduce(np.conj(ceilings.norms.influence) * multipliers.ceiling[..., :, None], axis=-2)
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     worth = limits.radius * limits.support(-slope)
@@ -44,5 +44,5 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
         max_mass=np.maximum(worth - budget[..., None], 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),
         max_total_mass=budget,
-        ceiling=np.abs(usable.ceiling),
+        ceiling=np.abs(multipliers.ceiling),
     )

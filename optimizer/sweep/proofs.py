@@ -3,7 +3,7 @@
 import numpy as np
 
 from optimizer.certified import Certified
-from optimizer.figures.proof import implied_max_mass, named_proofs
+from optimizer.figures.proof import implied_max_mass, named_proofs, physical_proofs
 from schemas.proof import DesignMultipliers
 from schemas.requests import OptimizeRequest
 
@@ -19,7 +19,13 @@ def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray
     texts = np.full(best.omega_squared.shape, None, dtype=object)
     limit = (best.found.mass_target * best.omega_squared).tolist()
     implied = implied_max_mass(request.machine, best.program.limits.max_mass)
-    proofs = named_proofs(best.program, best.found, best.omega_squared, least_mass)
+    proofs = named_proofs(
+        best.program,
+        best.found,
+        physical_proofs(best.program, best.found, best.omega_squared),
+        best.omega_squared,
+        least_mass,
+    )
     for n, (proof, unreachable) in enumerate(zip(proofs, best.found.unreachable, strict=True)):
         texts[n] = DesignMultipliers(
             objective=proof.objective,
