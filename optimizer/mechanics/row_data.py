@@ -58,17 +58,22 @@ class RowData:
         motion = _together([self.ahead, self.rod_ratio, self.rod_margin, self.sense], (count,))
         scale = _together([self.inertia, self.friction], (count,))
         chambers = 0 if self.area is None else self.area.shape[-1]
-        gas, given = np.zeros((len(motion), count, 0, 7)), np.full((count, chambers), -1)
-        if self.area is not None:
+        area, gas, given = np.zeros((1, count, 0)), np.zeros((1, count, 0, 8)), np.full((count, chambers), -1)
+        if self.area is not None and self.closed is not None:
             # crank sides pull, head sides push
-            tension = np.where(np.arange(chambers) % 2 == 0, -self.area, self.area)
-            names = ("suction", "discharge", "clearance", "expansion_exponent", "compression_exponent", "closed")
-            gas = _together([tension, *(getattr(self, name) for name in names)], (count, chambers))
+            area = np.where(np.arange(chambers) % 2 == 0, -self.area, self.area)
+            gas = _together([*self._state, *_opened(self._state, self.closed), self.closed], (count, chambers))
         for number, trace in enumerate(self.traces):
             given[trace.row, trace.side] = number
         designs = max(len(motion), len(gas))
         motion, gas = (compact(np.broadcast_to(each, (designs, *each.shape[1:]))) for each in (motion, gas))
-        return Rows(motion, scale, gas, given, self.exact)
+        return Rows(motion, scale, compact(area), gas, given, self.exact)
+
+    @property
+    def _state(self) -> list[Real]:
+        """Pressures, clearance and exponents of the chambers."""
+        names = ("suction", "discharge", "clearance", "expansion_exponent", "compression_exponent")
+        return [getattr(self, name) for name in names]
 
 
 def row_data(
@@ -105,6 +110,14 @@ def row_data(
         traces=tuple(replace(trace, table=flat(trace.table), lead=flat(trace.lead)) for trace in traces),
         **gas,
     )
+
+
+def _opened(state: Sequence[Real], closed: Real) -> tuple[Real, Real]:
+    """Volumes over crank radius times area at which suction and discharge open."""
+    suction, discharge, clearance, expansion, compression = state
+    # an open side may be open to a vacuum
+    log = np.log(np.where(closed, discharge, 1.0) / np.where(closed, suction, 1.0))
+    return 2.0 * clearance * np.exp(log / expansion), 2.0 * (1.0 + clearance) * np.exp(-log / compression)
 
 
 def compact(values: Real) -> Real:

@@ -87,31 +87,39 @@ class RowSeries:
 
         rows, number = self.data.packed, READINGS.index(reading)
         made = self._functions(reading not in WITHOUT_GAS)
-        found = [row_series(rows, functions, self.design, number) for functions in made]
+        found = [row_series(rows, functions, self.design, angles, number) for functions, angles in made]
         if len(found) == 1:
             return found[0]
         parts, radius = (np.concatenate(each, axis=-1) for each in zip(*found, strict=True))
         return parts, radius
 
-    def _functions(self, pressed: bool) -> "Iterator[Functions]":
-        """What forces are made of, with gas where it is pressed: part by part, and kept where one part is all."""
+    def _functions(self, pressed: bool) -> "Iterator[tuple[Functions, int]]":
+        """What forces are made of, with gas where it is pressed, and of how many angles of a design: part by part, and
+        kept where one part is all."""
         from optimizer.mechanics.kernel.rows import Places, row_functions
 
         if known := self._kept.get(True, self._kept.get(pressed)):
-            yield known
+            yield known, self.centre.shape[1]
             return
-        none = np.zeros((0, 0))
-        half = none if self.half is None else self.half
-        rows, angles = self.data.packed, (self.centre, half, self.within, *self._given)
-        alike = len(rows.motion) == len(self.centre) == 1
-        made = (1 if alike else self.design.size) * rows.motion.shape[1] * self.centre.shape[1]
-        parts = max(1, min(-(-made // _AT_ONCE), self.centre.shape[1]))
-        slices = [angles] if parts == 1 else zip(*(np.array_split(e, parts, axis=-1) for e in angles), strict=True)
-        for some in slices:
-            functions = row_functions(rows, Places(*map(compact, some)), self.design, self.order, pressed)
+        pressure, slope = self._given
+        rows, angles = self.data.packed, self.centre.shape[1]
+        # the pressures may differ between designs that have all else in common
+        once = len(rows.motion) == len(self.centre) == 1 and pressure.shape[1] <= 1
+        design = self.design[:1] if once else self.design
+        half = self.centre if self.half is None else self.half
+        every = [np.broadcast_to(each, (design.size, angles)) for each in (self.centre, half, self.within)]
+        traces = [np.broadcast_to(each, (len(pressure), design.size, angles)) for each in (pressure, slope)]
+        parts = max(1, min(-(-design.size * rows.motion.shape[1] * angles // _AT_ONCE), angles))
+        for some in np.array_split(np.arange(angles), parts):
+            place = slice(some[0], some[-1] + 1) if parts > 1 else slice(None)
+            centre, wide, within = (compact(each[:, place]).reshape(-1) for each in every)
+            given = (compact(each[..., place]).reshape(len(pressure), design.size * some.size) for each in traces)
+            wide = np.zeros(0) if self.half is None else wide
+            places = Places(np.repeat(design, some.size), centre, wide, within, *given)
+            functions = row_functions(rows, places, self.order, pressed)
             if parts == 1:
                 self._kept[pressed] = functions
-            yield functions
+            yield functions, some.size
 
     @cached_property
     def _kept(self) -> "dict[bool, Functions]":

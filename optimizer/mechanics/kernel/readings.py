@@ -1,13 +1,13 @@
 """Readings: forces in the mechanism of every row from what they are made of (:mod:`rows`); compiled.
 
-Shapes: N designs, M that differ in more than masses, speed and friction, R rows, P angles.
+Shapes: N designs, R rows, P angles of each, Q places: the angles of all designs, or once where all have the same.
 """
 
 import numpy as np
 
 from optimizer.compiling import inner, kernel
-from optimizer.mechanics.kernel.rows import COS, FORCE, INERTIA, KEPT, SECANT, SIN, SIN_2, SIN_SQUARED
-from optimizer.mechanics.kernel.taylor import Series, constant, product, scaled, summed
+from optimizer.mechanics.kernel.rows import COS, INERTIA, KEPT, SECANT, SIN, SIN_2, SIN_SQUARED
+from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
 
 #: what may be asked of the rows; the first column counts from 0 in the compiled code
 READINGS = (
@@ -26,68 +26,109 @@ PISTON, ROD, ROD_WITHOUT_GAS, ROD_AT_REST, SIDE, TANGENTIAL, RADIAL, ON_SHAFT, O
 #: of these the gas is no part
 WITHOUT_GAS = ("rod_without_gas", "on_frame")
 #: functions beside those that are kept
-_ONE, _FACTOR, _OF_INERTIA, _OF_GAS = np.arange(KEPT, KEPT + 4)
-_FUNCTIONS = KEPT + 4
+_ALL_ONE, _FACTOR, _FORCE, _OF_INERTIA, _OF_GAS = np.arange(KEPT, KEPT + 5)
+_PRESSURES = KEPT + 5
+#: numbers of every lane
+_RATIO, _SIGN, _ZERO, _ONE, _MASS, _FRICTION, _AREA, _F, _VALUE, _OFF = np.arange(10)
+_NUMBERS = 10
+_NUMBER, _ANGLE, _DESIGN = np.arange(3)
 
 
 @kernel
-def row_series(rows, functions, design, reading):  # type: ignore[no-untyped-def]
+def row_series(rows, functions, design, angles, reading):  # type: ignore[no-untyped-def]
     """Coefficients of a force of the rows: (2, order + 1, N, R, P) at points; of enclosures the middles (2, 1, N, R, P)
-    and radii (N, R, P) of the last; rows of angles of designs (N,).
+    and radii (N, R, P) of the last; P angles of each of designs (N,).
 
     The first part is along the crank, or all of a scalar; the second across it, against the sense of rotation.
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
     """
-    made, count, angles, _, terms = functions.middle.shape
+    count, kept, terms, places = functions.middle.shape
     bounded, parts = functions.radius.shape[0] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
-    designs, scales = rows.motion.shape[0], rows.scale.shape[0]
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))
-    series = Series(np.zeros((_FUNCTIONS, terms)), np.zeros((_FUNCTIONS, terms)), bounded)
+    shape = (_PRESSURES + kept - KEPT, terms, LANES)
+    series, lane = Series(np.zeros(shape), np.zeros(shape), bounded), np.zeros((_NUMBERS, LANES))
+    lane[_ONE] = 1.0
+    # of every lane: its place in the result, and its design
+    where = np.zeros((3, LANES), np.int64)
     moves = reading != ROD_AT_REST and reading != GAS
     rubs = moves and reading != ON_FRAME
-    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME
-    for m in range(made):
-        low, high = (m, m + 1) if made > 1 else (0, number)
-        for r in range(count):
-            motion = rows.motion[design[m] if designs > 1 else 0, r]
-            for p in range(angles):
-                way = functions.way[m, r, p]
-                for f in range(KEPT):
-                    for k in range(terms):
-                        series.middle[f, k] = functions.middle[m, r, p, f, k]
-                        if bounded:
-                            series.radius[f, k] = functions.radius[m, r, p, f, k]
-                for part in range(parts):
-                    one, inertia, gas = _read(series, reading, part, motion)
-                    sign = -motion[3] if part == 1 else 1.0
-                    for n in range(low, high):
-                        mass, friction = rows.scale[design[n] if scales > 1 else 0, r]
-                        for k in range(first, terms):
-                            value = series.middle[gas, k] if pressed else 0.0
-                            if moves:
-                                value += mass * series.middle[inertia, k]
-                            if rubs:
-                                value += friction * way * series.middle[one, k]
-                            middle[part, k - first, n, r, p] = sign * value
-                        if bounded:
-                            off = series.radius[gas, first] if pressed else 0.0
-                            if moves:
-                                off += abs(mass) * series.radius[inertia, first]
-                            if rubs:
-                                off += abs(friction) * series.radius[one, first]
-                            radius[n, r, p] = np.hypot(radius[n, r, p], off)
+    pressed = reading != ROD_WITHOUT_GAS and reading != ON_FRAME and kept > KEPT
+    # where designs have all of this in common, one after the other is made of it
+    turns = number if places == angles else 1
+    for r in range(count):
+        for start in range(0, places, LANES):
+            lanes = min(LANES, places - start)
+            for f in range(kept if pressed else KEPT):
+                to = f if f < KEPT else f - KEPT + _PRESSURES
+                for k in range(terms):
+                    copied(functions.middle[r, f, k, start:], series.middle[to, k], lanes)
+                    if bounded:
+                        copied(functions.radius[r, f, k, start:], series.radius[to, k], lanes)
+            for p in range(lanes):
+                n = (start + p) // angles
+                where[_NUMBER, p], where[_ANGLE, p], where[_DESIGN, p] = n, start + p - n * angles, design[n]
+                motion = rows.motion[design[n] if rows.motion.shape[0] > 1 else 0, r]
+                lane[_RATIO, p], lane[_SIGN, p] = motion[1], -motion[3]
+            for part in range(parts):
+                factor, inertia = _read(series, reading, part, lane, lanes, first)
+                gas = _FORCE if factor == _ALL_ONE else _OF_GAS
+                for turn in range(turns):
+                    for p in range(lanes):
+                        if turns > 1:
+                            where[_NUMBER, p], where[_DESIGN, p] = turn, design[turn]
+                        one = where[_DESIGN, p] if rows.scale.shape[0] > 1 else 0
+                        mass, friction = rows.scale[one, r, 0], rows.scale[one, r, 1]
+                        lane[_MASS, p], lane[_FRICTION, p] = mass, friction * functions.way[r, start + p]
+                    if pressed and (turn == 0 or rows.area.shape[0] > 1):
+                        constant(series, lane[_ZERO], _FORCE, lanes)
+                        for c in range(kept - KEPT):
+                            for p in range(lanes):
+                                lane[_AREA, p] = rows.area[where[_DESIGN, p] if rows.area.shape[0] > 1 else 0, r, c]
+                            summed(series, _FORCE, _PRESSURES + c, lane[_AREA], _FORCE, lanes)
+                        if gas == _OF_GAS:
+                            product(series, _FORCE, factor, _OF_GAS, lanes, first)
+                    for k in range(first, terms):
+                        value, off = lane[_VALUE], lane[_OFF]
+                        for p in range(lanes):
+                            value[p] = series.middle[gas, k, p] if pressed else 0.0
+                            off[p] = series.radius[gas, k, p] if pressed else 0.0
+                        if moves:
+                            _added(series, inertia, k, lane[_MASS], value, off, lanes)
+                        if rubs:
+                            _added(series, factor, k, lane[_FRICTION], value, off, lanes)
+                        for p in range(lanes):
+                            n, at = where[_NUMBER, p], where[_ANGLE, p]
+                            middle[part, k - first, n, r, at] = lane[_SIGN, p] * value[p] if part == 1 else value[p]
+                            if bounded:
+                                known = radius[n, r, at]
+                                radius[n, r, at] = off[p] if part == 0 else np.sqrt(known * known + off[p] * off[p])
     return middle, radius
 
 
 @inner
-def _read(series, reading, part, motion):  # type: ignore[no-untyped-def]
-    """Numbers of the functions that make a part of a reading: its factor, and what inertia and gas come to by it."""
-    ratio = motion[1]
+def _added(series, a, k, factor, value, off, lanes):  # type: ignore[no-untyped-def]
+    """What a function adds, times a factor (LANES,)."""
+    one = series.middle[a, k]
+    for p in range(lanes):
+        value[p] += factor[p] * one[p]
+    if series.bounded:
+        spread = series.radius[a, k]
+        for p in range(lanes):
+            off[p] += abs(factor[p]) * spread[p]
+
+
+@inner
+def _read(series, reading, part, lane, lanes, first):  # type: ignore[no-untyped-def]
+    """Numbers of the functions that make a part of a reading: its factor, and what inertia comes to by it.
+
+    Of the latter the coefficients from the first that is wanted.
+    """
+    ratio, f = lane[_RATIO], lane[_F]
     if reading in (PISTON, GAS):
-        constant(series, 1.0, _ONE)
-        return _ONE, INERTIA, FORCE
+        constant(series, lane[_ONE], _ALL_ONE, lanes)
+        return _ALL_ONE, INERTIA
     if reading == ON_FRAME:
         factor = COS if part == 0 else SIN
     elif reading in (ROD, ROD_WITHOUT_GAS, ROD_AT_REST):
@@ -95,19 +136,22 @@ def _read(series, reading, part, motion):  # type: ignore[no-untyped-def]
         factor = SECANT
     elif reading == SIDE:
         # P tan beta
-        product(series, SIN, SECANT, _FACTOR)
-        scaled(series, _FACTOR, ratio, 0.0, _FACTOR)
+        product(series, SIN, SECANT, _FACTOR, lanes, ALL)
+        scaled(series, _FACTOR, ratio, lane[_ZERO], _FACTOR, lanes)
         factor = _FACTOR
     elif reading == TANGENTIAL or part == 1:
         # P sin(phi + beta) / cos beta, positive against rotation
-        product(series, SIN_2, SECANT, _FACTOR)
-        summed(series, SIN, _FACTOR, 0.5 * ratio, _FACTOR)
+        product(series, SIN_2, SECANT, _FACTOR, lanes, ALL)
+        for p in range(lanes):
+            f[p] = 0.5 * ratio[p]
+        summed(series, SIN, _FACTOR, f, _FACTOR, lanes)
         factor = _FACTOR
     else:
         # P cos(phi + beta) / cos beta, positive outward along the crank
-        product(series, SIN_SQUARED, SECANT, _FACTOR)
-        summed(series, COS, _FACTOR, -ratio, _FACTOR)
+        product(series, SIN_SQUARED, SECANT, _FACTOR, lanes, ALL)
+        for p in range(lanes):
+            f[p] = -ratio[p]
+        summed(series, COS, _FACTOR, f, _FACTOR, lanes)
         factor = _FACTOR
-    product(series, INERTIA, factor, _OF_INERTIA)
-    product(series, FORCE, factor, _OF_GAS)
-    return factor, _OF_INERTIA, _OF_GAS
+    product(series, INERTIA, factor, _OF_INERTIA, lanes, first)
+    return factor, _OF_INERTIA

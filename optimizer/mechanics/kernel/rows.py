@@ -5,7 +5,7 @@ its derivatives: W = cos^2 beta, secant = W^{-1/2}, and pressures as powers of t
 is in one of its four processes and a row moves one way, so that every form is analytic; which one counts is decided at
 an angle within the piece.
 
-Shapes: N designs or places, R rows, P angles.
+Shapes: N designs, R rows, C chambers of a row, Q places: angles of designs one after the other.
 """
 
 from typing import NamedTuple
@@ -15,11 +15,13 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.compiling import inner, kernel
 from optimizer.mechanics.kernel.taylor import (
+    ALL,
+    LANES,
     Series,
     between,
     circular,
     constant,
-    cosine_range,
+    copied,
     power,
     product,
     scaled,
@@ -27,39 +29,55 @@ from optimizer.mechanics.kernel.taylor import (
 )
 
 #: functions of one row; as numpy's integers, for each Python literal that is handed on is a type of its own, for which
-#: all that takes it is compiled anew. The first are what readings are made of, FORCE that of the gas
-INERTIA, FORCE, COS, SIN, SIN_2, SIN_SQUARED, SECANT = np.arange(7)
-KEPT = 7
-_COS_2, _COS_4, _SIN_4, _UPRIGHT, _COS_BETA, _PRESSURE, _TRAVEL, _A, _B, _C = np.arange(KEPT, KEPT + 10)
-_FUNCTIONS = KEPT + 10
+#: all that takes it is compiled anew. The first are what readings are made of, and after them the pressures
+INERTIA, COS, SIN, SIN_2, SIN_SQUARED, SECANT = np.arange(6)
+KEPT = 6
+_COS_2, _COS_4, _SIN_4, _UPRIGHT, _COS_BETA, _TRAVEL, _A, _B, _C = np.arange(KEPT, KEPT + 9)
+_PRESSURES = KEPT + 9
+#: where cranks stand: at the angle that says which process counts, at the place or the first end of the interval, and
+#: at its other end
+_INSIDE, _FIRST, _LAST = np.arange(3)
+_SINE, _COSINE, _RISE, _FALL = np.arange(4)
+#: cos and sin of a multiple of the angle: of the place or the middles of their ranges, and at both ends of the interval
+_COS_AT, _SIN_AT, _COS_OFF, _SIN_OFF, _COS_FIRST, _SIN_FIRST, _COS_LAST, _SIN_LAST = np.arange(8)
+#: numbers of every lane
+_RATIO, _SHORT, _SQUARE, _ZERO, _ONE, _ROOT, _OVER_ROOT, _OVER_CUBE, _OVER, _F, _G, _H = np.arange(12)
+_NUMBERS = 12
+#: of the process in which a chamber is: first pressure [Pa], exponent, clearance and first volume over crank radius
+#: times area
+_START, _EXPONENT, _CLEAR, _FULL = np.arange(4)
 
 
 class Rows(NamedTuple):
-    """Data of the rows of D or S designs, 1 where all are the same.
+    """Data of the rows of D, S or A designs, 1 where all are the same.
 
     motion : (D, R, 4) angle ahead [rad], rod ratio, 1 - rod ratio, sense.
     scale : (S, R, 2) m r omega^2 [N], friction [N].
-    gas : (D, R, C, 7) area [m^2] with the sign of its force in rod tension, suction and discharge pressure [Pa],
-        relative clearance, exponents of expansion and compression, whether it is closed.
+    area : (A, R, C) m^2, with the sign of its force in rod tension.
+    gas : (D, R, C, 8) suction and discharge pressure [Pa], relative clearance, exponents of expansion and compression,
+        volumes over crank radius times area at which suction and discharge open, whether it is closed.
     given : (R, C) which of the traces gives the pressure of a chamber, or -1.
     exact : kinematics, or cut off after the second order.
     """
 
     motion: Real
     scale: Real
+    area: Real
     gas: Real
     given: np.ndarray
     exact: bool
 
 
 class Places(NamedTuple):
-    """Angles (N or 1, P) rad.
+    """Angles (Q,) rad.
 
-    half : half widths of intervals; (0, 0) at points.
+    design : which design each is of.
+    half : half widths of intervals, below pi/8; (0,) at points.
     within : angles that say which process counts.
-    pressure, slope : (T, N or 1, P) of the traces, Pa and Pa/rad.
+    pressure, slope : (T, Q) of the traces, Pa and Pa/rad.
     """
 
+    design: np.ndarray
     centre: Real
     half: Real
     within: Real
@@ -68,12 +86,13 @@ class Places(NamedTuple):
 
 
 class Functions(NamedTuple):
-    """What the forces of M designs are made of: those that differ in masses, speed and friction alone have them once.
+    """What the forces of designs are made of: those that differ in masses, speed, friction and areas alone have them
+    once.
 
-    middle : (M, R, P, 7, order + 1) acceleration over r omega^2, gas [N], cos and sin of the crank angle, sin of twice
-        the angle, sin^2, 1 / cos beta.
-    radius : the same of enclosures; (0, R, P, 7, order + 1) at points.
-    way : (M, R, P) which way the row moves: 1 to the shaft.
+    middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, sin of twice the
+        angle, sin^2, 1 / cos beta, and pressures [Pa] unless there are none.
+    radius : the same of enclosures; without rows at points.
+    way : (R, Q) which way the row moves: 1 to the shaft.
     """
 
     middle: Real
@@ -82,228 +101,280 @@ class Functions(NamedTuple):
 
 
 @kernel
-def row_functions(rows, places, design, order, pressed):  # type: ignore[no-untyped-def]
-    """What all readings of the rows are made of, at rows of angles of designs (N,); without the gas where it is not
-    pressed."""
+def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
+    """What all readings of the rows are made of; without pressures where it is not pressed."""
     bounded = places.half.size > 0
     designs, count = rows.motion.shape[:2]
-    some, angles = places.centre.shape
-    # the pressures may differ between designs that have all else in common
-    number = 1 if max(designs, some, places.pressure.shape[1]) == 1 else design.size
-    middle = np.empty((number, count, angles, KEPT, order + 1))
-    radius = np.empty((number if bounded else 0, count, angles, KEPT, order + 1))
-    way = np.empty((number, count, angles))
-    series = Series(np.zeros((_FUNCTIONS, order + 1)), np.zeros((_FUNCTIONS, order + 1)), bounded)
-    process = np.empty((rows.gas.shape[2], 4))
-    half = 0.0
-    for n in range(number):
-        one, place = design[n] if designs > 1 else 0, n if some > 1 else 0
-        for r in range(count):
-            motion = rows.motion[one, r]
-            known = np.nan
-            for p in range(angles):
-                angle, within = places.centre[place, p] + motion[0], places.within[place, p] + motion[0]
+    number, chambers = places.centre.size, rows.gas.shape[2] if pressed else 0
+    middle = np.empty((count, KEPT + chambers, order + 1, number))
+    radius = np.empty((count if bounded else 0, KEPT + chambers, order + 1, number))
+    way = np.empty((count, number))
+    shape = (_PRESSURES + chambers, order + 1, LANES)
+    series = Series(np.zeros(shape), np.zeros(shape), bounded)
+    cranks, lane, process = np.zeros((3, 4, LANES)), np.zeros((_NUMBERS, LANES)), np.zeros((4, LANES))
+    trig = np.zeros((8, LANES))
+    lane[_ONE], lane[_ROOT], lane[_OVER], lane[_OVER_ROOT], lane[_OVER_CUBE] = 1.0, 0.5, -1.0, -0.5, -1.5
+    for r in range(count):
+        for first in range(0, number, LANES):
+            lanes = min(LANES, number - first)
+            for p in range(lanes):
+                q = first + p
+                motion = rows.motion[places.design[q] if designs > 1 else 0, r]
+                angle, within = places.centre[q] + motion[0], places.within[q] + motion[0]
+                lane[_RATIO, p], lane[_SHORT, p] = motion[1], motion[2] * (1.0 + motion[1])
+                _turn(cranks[_INSIDE], p, within)
                 if bounded:
-                    half = places.half[place, p]
-                if within != known:
-                    # many places of one piece follow one another
-                    known, inside = within, _turned(within)
-                    if pressed:
-                        _decide(rows.gas[one, r], motion, rows.exact, inside, process)
-                there = _turned(angle)
-                way[n, r, p] = np.sign(inside.sine)
-                _move(series, motion, rows.exact, there, angle, half)
-                _accelerate(series, motion, rows.exact)
-                constant(series, 0.0, FORCE)
-                if pressed:
-                    for c in range(rows.gas.shape[2]):
-                        area, trace = rows.gas[one, r, c, 0], rows.given[r, c]
-                        if area == 0.0:
-                            continue
-                        if trace < 0:
-                            _cycle(series, motion, rows.exact, process[c], c % 2, there, angle, half, inside)
-                        else:
-                            which = n if places.pressure.shape[1] > 1 else 0
-                            _given(series, places.pressure[trace, which, p], places.slope[trace, which, p], half)
-                        summed(series, FORCE, _PRESSURE, area, FORCE)
-                for f in range(KEPT):
-                    for k in range(order + 1):
-                        middle[n, r, p, f, k] = series.middle[f, k]
-                        if bounded:
-                            radius[n, r, p, f, k] = series.radius[f, k]
+                    _turn(cranks[_FIRST], p, angle - places.half[q])
+                    _turn(cranks[_LAST], p, angle + places.half[q])
+                elif angle == within:
+                    for f in range(4):
+                        cranks[_FIRST, f, p] = cranks[_INSIDE, f, p]
+                else:
+                    _turn(cranks[_FIRST], p, angle)
+                way[r, q] = np.sign(cranks[_INSIDE, _SINE, p])
+            _move(series, lane, cranks, trig, lanes)
+            _accelerate(series, lane, rows.exact, lanes)
+            for c in range(chambers):
+                out, trace = _PRESSURES + c, rows.given[r, c]
+                if trace < 0:
+                    for p in range(lanes):
+                        one = places.design[first + p] if designs > 1 else 0
+                        _decide(rows.gas[one, r, c], lane, rows.exact, c % 2, cranks[_INSIDE], process, p)
+                    _cycle(series, lane, rows.exact, process, c % 2, cranks, out, lanes)
+                else:
+                    _given(series, places, trace, first, lane, out, lanes)
+            for f in range(KEPT + chambers):
+                made = f if f < KEPT else f - KEPT + _PRESSURES
+                for k in range(order + 1):
+                    copied(series.middle[made, k], middle[r, f, k, first:], lanes)
+                    if bounded:
+                        copied(series.radius[made, k], radius[r, f, k, first:], lanes)
     return Functions(middle, radius, way)
 
 
-class _Turned(NamedTuple):
-    """Where a crank stands."""
-
-    sine: float
-    cosine: float
-    rise: float  # 1 - cos, without cancellation
-    fall: float  # 1 + cos
-
-
 @inner
-def _turned(angle):  # type: ignore[no-untyped-def]
-    """By the half angle: nothing cancels but what has no digits in the angle either."""
+def _turn(crank, p, angle):  # type: ignore[no-untyped-def]
+    """Where a crank stands: sine, cosine, 1 - cos, 1 + cos, by the half angle; nothing cancels but what has no digits
+    in the angle either."""
     sine, cosine = np.sin(0.5 * angle), np.cos(0.5 * angle)
-    return _Turned(2.0 * sine * cosine, (cosine - sine) * (cosine + sine), 2.0 * sine**2, 2.0 * cosine**2)
+    crank[_SINE, p], crank[_COSINE, p] = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+    crank[_RISE, p], crank[_FALL, p] = 2.0 * sine**2, 2.0 * cosine**2
 
 
 @inner
-def _move(series, motion, exact, there, angle, half):  # type: ignore[no-untyped-def]
+def _ranges(trig, lanes):  # type: ignore[no-untyped-def]
+    """Middles and radii of cos and sin over intervals, into the first four, from what they are at both ends: an
+    extreme is within where the other changes its sign."""
+    for p in range(lanes):
+        cos, sin, cos_last, sin_last = trig[_COS_FIRST, p], trig[_SIN_FIRST, p], trig[_COS_LAST, p], trig[_SIN_LAST, p]
+        low, high = min(cos, cos_last), max(cos, cos_last)
+        if sin * sin_last <= 0.0:
+            if cos + cos_last > 0.0:
+                high = 1.0
+            else:
+                low = -1.0
+        trig[_COS_AT, p], trig[_COS_OFF, p] = 0.5 * (low + high), 0.5 * (high - low)
+        low, high = min(sin, sin_last), max(sin, sin_last)
+        if cos * cos_last <= 0.0:
+            if sin + sin_last > 0.0:
+                high = 1.0
+            else:
+                low = -1.0
+        trig[_SIN_AT, p], trig[_SIN_OFF, p] = 0.5 * (low + high), 0.5 * (high - low)
+
+
+@inner
+def _doubled(trig, cos, sin, lanes):  # type: ignore[no-untyped-def]
+    """cos and sin of twice the angle in their place."""
+    one, other = trig[cos], trig[sin]
+    for p in range(lanes):
+        c, s = one[p], other[p]
+        one[p], other[p] = (c - s) * (c + s), 2.0 * s * c
+
+
+@inner
+def _move(series, lane, cranks, trig, lanes):  # type: ignore[no-untyped-def]
     """What the motion of a row is made of."""
     middle, radius, bounded = series
-    ratio = motion[1]
-    short, square = motion[2] * (1.0 + ratio), ratio * ratio
-    sine, cosine = there.sine, there.cosine
-    for multiple, cos, sin in ((1, COS, SIN), (2, _COS_2, SIN_2), (4, _COS_4, _SIN_4)):
+    ratio, short, square, f, g = lane[_RATIO], lane[_SHORT], lane[_SQUARE], lane[_F], lane[_G]
+    for p in range(lanes):
+        square[p] = ratio[p] * ratio[p]
+    cos, sin = (_COS_FIRST, _SIN_FIRST) if bounded else (_COS_AT, _SIN_AT)
+    copied(cranks[_FIRST, _COSINE], trig[cos], lanes)
+    copied(cranks[_FIRST, _SINE], trig[sin], lanes)
+    copied(cranks[_LAST, _COSINE], trig[_COS_LAST], lanes)
+    copied(cranks[_LAST, _SINE], trig[_SIN_LAST], lanes)
+    for multiple, of_cos, of_sin in ((1, COS, SIN), (2, _COS_2, SIN_2), (4, _COS_4, _SIN_4)):
         if bounded:
-            turned, wide = multiple * angle, multiple * half
-            circular(series, multiple, cosine_range(turned, wide), cosine_range(turned - 0.5 * np.pi, wide), cos, sin)
-        else:
-            circular(series, multiple, (cosine, 0.0), (sine, 0.0), cos, sin)
-            sine, cosine = 2.0 * sine * cosine, (cosine - sine) * (cosine + sine)
+            _ranges(trig, lanes)
+            _doubled(trig, _COS_LAST, _SIN_LAST, lanes)
+        circular(series, multiple, trig, of_cos, of_sin, lanes)
+        _doubled(trig, cos, sin, lanes)
     # W = cos^2 beta = 1 - lam^2 + lam^2 cos^2 phi
-    scaled(series, _COS_2, 0.5 * square, short + 0.5 * square, _UPRIGHT)
-    scaled(series, _COS_2, -0.5, 0.5, SIN_SQUARED)
-    cos, sin = middle[COS, 0], middle[SIN, 0]
+    for p in range(lanes):
+        f[p], g[p] = 0.5 * square[p], short[p] + 0.5 * square[p]
+    scaled(series, _COS_2, f, g, _UPRIGHT, lanes)
+    scaled(series, _COS_2, lane[_OVER_ROOT], lane[_ROOT], SIN_SQUARED, lanes)
+    along, across = middle[COS, 0], middle[SIN, 0]
     if bounded:
-        least, most = max(abs(cos) - radius[COS, 0], 0.0), abs(cos) + radius[COS, 0]
-        between(series, _UPRIGHT, short + (ratio * least) ** 2, short + (ratio * most) ** 2)
-        least, most = max(abs(sin) - radius[SIN, 0], 0.0), abs(sin) + radius[SIN, 0]
-        between(series, SIN_SQUARED, least**2, most**2)
+        cos_off, sin_off = radius[COS, 0], radius[SIN, 0]
+        for p in range(lanes):
+            least, most = max(abs(along[p]) - cos_off[p], 0.0), abs(along[p]) + cos_off[p]
+            f[p], g[p] = short[p] + square[p] * least * least, short[p] + square[p] * most * most
+        between(series, _UPRIGHT, f, g, lanes)
+        for p in range(lanes):
+            least, most = max(abs(across[p]) - sin_off[p], 0.0), abs(across[p]) + sin_off[p]
+            f[p], g[p] = least * least, most * most
+        between(series, SIN_SQUARED, f, g, lanes)
     else:
-        middle[_UPRIGHT, 0], middle[SIN_SQUARED, 0] = short + (ratio * cos) ** 2, sin**2
-    power(series, _UPRIGHT, 0.5, _COS_BETA)
-    power(series, _UPRIGHT, -0.5, SECANT)
+        upright, sin_squared = middle[_UPRIGHT, 0], middle[SIN_SQUARED, 0]
+        for p in range(lanes):
+            upright[p], sin_squared[p] = short[p] + square[p] * along[p] * along[p], across[p] * across[p]
+    power(series, _UPRIGHT, lane[_ROOT], _COS_BETA, lanes)
+    power(series, _UPRIGHT, lane[_OVER_ROOT], SECANT, lanes)
 
 
 @inner
-def _accelerate(series, motion, exact):  # type: ignore[no-untyped-def]
+def _accelerate(series, lane, exact, lanes):  # type: ignore[no-untyped-def]
     """Acceleration over r omega^2."""
-    middle, _, bounded = series
-    ratio = motion[1]
+    ratio, short, square, f, g = lane[_RATIO], lane[_SHORT], lane[_SQUARE], lane[_F], lane[_G]
     if not exact:
-        summed(series, COS, _COS_2, ratio, INERTIA)
+        summed(series, COS, _COS_2, ratio, INERTIA, lanes)
         return
-    short, square = motion[2] * (1.0 + ratio), ratio * ratio
     # cos^4 = (3 + 4 cos 2 phi + cos 4 phi) / 8
-    scaled(series, _COS_2, ratio * (short + 0.5 * square), 0.375 * ratio * square, _A)
-    summed(series, _A, _COS_4, 0.125 * ratio * square, _A)
-    if not bounded:
+    for p in range(lanes):
+        f[p], g[p] = ratio[p] * (short[p] + 0.5 * square[p]), 0.375 * ratio[p] * square[p]
+    scaled(series, _COS_2, f, g, _A, lanes)
+    for p in range(lanes):
+        f[p] = 0.125 * ratio[p] * square[p]
+    summed(series, _A, _COS_4, f, _A, lanes)
+    if not series.bounded:
         # at 90 degrees the sum cancels, and what it is divided by may be as small
-        middle[_A, 0] = ratio * (short * middle[_COS_2, 0] + square * middle[COS, 0] ** 4)
-    power(series, _UPRIGHT, -1.5, _B)
-    product(series, _A, _B, _C)
-    summed(series, COS, _C, 1.0, INERTIA)
+        found, cos, cos_2 = series.middle[_A, 0], series.middle[COS, 0], series.middle[_COS_2, 0]
+        for p in range(lanes):
+            found[p] = ratio[p] * (short[p] * cos_2[p] + square[p] * cos[p] ** 4)
+    power(series, _UPRIGHT, lane[_OVER_CUBE], _B, lanes)
+    product(series, _A, _B, _C, lanes, ALL)
+    summed(series, COS, _C, lane[_ONE], INERTIA, lanes)
 
 
 @inner
-def _given(series, pressure, slope, half):  # type: ignore[no-untyped-def]
+def _given(series, places, trace, first, lane, out, lanes):  # type: ignore[no-untyped-def]
     """A pressure as a trace has it, Pa."""
-    constant(series, pressure, _PRESSURE)
-    if series.middle.shape[1] > 1:
-        series.middle[_PRESSURE, 1] = slope
-    series.radius[_PRESSURE, 0] = abs(slope) * half
+    constant(series, places.pressure[trace, first:], out, lanes)
+    for p in range(lanes):
+        slope = places.slope[trace, first + p]
+        if series.middle.shape[1] > 1:
+            series.middle[out, 1, p] = slope
+        if series.bounded:
+            series.radius[out, 0, p] = abs(slope) * places.half[first + p]
 
 
 @inner
-def _decide(chambers, motion, exact, inside, process):  # type: ignore[no-untyped-def]
-    """First pressure [Pa], exponent, and clearance and first volume over crank radius times area, of every chamber."""
-    for c in range(len(chambers)):
-        chamber, growing = chambers[c], (inside.sine > 0.0) == (c % 2 == 0)
-        low, high, clear = chamber[1], chamber[2], 2.0 * chamber[3]
-        if not chamber[6]:
-            _kept(process, c, low, 0.0, 0.0, 1.0)
-            continue
-        volume = _travel_at(motion, exact, c % 2, inside) + clear
-        if growing:
-            exponent, full, first, other = chamber[4], clear, high, low
-            acts = high * (full / volume) ** exponent > low
-        else:
-            exponent, full, first, other = chamber[5], 2.0 + clear, low, high
-            acts = low * (full / volume) ** exponent < high
-        if acts:
-            _kept(process, c, first, exponent, clear, full)
-        else:
-            _kept(process, c, other, 0.0, 0.0, 1.0)
+def _decide(chamber, lane, exact, side, inside, process, p):  # type: ignore[no-untyped-def]
+    """The process in which a chamber is."""
+    growing = (inside[_SINE, p] > 0.0) == (side == 0)
+    low, high, clear = chamber[0], chamber[1], 2.0 * chamber[2]
+    start, exponent, full = low, 0.0, 1.0
+    if chamber[7]:
+        volume = _travelled(lane, exact, side, inside, p) + clear
+        if growing and volume < chamber[5]:
+            start, exponent, full = high, chamber[3], clear
+        elif not growing and volume > chamber[6]:
+            start, exponent, full = low, chamber[4], 2.0 + clear
+        elif not growing:
+            start = high
+    process[_START, p], process[_EXPONENT, p], process[_FULL, p] = start, exponent, full
+    process[_CLEAR, p] = clear if exponent > 0.0 else 1.0
 
 
 @inner
-def _kept(process, c, first, exponent, clear, full):  # type: ignore[no-untyped-def]
-    process[c, 0], process[c, 1], process[c, 2], process[c, 3] = first, exponent, clear, full
-
-
-@inner
-def _cycle(series, motion, exact, process, side, there, angle, half, inside):  # type: ignore[no-untyped-def]
+def _cycle(series, lane, exact, process, side, cranks, out, lanes):  # type: ignore[no-untyped-def]
     """Pressure of the four processes, Pa: constant, or a power of the volume in units of the crank radius."""
-    first, exponent, clear, full = process[0], process[1], process[2], process[3]
-    if exponent == 0.0:
-        constant(series, first, _PRESSURE)
+    start, exponent, clear, full = process[_START], process[_EXPONENT], process[_CLEAR], process[_FULL]
+    f, g = lane[_F], lane[_G]
+    moving = False
+    for p in range(lanes):
+        moving = moving or exponent[p] > 0.0
+    if not moving:
+        constant(series, start, out, lanes)
         return
-    _travel(series, motion, exact, side, there, angle, half, inside)
-    scaled(series, _TRAVEL, 1.0, clear, _TRAVEL)
-    scaled(series, _TRAVEL, 1.0 / full, 0.0, _TRAVEL)
-    power(series, _TRAVEL, -exponent, _PRESSURE)
-    scaled(series, _PRESSURE, first, 0.0, _PRESSURE)
+    _travel(series, lane, exact, side, cranks, lanes)
+    for p in range(lanes):
+        f[p], g[p] = 1.0 / full[p], clear[p] / full[p]
+    scaled(series, _TRAVEL, f, g, _TRAVEL, lanes)
+    for p in range(lanes):
+        f[p] = -exponent[p]
+    power(series, _TRAVEL, f, out, lanes)
+    scaled(series, out, start, lane[_ZERO], out, lanes)
 
 
 @inner
-def _travel(series, motion, exact, side, there, angle, half, inside):  # type: ignore[no-untyped-def]
+def _travel(series, lane, exact, side, cranks, lanes):  # type: ignore[no-untyped-def]
     """Own travel of a chamber of one side over the crank radius."""
     middle, _, bounded = series
-    ratio = motion[1]
+    ratio, short, one, f, g, h = lane[_RATIO], lane[_SHORT], lane[_ONE], lane[_F], lane[_G], lane[_H]
     if middle.shape[1] > 1:
         if not exact:
             sign = 1.0 if side == 0 else -1.0
-            scaled(series, SIN_SQUARED, sign * 0.5 * ratio, 1.0, _TRAVEL)
-            summed(series, _TRAVEL, COS, -sign, _TRAVEL)
+            for p in range(lanes):
+                f[p], g[p] = sign * 0.5 * ratio[p], -sign
+            scaled(series, SIN_SQUARED, f, one, _TRAVEL, lanes)
+            summed(series, _TRAVEL, COS, g, _TRAVEL, lanes)
         elif side == 0:
             # (1 - cos beta) / lam = lam sin^2 phi / (1 + cos beta)
-            scaled(series, _COS_BETA, 1.0, 1.0, _A)
-            power(series, _A, -1.0, _B)
-            product(series, SIN_SQUARED, _B, _C)
-            scaled(series, _C, ratio, 1.0, _TRAVEL)
-            summed(series, _TRAVEL, COS, -1.0, _TRAVEL)
+            scaled(series, _COS_BETA, one, one, _A, lanes)
+            power(series, _A, lane[_OVER], _B, lanes)
+            product(series, SIN_SQUARED, _B, _C, lanes, ALL)
+            scaled(series, _C, ratio, one, _TRAVEL, lanes)
+            summed(series, _TRAVEL, COS, lane[_OVER], _TRAVEL, lanes)
         else:
             # what motion() leaves to the inner dead centre: nothing cancels, however near lam is to 1
-            if inside.cosine < 0.0:
-                summed(series, _COS_BETA, COS, -ratio, _A)
-                power(series, _A, -1.0, _B)
-                scaled(series, _B, motion[2] * (1.0 + ratio), 0.0, _A)
-            else:
-                summed(series, _COS_BETA, COS, ratio, _A)
-            scaled(series, COS, 1.0, 1.0, _B)
-            product(series, _B, _A, _C)
-            scaled(series, _A, 1.0, 1.0 + ratio, _A)
-            power(series, _A, -1.0, _B)
-            product(series, _C, _B, _TRAVEL)
-            scaled(series, _TRAVEL, 2.0, 0.0, _TRAVEL)
+            for p in range(lanes):
+                f[p] = ratio[p] if cranks[_INSIDE, _COSINE, p] >= 0.0 else -ratio[p]
+            summed(series, _COS_BETA, COS, f, _A, lanes)
+            power(series, _A, lane[_OVER], _B, lanes)
+            scaled(series, _B, short, lane[_ZERO], _B, lanes)
+            for k in range(middle.shape[1]):
+                for p in range(lanes):
+                    if cranks[_INSIDE, _COSINE, p] < 0.0:
+                        middle[_A, k, p] = middle[_B, k, p]
+                        series.radius[_A, k, p] = series.radius[_B, k, p]
+            scaled(series, COS, one, one, _B, lanes)
+            product(series, _B, _A, _C, lanes, ALL)
+            for p in range(lanes):
+                f[p] = 1.0 + ratio[p]
+            scaled(series, _A, one, f, _A, lanes)
+            power(series, _A, lane[_OVER], _B, lanes)
+            product(series, _C, _B, _TRAVEL, lanes, ALL)
+            for p in range(lanes):
+                f[p] = 2.0
+            scaled(series, _TRAVEL, f, lane[_ZERO], _TRAVEL, lanes)
+    first, last, there = cranks[_FIRST], cranks[_LAST], middle[_TRAVEL, 0]
     if bounded:
         # a row moves one way within a piece
-        first, last = (
-            _travel_at(motion, exact, side, _turned(angle - half)),
-            _travel_at(motion, exact, side, _turned(angle + half)),
-        )
-        between(series, _TRAVEL, min(first, last), max(first, last))
+        for p in range(lanes):
+            g[p], h[p] = _travelled(lane, exact, side, first, p), _travelled(lane, exact, side, last, p)
+            g[p], h[p] = min(g[p], h[p]), max(g[p], h[p])
+        between(series, _TRAVEL, g, h, lanes)
     else:
         # where 1 - cos would cancel
-        middle[_TRAVEL, 0] = _travel_at(motion, exact, side, there)
+        for p in range(lanes):
+            there[p] = _travelled(lane, exact, side, first, p)
 
 
 @inner
-def _travel_at(motion, exact, side, there):  # type: ignore[no-untyped-def]
+def _travelled(lane, exact, side, crank, p):  # type: ignore[no-untyped-def]
     """The same where a crank stands, as in :func:`kinematics.motion`."""
-    ratio = motion[1]
-    rise_or_fall = there.rise if side == 0 else there.fall
+    ratio, sine, cosine = lane[_RATIO, p], crank[_SINE, p], crank[_COSINE, p]
+    rise_or_fall = crank[_RISE, p] if side == 0 else crank[_FALL, p]
     if not exact:
-        swing = 0.5 * ratio * there.sine**2
+        swing = 0.5 * ratio * sine**2
         return rise_or_fall + swing if side == 0 else rise_or_fall - swing
-    short = motion[2] * (1.0 + ratio)
-    cos_beta = np.sqrt(short + (ratio * there.cosine) ** 2)
+    short = lane[_SHORT, p]
+    cos_beta = np.sqrt(short + (ratio * cosine) ** 2)
     if side == 0:
-        return rise_or_fall + ratio * there.sine**2 / (1.0 + cos_beta)
-    upright = cos_beta + ratio * abs(there.cosine)
-    u = upright if there.cosine >= 0.0 else short / upright
+        return rise_or_fall + ratio * sine**2 / (1.0 + cos_beta)
+    upright = cos_beta + ratio * abs(cosine)
+    u = upright if cosine >= 0.0 else short / upright
     return 2.0 * rise_or_fall * u / (u + 1.0 + ratio)

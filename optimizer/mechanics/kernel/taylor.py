@@ -4,6 +4,9 @@ A function f of an angle has the coefficients f^(k)/k!, k = 0..n. At a point the
 enclosed by a middle and a radius, so that the coefficient of order n + 1 bounds what a polynomial of degree n leaves
 out. Sums, products and real powers are exact recurrences; the rounding of single operations is not enclosed.
 Source: R. E. Moore, R. B. Kearfott, M. J. Cloud, Introduction to Interval Analysis, SIAM 2009, chapter 9.
+
+Many places stand side by side, in lanes: the innermost loops are over lanes, which the processor takes several at a
+time, and no lane knows of another.
 """
 
 from typing import NamedTuple
@@ -13,12 +16,17 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.compiling import inner
 
+#: places side by side: what is known of them fits the cache
+LANES = 32
+#: the first coefficient, where all are wanted
+ALL = np.int64(0)
+
 
 class Series(NamedTuple):
     """Some functions, each known by its number.
 
-    middle : (functions, n + 1) the coefficients, or the middles of their enclosures.
-    radius : (functions, n + 1) of their enclosures; at points without meaning.
+    middle : (functions, n + 1, LANES) the coefficients, or the middles of their enclosures.
+    radius : (functions, n + 1, LANES) of their enclosures; at points without meaning.
     bounded : whether these are enclosures.
     """
 
@@ -28,110 +36,148 @@ class Series(NamedTuple):
 
 
 @inner
-def circular(series, multiple, cos, sin, cosine, sine):  # type: ignore[no-untyped-def]
-    """cos and sin of a multiple of an angle, from what these are, or from the middle and radius of their ranges."""
+def copied(values, out, lanes):  # type: ignore[no-untyped-def]
+    """Values into others."""
+    for p in range(lanes):
+        out[p] = values[p]
+
+
+@inner
+def circular(series, multiple, values, cosine, sine, lanes):  # type: ignore[no-untyped-def]
+    """cos and sin of a multiple of an angle, from what these are, or from the middles and radii of their ranges:
+    values (4, LANES), cos, sin, radius of cos, radius of sin."""
     middle, radius, bounded = series
-    (cos, cos_off), (sin, sin_off) = cos, sin
     factor = 1.0
     for k in range(middle.shape[1]):
         if k > 0:
             factor *= multiple / k
-        middle[cosine, k], middle[sine, k] = factor * cos, factor * sin
-        if bounded:
-            radius[cosine, k], radius[sine, k] = factor * cos_off, factor * sin_off
         # cos' = -sin, sin' = cos
-        cos, sin, cos_off, sin_off = -sin, cos, sin_off, cos_off
-
-
-@inner
-def cosine_range(angle, half):  # type: ignore[no-untyped-def]
-    """Middle and radius of the range of the cosine over an interval: by its ends, and 1 and -1 where it has them."""
-    first, last = np.cos(angle - half), np.cos(angle + half)
-    high = 1.0 if _holds(angle, half) else max(first, last)
-    low = -1.0 if _holds(angle - np.pi, half) else min(first, last)
-    return 0.5 * (low + high), 0.5 * (high - low)
-
-
-@inner
-def _holds(angle, half):  # type: ignore[no-untyped-def]
-    """Whether a whole turn is within a half width of an angle."""
-    return abs((angle + np.pi) % (2.0 * np.pi) - np.pi) <= half
-
-
-@inner
-def constant(series, value, out):  # type: ignore[no-untyped-def]
-    """A number."""
-    for k in range(series.middle.shape[1]):
-        series.middle[out, k], series.radius[out, k] = 0.0, 0.0
-    series.middle[out, 0] = value
-
-
-@inner
-def scaled(series, a, factor, plus, out):  # type: ignore[no-untyped-def]
-    """factor a + a number; a itself may be what comes out."""
-    middle, radius, bounded = series
-    for k in range(middle.shape[1]):
-        middle[out, k] = factor * middle[a, k]
+        odd = k % 2
+        of_cos, of_sin = values[odd], values[1 - odd]
+        up, along = -factor if k % 4 in (1, 2) else factor, -factor if k % 4 in (2, 3) else factor
+        cos, sin = middle[cosine, k], middle[sine, k]
+        for p in range(lanes):
+            cos[p] = up * of_cos[p]
+            sin[p] = along * of_sin[p]
         if bounded:
-            radius[out, k] = abs(factor) * radius[a, k]
-    middle[out, 0] += plus
+            of_cos, of_sin, cos, sin = values[2 + odd], values[3 - odd], radius[cosine, k], radius[sine, k]
+            for p in range(lanes):
+                cos[p] = factor * of_cos[p]
+                sin[p] = factor * of_sin[p]
 
 
 @inner
-def summed(series, a, b, factor, out):  # type: ignore[no-untyped-def]
-    """a + factor b; either may be what comes out."""
+def constant(series, value, out, lanes):  # type: ignore[no-untyped-def]
+    """The same all the way: values (LANES,)."""
+    middle, radius, _ = series
+    for k in range(middle.shape[1]):
+        found, off = middle[out, k], radius[out, k]
+        for p in range(lanes):
+            found[p] = value[p] if k == 0 else 0.0
+            off[p] = 0.0
+
+
+@inner
+def scaled(series, a, factor, plus, out, lanes):  # type: ignore[no-untyped-def]
+    """factor a + a number, (LANES,) each; a itself may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
-        middle[out, k] = middle[a, k] + factor * middle[b, k]
+        one, found = middle[a, k], middle[out, k]
+        for p in range(lanes):
+            found[p] = factor[p] * one[p]
         if bounded:
-            radius[out, k] = radius[a, k] + abs(factor) * radius[b, k]
+            one, found = radius[a, k], radius[out, k]
+            for p in range(lanes):
+                found[p] = abs(factor[p]) * one[p]
+    found = middle[out, 0]
+    for p in range(lanes):
+        found[p] += plus[p]
 
 
 @inner
-def product(series, a, b, out):  # type: ignore[no-untyped-def]
-    """Cauchy product, (f g)_k = sum_i f_i g_{k-i}; neither may be what comes out."""
+def summed(series, a, b, factor, out, lanes):  # type: ignore[no-untyped-def]
+    """a + factor b, factors (LANES,); either may be what comes out."""
     middle, radius, bounded = series
     for k in range(middle.shape[1]):
-        value = 0.0
+        one, other, found = middle[a, k], middle[b, k], middle[out, k]
+        for p in range(lanes):
+            found[p] = one[p] + factor[p] * other[p]
+        if bounded:
+            one, other, found = radius[a, k], radius[b, k], radius[out, k]
+            for p in range(lanes):
+                found[p] = one[p] + abs(factor[p]) * other[p]
+
+
+@inner
+def product(series, a, b, out, lanes, first):  # type: ignore[no-untyped-def]
+    """Cauchy product, (f g)_k = sum_i f_i g_{k-i}, from the first coefficient that is wanted; neither may be what comes
+    out."""
+    middle, radius, bounded = series
+    for k in range(first, middle.shape[1]):
+        found, off = middle[out, k], radius[out, k]
+        for p in range(lanes):
+            found[p] = 0.0
+        if bounded:
+            for p in range(lanes):
+                off[p] = 0.0
         for i in range(k + 1):
-            value += middle[a, i] * middle[b, k - i]
-        middle[out, k] = value
-        if bounded:
-            off = 0.0
-            for i in range(k + 1):
-                off += abs(middle[a, i]) * radius[b, k - i]
-                off += radius[a, i] * (abs(middle[b, k - i]) + radius[b, k - i])
-            radius[out, k] = off
+            one, other = middle[a, i], middle[b, k - i]
+            for p in range(lanes):
+                found[p] += one[p] * other[p]
+            if bounded:
+                one_off, other_off = radius[a, i], radius[b, k - i]
+                for p in range(lanes):
+                    off[p] += abs(one[p]) * other_off[p] + one_off[p] * (abs(other[p]) + other_off[p])
 
 
 @inner
-def power(series, a, exponent, out):  # type: ignore[no-untyped-def]
-    """f^a for f > 0: k f_0 p_k = sum_{i=1..k} (a i - (k - i)) f_i p_{k-i}; f may not be what comes out."""
+def power(series, a, exponent, out, lanes):  # type: ignore[no-untyped-def]
+    """f^a for f > 0, exponents (LANES,): k f_0 p_k = sum_{i=1..k} (a i - (k - i)) f_i p_{k-i}; f may not be what comes
+    out."""
     middle, radius, bounded = series
+    first, of_first, base, spread = middle[out, 0], radius[out, 0], middle[a, 0], radius[a, 0]
     if not bounded:
-        middle[out, 0], inverse, spread = _raised(middle[a, 0], exponent), 1.0 / middle[a, 0], 0.0
+        for p in range(lanes):
+            first[p] = _raised(base[p], exponent[p])
     else:
-        low, high = middle[a, 0] - radius[a, 0], middle[a, 0] + radius[a, 0]
-        first, last = _raised(low, exponent), _raised(high, exponent)
-        middle[out, 0], radius[out, 0] = 0.5 * (first + last), 0.5 * abs(last - first)
-        inverse, spread = 0.5 * (1.0 / low + 1.0 / high), 0.5 * (1.0 / low - 1.0 / high)
+        for p in range(lanes):
+            low, high = _raised(base[p] - spread[p], exponent[p]), _raised(base[p] + spread[p], exponent[p])
+            first[p], of_first[p] = 0.5 * (low + high), 0.5 * abs(high - low)
     for k in range(1, middle.shape[1]):
-        value, error = 0.0, 0.0
-        for i in range(1, k + 1):
-            factor = exponent * i - (k - i)
-            value += factor * middle[a, i] * middle[out, k - i]
-            if bounded:
-                off = radius[out, k - i]
-                off = abs(middle[a, i]) * off + radius[a, i] * (abs(middle[out, k - i]) + off)
-                error += abs(factor) * off
-        middle[out, k] = value * inverse / k
+        found, off = middle[out, k], radius[out, k]
+        for p in range(lanes):
+            found[p] = 0.0
         if bounded:
-            radius[out, k] = (abs(value) * spread + error * (inverse + spread)) / k
+            for p in range(lanes):
+                off[p] = 0.0
+        for i in range(1, k + 1):
+            one, other = middle[a, i], middle[out, k - i]
+            if bounded:
+                one_off, other_off = radius[a, i], radius[out, k - i]
+                for p in range(lanes):
+                    factor = exponent[p] * i - (k - i)
+                    found[p] += factor * one[p] * other[p]
+                    wide = abs(one[p]) * other_off[p] + one_off[p] * (abs(other[p]) + other_off[p])
+                    off[p] += abs(factor) * wide
+            else:
+                for p in range(lanes):
+                    found[p] += (exponent[p] * i - (k - i)) * one[p] * other[p]
+        if bounded:
+            for p in range(lanes):
+                low, high = 1.0 / (base[p] - spread[p]), 1.0 / (base[p] + spread[p])
+                inverse, wide = 0.5 * (low + high), 0.5 * (low - high)
+                off[p] = (abs(found[p]) * wide + off[p] * (inverse + wide)) / k
+                found[p] = found[p] * inverse / k
+        else:
+            for p in range(lanes):
+                found[p] = found[p] / base[p] / k
 
 
 @inner
 def _raised(base, exponent):  # type: ignore[no-untyped-def]
     """base^exponent; halves by roots, which cost a tenth of a power."""
+    if exponent == 0.0:
+        return 1.0
     if exponent == 0.5:
         return np.sqrt(base)
     if exponent == -0.5:
@@ -144,6 +190,8 @@ def _raised(base, exponent):  # type: ignore[no-untyped-def]
 
 
 @inner
-def between(series, a, low, high):  # type: ignore[no-untyped-def]
-    """Closer bounds of a function itself over the interval."""
-    series.middle[a, 0], series.radius[a, 0] = 0.5 * (low + high), 0.5 * (high - low)
+def between(series, a, low, high, lanes):  # type: ignore[no-untyped-def]
+    """Closer bounds (LANES,) of a function itself over the interval."""
+    middle, radius = series.middle[a, 0], series.radius[a, 0]
+    for p in range(lanes):
+        middle[p], radius[p] = 0.5 * (low[p] + high[p]), 0.5 * (high[p] - low[p])
