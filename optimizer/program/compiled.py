@@ -91,7 +91,7 @@ def both_stages(
         finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
         solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
         return _judged(statement, share, demand, least_mass, solved)
-    plain, level = np.flatnonzero(plain_discs(statement)), np.broadcast_to(at_least, share.shape)
+    plain, level = np.flatnonzero(plain_discs(statement)), at_least + np.zeros(share.shape)
     if not plain.size:
         return _in_any_limits(statement, share, demand, least_mass, level)
     part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])
@@ -166,7 +166,7 @@ def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, s
         mass_proof, mass_bound = nothing_proven(statement), np.zeros(share.shape)
     else:
         # what can be kept up to rounding is not traded for their tolerance
-        kept = np.clip(light.excess, CEILING_ROUNDING, CEILING_TOLERANCE)
+        kept = np.minimum(np.maximum(light.excess, CEILING_ROUNDING), CEILING_TOLERANCE)
         nearer = _nearer(light, best, target)
         for point in (light, points_at(statement, nearer), rest):
             lighter = point.mass < chosen.mass

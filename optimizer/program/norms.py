@@ -54,9 +54,9 @@ def scalars(norms: Norms) -> tuple[bool, ...]:
 
 def join(norms: Sequence[Norms]) -> Norms:
     """All terms side by side, (..., J) and (..., J, K)."""
-    leading = np.broadcast_shapes(
-        *(part.constant.shape[:-1] for part in norms), *(part.influence.shape[:-2] for part in norms)
-    )
+    # mostly one, which is not worth the time to broadcast
+    leadings = {part.constant.shape[:-1] for part in norms} | {part.influence.shape[:-2] for part in norms}
+    leading = leadings.pop() if len(leadings) == 1 else np.broadcast_shapes(*leadings)
     constant = [spread(part.constant, (*leading, part.constant.shape[-1])) for part in norms]
     influence = [spread(part.influence, (*leading, *part.influence.shape[-2:])) for part in norms]
     joined = np.concatenate(influence, axis=-2)

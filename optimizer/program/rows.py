@@ -40,7 +40,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
     """
     p = np.asarray(0.5 * weight * (weight_x + weight_y))
     q = np.asarray(0.5 * weight * (weight_x - weight_y))
-    f, b = response.baseline.co, np.conj(response.baseline.counter)
+    f, b = response.baseline.co, response.baseline.counter
     against = response.counter_influence
     if not q.any() and against is None:
         alone = p * f
@@ -48,6 +48,7 @@ def weighted_peak(response: Response, weight: Reals, weight_x: Reals = 1.0, weig
         alone = np.where(np.abs(alone) <= SMALLEST, 0.0, alone)[..., None]
         norms = Norms(alone, p[..., None, None] * response.influence[..., None, :])
         return WeightedPeak(response.name, p * np.abs(b), norms, response.scenario)
+    b = np.conj(b)
     terms = np.broadcast_arrays(p * f, q * b, q * f, p * b)
     constant = total(np.stack(terms, axis=-1).reshape(*terms[0].shape, 2, 2))
     influence = np.stack([p, q], axis=-1)[..., None] * response.influence[..., None, :]

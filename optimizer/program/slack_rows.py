@@ -29,8 +29,10 @@ def settle_without_slack_rows(
     ----------
     share, demand : (N,) as of :func:`optimizer.program.compiled.both_stages`.
     """
+    if statement.floor.shape[-1] < 2:
+        return
     left = np.flatnonzero(~found.certified)
-    if statement.floor.shape[-1] < 2 or not left.size:
+    if not left.size:
         return
     rows = statement.chosen(left).rows(statement.chosen(left).norms.sizes(found.smallest[left]))
     largest = np.max(rows, axis=-1, keepdims=True)
