@@ -5,8 +5,9 @@ nearly the same are opened alike: as far as they go, or else as little as leaves
 are chosen anew, and what is found is taken where it is within what is proven.
 """
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -29,78 +30,121 @@ _OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
 _SAME = 1e-12
 
 
+class Cut(NamedTuple):
+    """Counterweights, of which some are cut from plates."""
+
+    unbalance: Complex  # (K,) kg m
+    angle: Real  # (P,) rad, half-angles of the plates
+    mass: float  # kg, of all together
+
+
 def alike(
-    whole: Statement, plates: Plates, nodes: Real, u: Complex, optimum: tuple[float, float], least_mass: float
-) -> Complex:
-    """Unbalances (K,) kg m with plates opened alike where they are no worse for it.
+    whole: Statement, plates: Plates, nodes: Real, cut: Cut, optimum: tuple[float, float], least_mass: float
+) -> Cut:
+    """The same with plates opened alike where they are no worse for it.
 
     Parameters
     ----------
     whole : one program of a leading axis (1,), whose limits hold what the plates hold.
     nodes : (n, P) half-angles between which plates are taken for webs, rad.
-    u : (K,) kg m, within the limits.
-    optimum : proven lower bound of the objective, and largest objective of an optimum; that of ``u`` may be larger.
+    cut : within the limits.
+    optimum : proven lower bound of the objective, and largest objective of an optimum; that of ``cut`` may be larger.
     least_mass : kg, no optimum is lighter; inf where the mass does not count.
     """
     if not suits_kernel(whole):
-        return u
-    limits, held, lower_bound = whole.limits, np.abs(u) == 0.0, optimum[0]
-    most = plates.unbalance(plates.most)
-    plain = np.setdiff1d(np.arange(u.size), plates.webs)
-
-    def mass(u: Complex) -> Real:
-        """kg (...)."""
-        cut = np.add.reduce(plates.mass_of(np.abs(u[..., plates.webs])), axis=-1)
-        return np.asarray(cut + np.add.reduce(np.abs(u[..., plain]) / limits.radius[0, plain], axis=-1))
-
-    for some in _clusters(plates, most, np.abs(u[plates.webs])):
-        webs = plates.webs[some]
-        held[webs] = True
-        size = np.abs(u[webs])
-        full = float(most[some[0]]) * (1.0 - _NEAR) <= np.max(size)
-        angle = plates.opened(np.abs(u[plates.webs]))[some]
-        low, high = float(np.min(angle)), float(plates.most[some[0]] if full else np.max(angle))
-        if high - low <= _SAME * high:
-            continue
-        many, before = whole.chosen(np.zeros(_TRIED, int)), u
-        largest = np.maximum(optimum[1], whole.objective(before)[0])
-        heaviest = np.maximum(mass(before), least_mass / (1.0 - _OF_MASS * MASS_GAP))
-        heaviest = np.minimum(heaviest, np.maximum(mass(before), limits.max_total_mass[0]))
-        for _ in range(_ROUNDS):
-            openings = np.linspace(low, high, _TRIED)
-            tried = np.repeat(before[None], _TRIED, axis=0)
-            every = np.repeat(openings[:, None], plates.webs.size, axis=1)
-            tried[:, webs] = plates.unbalance(every)[:, some] * (before[webs] / size)
-            share = _OF_OBJECTIVE * float(largest - lower_bound)
-            tried = _others(many, plates, nodes, held, tried, share, np.isfinite(least_mass))
-            close = many.objective(tried) <= largest + many.rounding(tried)
-            close &= excess_at(many, tried) <= np.maximum(excess_at(whole, before[None])[0], CEILING_ROUNDING)
-            light = mass(tried) <= heaviest
-            if np.any(close & light):
-                u = tried[-1 if full and close[-1] & light[-1] else int(np.argmax(close & light))]
-                break
-            # the lightest that is an optimum is between two of them
-            first = int(np.argmax(close))
-            if not first or not light[first - 1]:
-                break
-            low, high, full = openings[first - 1], openings[first], False
-    return u
+        return cut
+    clusters = list(_clusters(plates, cut))
+    apart = [each for each in clusters if each.high - each.low > _SAME * each.high]
+    held = np.abs(cut.unbalance) == 0.0
+    if len(apart) > 1:
+        # all at once, which mostly does
+        every = held.copy()
+        every[plates.webs[np.concatenate([each.places for each in clusters])]] = True
+        found = _opened(whole, plates, nodes, cut, every, apart, optimum, least_mass)
+        if found is not None:
+            return found
+    for each in clusters if apart else ():
+        held[plates.webs[each.places]] = True
+        if each.high - each.low > _SAME * each.high:
+            cut = _opened(whole, plates, nodes, cut, held, [each], optimum, least_mass) or cut
+    return cut
 
 
-def _clusters(plates: Plates, most: Real, size: Real) -> Iterator[np.ndarray]:
-    """Plates of one kind that hold nearly the same, and plates that are all but full: their places (n,) among all.
+def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
+    """What unbalances (..., K) weigh (...), kg, those of plates (..., P) as they are opened."""
+    mass = np.abs(u) / whole.limits.radius[0]
+    mass[..., plates.webs] = plates.mass(angle)
+    return np.add.reduce(mass, axis=-1)
 
-    Parameters
-    ----------
-    most, size : (P,) what they hold at most, and what is cut of them, kg m.
-    """
+
+class _Cluster(NamedTuple):
+    """Plates to be opened alike."""
+
+    places: np.ndarray  # (n,) among all
+    low: float  # rad, half-angles between which
+    high: float
+    full: bool  # as far as they go, if that may be
+
+
+def _clusters(plates: Plates, cut: Cut) -> Iterator[_Cluster]:
+    """Plates of one kind that hold nearly the same, and plates that are all but full."""
+    size = np.abs(cut.unbalance[plates.webs])
+    full = size >= plates.unbalance(plates.most) * (1.0 - _NEAR)
     for kind in np.unique(plates.kinds):
         places = np.flatnonzero((plates.kinds == kind) & (size > 0))
         places = places[np.argsort(size[places], kind="stable")]
         apart = np.flatnonzero(np.diff(size[places]) > _NEAR * size[places][1:]) + 1
         for some in np.split(places, apart):
-            if some.size > 1 or np.any(size[some] >= (1.0 - _NEAR) * most[some]):
-                yield some
+            if some.size > 1 or np.any(full[some]):
+                angle, to_the_end = cut.angle[some], bool(np.any(full[some]))
+                high = plates.most[some[0]] if to_the_end else np.max(angle)
+                yield _Cluster(some, float(np.min(angle)), float(high), to_the_end)
+
+
+def _opened(
+    whole: Statement,
+    plates: Plates,
+    nodes: Real,
+    before: Cut,
+    held: np.ndarray,
+    clusters: Sequence[_Cluster],
+    optimum: tuple[float, float],
+    least_mass: float,
+) -> Cut | None:
+    """The same with the plates of each cluster opened alike, None where that is worse.
+
+    Parameters
+    ----------
+    held : (K,) bool, webs that stay as they are or are opened so; the others are chosen anew.
+    """
+    many, places = whole.chosen(np.zeros(_TRIED, int)), np.concatenate([each.places for each in clusters])
+    webs, size = plates.webs[places], [each.places.size for each in clusters]
+    low, high = (np.repeat([getattr(each, name) for each in clusters], size) for name in ("low", "high"))
+    full, u = any(each.full for each in clusters), before.unbalance
+    largest = float(np.maximum(optimum[1], whole.objective(u)[0]))
+    heaviest = max(before.mass, least_mass / (1.0 - _OF_MASS * MASS_GAP))
+    heaviest = min(heaviest, max(before.mass, float(whole.limits.max_total_mass[0])))
+    for _ in range(_ROUNDS):
+        openings = np.repeat(before.angle[None], _TRIED, axis=0)
+        openings[:, places] = np.linspace(low, high, _TRIED)
+        tried = np.repeat(u[None], _TRIED, axis=0)
+        tried[:, webs] = plates.unbalance(openings)[:, places] * (u[webs] / np.abs(u[webs]))
+        share = _OF_OBJECTIVE * (largest - optimum[0])
+        tried = _others(many, plates, nodes, held, tried, share, np.isfinite(least_mass))
+        close = many.objective(tried) <= largest + many.rounding(tried)
+        close &= excess_at(many, tried) <= np.maximum(excess_at(whole, u[None])[0], CEILING_ROUNDING)
+        opened = plates.opened(np.abs(tried[:, plates.webs]))
+        mass = total_mass(whole, plates, tried, opened)
+        light = mass <= heaviest
+        if np.any(close & light):
+            best = -1 if full and close[-1] & light[-1] else int(np.argmax(close & light))
+            return Cut(tried[best], opened[best], float(mass[best]))
+        # the lightest that is an optimum is between two of them
+        first = int(np.argmax(close))
+        if not first or not light[first - 1]:
+            break
+        low, high, full = openings[first - 1, places], openings[first, places], False
+    return None
 
 
 def _others(
@@ -116,8 +160,10 @@ def _others(
     left, fixed = ~held & np.all(many.limits.reach > 0, axis=0), np.where(held, u, 0.0)
     if not left.any():
         return fixed
-    spent = np.add.reduce(plates.mass_of(np.abs(fixed[:, plates.webs])), axis=-1)
-    limits = replace(many.limits, max_total_mass=many.limits.max_total_mass - spent)
+    limits = many.limits
+    if np.isfinite(limits.max_total_mass).any():
+        spent = np.add.reduce(plates.mass_of(np.abs(fixed[:, plates.webs])), axis=-1)
+        limits = replace(limits, max_total_mass=limits.max_total_mass - spent)
     laid = pieces(replace(many.about(fixed), limits=limits), plates, tangents(plates, nodes), left)
     found, _ = unproven(laid.program, np.full(len(u), share), least_mass)
     return fixed + laid.carried(found)

@@ -11,10 +11,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from time import thread_time
+from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.alike_plates import alike
+from optimizer.alike_plates import Cut, alike, total_mass
 from optimizer.arrays import Complex, Real
 from optimizer.certified import Certified, certified, judged
 from optimizer.formulate import formulate
@@ -62,22 +63,30 @@ def certified_shapes(
     task = _Task(request, whole, cut, omega_squared, solver)
     nodes, tried = task.guessed(first_nodes(cut)), []
     for _ in range(_ROUNDS):
-        proven, called_for = task.round(nodes)
-        tried.append(proven)
-        if not task.too_heavy(proven):
-            asked, found = task.cut_alike(proven, nodes)
-            if found.status[0] != "inaccurate":
-                return asked, found
+        found = task.round(nodes)
+        tried.append(found)
+        if not task.too_heavy(found):
+            asked, best = task.judged_alike(found, nodes)
+            if best.status[0] != "inaccurate":
+                return asked, best
         if thread_time() > end:
             break
-        nodes = closer_nodes(nodes, task.opened(called_for))
+        nodes = closer_nodes(nodes, task.opened(found.called_for))
     # of those that are equally near the last
-    return min((task.cut(proven) for proven in reversed(tried)), key=lambda each: _gap(each[1]))
+    return min((task.judged(found.proven, found.cut) for found in reversed(tried)), key=lambda each: _gap(each[1]))
 
 
 def _gap(found: Certified) -> float:
     """What is left open of mass and objective, for rounds to be compared; inf where nothing is proven."""
     return float(np.nan_to_num(found.verdict.relative_gap[0] + found.verdict.mass_gap[0], nan=np.inf))
+
+
+class _Round(NamedTuple):
+    """What is found with what tangents prove."""
+
+    proven: Optima
+    cut: Cut
+    called_for: Complex  # (K,) unbalances that the tangents call for, kg m
 
 
 @dataclass(frozen=True)
@@ -114,8 +123,8 @@ class _Task:
         angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
         return nodes if angle is None else closer_nodes(nodes, angle)
 
-    def round(self, nodes: Real) -> tuple[Optima, Complex]:
-        """What is found with what tangents prove, and the unbalances (K,) that the tangents call for."""
+    def round(self, nodes: Real) -> _Round:
+        """What tangents and, under a budget, chords between half-angles (n, P) come to."""
         goal, whole = self.request.objective, self.whole
         of_tangents, proven = self._optimum(tangents(self.plates, nodes))
         called_for = u = of_tangents.carried(proven.unbalance[0])
@@ -129,45 +138,46 @@ class _Task:
         if goal.symmetric:
             # no worse in any term, so that what is proven of those that were found holds
             u = symmetric(whole, u[None], self.kinds)[0]
-        return replace(proven, unbalance=u[None], certify_s=spent), called_for
+        angle = self.opened(u)
+        mass = float(total_mass(whole, self.plates, u, angle))
+        return _Round(replace(proven, certify_s=spent), Cut(u, angle, mass), called_for)
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid, asked = pieces(self.whole, self.plates, webs), self.request.accuracy.relative_gap
         return laid, optima(laid.program, asked, self.request.objective.least_mass, self.solver)
 
-    def too_heavy(self, proven: Optima) -> bool:
+    def too_heavy(self, found: _Round) -> bool:
         """Whether what would be cut is not the lightest, so that it need not be judged."""
-        if not self.request.objective.least_mass or proven.unreachable[0]:
+        if not self.request.objective.least_mass or found.proven.unreachable[0]:
             return False
-        mass = np.abs(proven.unbalance[0]) / self.whole.limits.radius[0]
-        mass[self.plates.webs] = self.plates.mass_of(np.abs(proven.unbalance[0, self.plates.webs]))
-        total = np.add.reduce(mass)
-        size = np.maximum(total, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
-        return bool(total - proven.mass_lower_bound[0] > MASS_GAP * size)
+        mass = found.cut.mass
+        size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
+        return bool(mass - found.proven.mass_lower_bound[0] > MASS_GAP * size)
 
-    def cut_alike(self, proven: Optima, nodes: Real) -> tuple[OptimizeRequest, Certified]:
+    def judged_alike(self, found: _Round, nodes: Real) -> tuple[OptimizeRequest, Certified]:
         """What is cut, with plates opened alike where what is proven still holds."""
-        even = self._alike(proven, nodes)
-        if even is not proven:
-            asked, found = self.cut(even)
-            if found.status[0] == "optimal":
-                return asked, found
-        return self.cut(proven)
+        cut = self._alike(found, nodes)
+        if cut is not found.cut:
+            asked, best = self.judged(found.proven, cut)
+            if best.status[0] == "optimal":
+                return asked, best
+        return self.judged(found.proven, found.cut)
 
-    def _alike(self, proven: Optima, nodes: Real) -> Optima:
+    def _alike(self, found: _Round, nodes: Real) -> Cut:
+        goal, proven = self.request.objective, found.proven
         if proven.unreachable[0]:
-            return proven
-        goal, lower_bound = self.request.objective, float(proven.lower_bound[0])
+            return found.cut
+        lower_bound = float(proven.lower_bound[0])
         largest = lower_bound + float(self.request.accuracy.relative_gap * self.size[0])
         least_mass = np.inf
         if goal.least_mass:
             largest, least_mass = min(largest, float(proven.mass_target[0])), float(proven.mass_lower_bound[0])
-        u = alike(self.whole, self.plates, nodes, proven.unbalance[0], (lower_bound, largest), least_mass)
-        return proven if np.array_equal(u, proven.unbalance[0]) else replace(proven, unbalance=u[None])
+        return alike(self.whole, self.plates, nodes, found.cut, (lower_bound, largest), least_mass)
 
-    def cut(self, proven: Optima) -> tuple[OptimizeRequest, Certified]:
+    def judged(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified]:
         """The request with the radii of what is cut, and what may be claimed of it."""
-        angle, same = self.opened(proven.unbalance[0]), np.arange(self.kinds.size)
+        angle = cut.angle
+        same = np.arange(self.kinds.size)
         # plates that differ by what rounding leaves are the same to the last digit
         near = np.abs(angle[:, None] - angle) <= _EQUAL * angle
         first = np.argmax(near & (self.plates.kinds[:, None] == self.plates.kinds), axis=1)
@@ -176,8 +186,8 @@ class _Task:
         asked = self.request.model_copy(update={"machine": machine})
         stated = limits(machine, self.omega_squared.shape)
         program = replace(self.whole, limits=_limits(stated, self.whole.limits, self.plates))
-        found = judged(asked, program, proven, self.omega_squared, lambda mass, angle: (mass[..., same], angle))
-        return asked, found
+        found = replace(proven, unbalance=cut.unbalance[None])
+        return asked, judged(asked, program, found, self.omega_squared, lambda mass, angle: (mass[..., same], angle))
 
 
 def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:

@@ -25,6 +25,7 @@ _STEPS, _HALVES = 10, 6
 _ENOUGH = 1e-6
 #: prices that are this much apart, relative, tell how openings follow them
 _APART = 1e-6
+_NEAR = np.array([[1.0], [1.0 - _APART], [1.0 + _APART]])
 #: of what moves the responses by a smaller share of the most nothing is asked
 _FLAT = 1e-10
 
@@ -65,6 +66,8 @@ def guessed(whole: Statement, plates: Plates, nodes: Real, share: Real, least_ma
     towards = np.where(u != 0, u / np.where(u != 0, np.abs(u), 1.0), limits.centre[0])
     dual = _Dual(
         plates,
+        plates.lever(np.zeros(plates.webs.size))[first],
+        plates.most[first],
         np.searchsorted(unit[first], unit),
         first,
         count[first],
@@ -79,8 +82,8 @@ class _At(NamedTuple):
     """A price and what it comes to."""
 
     price: Complex  # (J,) kg per unit of the responses
-    value: float  # of the dual, kg
-    left: Complex  # (J,) of the responses
+    left: Complex  # (J,) of the responses, the gradient of the dual
+    size: float  # of the largest of these
     angle: Real  # (P,) rad
     rows: Real  # (2J, 2n) what plates move the responses by, along their unbalances and across
     give: Real  # (2n,) how unbalances follow the price, along and across, kg m per (kg per kg m)
@@ -91,6 +94,8 @@ class _Dual:
     """Plates, of n alike ones the first, and the responses that they are to make up."""
 
     plates: Plates
+    shut: Real  # (n,) levers of what is added first, m
+    most: Real  # (n,) largest half-angles, rad
     owner: np.ndarray  # (P,) which of the n
     first: np.ndarray  # (n,) places of these
     count: Real  # (n,) how many are alike
@@ -100,16 +105,16 @@ class _Dual:
 
     def opened(self, price: Complex) -> Real:
         """Half-angles (P,) from the price (J,) of tangents."""
-        here = self._at(price)
+        here, enough = self._at(price), _ENOUGH * float(np.max(np.abs(self.wanted)))
         for _ in range(_STEPS):
-            if np.max(np.abs(here.left)) <= _ENOUGH * np.max(np.abs(self.wanted)):
+            if here.size <= enough:
                 break
             left = np.concatenate([here.left.real, here.left.imag])
             step = np.linalg.lstsq((here.rows * here.give) @ here.rows.T, left, rcond=_FLAT)[0]
             along, across = np.split(step, 2)
             for halves in range(_HALVES):
                 there = self._at(here.price + 0.5**halves * (along + 1j * across))
-                if there.value > here.value:
+                if there.size < here.size:
                     break
             else:
                 break
@@ -121,21 +126,20 @@ class _Dual:
         free = self.towards == 0
         worth = np.where(free, np.abs(pull), np.maximum((pull * np.conj(self.towards)).real, 0.0))
         towards = np.where(free & (worth > 0), pull / np.where(worth > 0, worth, 1.0), self.towards)
-        near = worth * np.array([[1.0], [1.0 - _APART], [1.0 + _APART]])
         # of both shapes the lever falls as the cosine of the opening
-        shut = self.plates.lever(np.zeros(self.owner.size))[self.first]
-        cosine = 1.0 / np.maximum(near * shut, 1.0)
-        angle = np.minimum(np.arccos(cosine), self.plates.most[self.first])[:, self.owner]
+        cosine = 1.0 / np.maximum(worth * self.shut * _NEAR, 1.0)
+        angle = np.minimum(np.arccos(cosine), self.most)[:, self.owner]
         size = self.plates.unbalance(angle)[:, self.first] * self.count
-        mass = self.plates.mass(angle[0])[self.first] * self.count
-        along = (size[2] - size[1]) / np.where(worth > 0, 2.0 * _APART * worth, 1.0)
-        across = np.where(free & (worth > 0), size[0] / np.where(worth > 0, worth, 1.0), 0.0)
-        turned = self.influence * towards
+        worth = np.where(worth > 0, worth, 1.0)
+        turned, left = self.influence * towards, self.wanted - self.influence @ (size[0] * towards)
+        (terms, webs), rows = turned.shape, np.empty((2 * turned.shape[0], 2 * turned.shape[1]))
+        rows[:terms, :webs], rows[:terms, webs:] = turned.real, -turned.imag
+        rows[terms:, :webs], rows[terms:, webs:] = turned.imag, turned.real
         return _At(
             price,
-            float((np.conj(self.wanted) * price).real.sum() - np.add.reduce(worth * size[0] - mass)),
-            self.wanted - self.influence @ (size[0] * towards),
+            left,
+            float(np.maximum.reduce(np.abs(left))),
             angle[0],
-            np.block([[turned.real, -turned.imag], [turned.imag, turned.real]]),
-            np.concatenate([along, across]),
+            rows,
+            np.concatenate([(size[2] - size[1]) / (2.0 * _APART * worth), np.where(free, size[0], 0.0) / worth]),
         )

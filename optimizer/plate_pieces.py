@@ -61,13 +61,14 @@ def closer_nodes(nodes: Real, angle: Real) -> Real:
 def _apart(nodes: Real) -> Real:
     """The same, in rising order, none next to another: those that are one have the same half-angle."""
     near = _SAME * nodes[-1]
-    inside = np.where((np.diff(nodes[:-1], axis=0) > near) & (nodes[-1] - nodes[1:-1] > near), nodes[1:-1], 0.0)
+    inside = np.where((nodes[1:-1] - nodes[:-2] > near) & (nodes[-1] - nodes[1:-1] > near), nodes[1:-1], 0.0)
     return np.concatenate([nodes[:1], np.maximum.accumulate(inside, axis=0), nodes[-1:]])
 
 
 def chords(plates: Plates, nodes: Real) -> Webs:
-    mass = np.diff(plates.mass(nodes), axis=0)
-    return Webs(np.diff(plates.unbalance(nodes), axis=0) / np.where(mass > 0, mass, 1.0), mass)
+    mass, unbalance = plates.mass(nodes), plates.unbalance(nodes)
+    each = mass[1:] - mass[:-1]
+    return Webs((unbalance[1:] - unbalance[:-1]) / np.where(each > 0, each, 1.0), each)
 
 
 def tangents(plates: Plates, nodes: Real) -> Webs:
@@ -75,10 +76,10 @@ def tangents(plates: Plates, nodes: Real) -> Webs:
     unbalance, slope = plates.unbalance(nodes), 1.0 / plates.lever(nodes[:-1])
     at = unbalance[:-1]
     height = plates.mass(nodes[:-1]) - slope * at
-    rise = np.diff(slope, axis=0)
-    crossing = np.where(rise > 0, -np.diff(height, axis=0) / np.where(rise > 0, rise, 1.0), at[1:])
+    rise, fall = slope[1:] - slope[:-1], height[:-1] - height[1:]
+    crossing = np.where(rise > 0, fall / np.where(rise > 0, rise, 1.0), at[1:])
     ends = np.concatenate([np.zeros_like(at[:1]), np.clip(crossing, at[:-1], at[1:]), unbalance[-1:]])
-    return Webs(1.0 / slope, np.diff(ends, axis=0) * slope * _REACHES)
+    return Webs(1.0 / slope, (ends[1:] - ends[:-1]) * slope * _REACHES)
 
 
 def pieces(whole: Statement, plates: Plates, webs: Webs, left: np.ndarray | None = None) -> Pieces:

@@ -4,6 +4,7 @@ A fitted counterweight has a radius of its own, so what is fitted stands on a ma
 """
 
 from collections.abc import Mapping
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,6 +13,7 @@ from optimizer.mechanics.envelope import AnnularSector, Segment
 from optimizer.mechanics.plates import Plates
 from optimizer.remembered import remembered
 from schemas.machine import Machine
+from schemas.webs import Envelope
 
 _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector, "segment": Segment}
 
@@ -19,28 +21,28 @@ _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector,
 @remembered
 def plates(machine: Machine) -> Plates | None:
     """The plates of the webs that have one; None where no web has."""
-    webs = [k for k, web in enumerate(machine.webs) if web.envelope is not None]
-    if not webs:
-        return None
-    given = [machine.webs[k].envelope for k in webs]
-    figures = [
-        (
-            each.shape,
-            each.inner_radius_m,
-            each.outer_radius_m,
-            each.thickness_m * each.density_kg_m3,
-            each.max_half_angle_deg,
-        )
-        for each in given
-        if each is not None
-    ]
+    given = tuple(web.envelope for web in machine.webs)
+    return _side_by_side(given) if any(given) else None
+
+
+@lru_cache(maxsize=8)
+def _side_by_side(given: tuple[Envelope | None, ...]) -> Plates:
+    """The plates of the webs, which machines have in common whose counterweights differ."""
+    cut = [(k, each) for k, each in enumerate(given) if each is not None]
     parts = []
     for shape, made in _SHAPES.items():
-        places = np.array([n for n, each in enumerate(figures) if each[0] == shape], dtype=int)
+        places = np.array([n for n, (_, each) in enumerate(cut) if each.shape == shape], dtype=int)
         if places.size:
-            inner, outer, areal, most = np.array([figures[n][1:] for n in places]).T
-            parts.append((places, made(inner, outer, areal, np.deg2rad(most))))
-    return Plates(np.array(webs), np.array([figures.index(each) for each in figures]), parts)
+            of_shape = [cut[n][1] for n in places]
+            figures = [
+                (each.inner_radius_m, each.outer_radius_m, each.thickness_m * each.density_kg_m3) for each in of_shape
+            ]
+            inner, outer, areal = np.array(figures).T
+            parts.append(
+                (places, made(inner, outer, areal, np.deg2rad([each.max_half_angle_deg for each in of_shape])))
+            )
+    kinds = [given.index(each) for _, each in cut]
+    return Plates(np.array([k for k, _ in cut]), np.array(kinds), parts)
 
 
 def fitted(machine: Machine, half_angle: Real) -> Machine:

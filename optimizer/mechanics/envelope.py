@@ -11,6 +11,7 @@ functions broadcast.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Protocol
 
 import numpy as np
@@ -97,11 +98,11 @@ class AnnularSector(Plate):
     def chord(self, half_angle: Reals) -> None:
         return None
 
-    @property
+    @cached_property
     def _of_angle(self) -> Reals:
         return self.areal * (self.outer**2 - self.inner**2)
 
-    @property
+    @cached_property
     def _whole(self) -> Reals:
         return 2.0 / 3.0 * self.areal * (self.outer**3 - self.inner**3)
 
@@ -145,9 +146,13 @@ class Segment(Plate):
 
     def _of_both(self, half_angle: Reals, power: int, of_disc: "_OfAngle") -> Real:
         """R2^n f(a) - R1^n f(b), b the half-angle at the inner radius."""
-        hub = np.where(np.asarray(self.inner) > 0, self.inner, 1.0)
-        inside = np.arccos(np.minimum(self.outer / hub * np.cos(half_angle), 1.0))
+        inside = np.arccos(np.minimum(self._wider * np.cos(half_angle), 1.0))
         return self.outer**power * of_disc(np.asarray(half_angle)) - self.inner**power * of_disc(inside)
+
+    @cached_property
+    def _wider(self) -> Real:
+        """Outer over inner radius; that of the disc itself where there is no hub."""
+        return self.outer / np.where(np.asarray(self.inner) > 0, self.inner, 1.0)
 
 
 class _OfAngle(Protocol):

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -17,12 +18,12 @@ class Plates:
     kinds: np.ndarray  # (P,) those that are the same have the same number
     parts: Sequence[tuple[np.ndarray, Envelope]]  # those of one shape, with their places (p,) among all P
 
-    @property
+    @cached_property
     def outer(self) -> Real:
         """m."""
         return self._each(lambda part, _: part.outer, np.zeros(self.webs.size))
 
-    @property
+    @cached_property
     def most(self) -> Real:
         """Largest half-angles, rad."""
         return self._each(lambda part, _: part.most, np.zeros(self.webs.size))
