@@ -14,8 +14,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.optimize import optimize
-from tests.benchmarks import discrete, outputs
+from tests.benchmarks import discrete, outputs, plates
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 
@@ -30,6 +29,7 @@ def main() -> None:
     phases(console, repeats)
     by_output(console, max(repeats // 3, 5))
     choices(console, max(repeats // 12, 3))
+    shapes(console, repeats)
     console.print(f"service, from start to ready: {start_to_ready():.2f} s")
     # each in a process of its own, which stays on one core or starts its own workers
     for module in ("whole_turn", "wire", "sweep", "sweep_scaling"):
@@ -92,8 +92,17 @@ def choices(console: Console, repeats: int) -> None:
     console.print(table)
     for name, seconds in discrete.others(repeats).items():
         console.print(f"{name}: {seconds:.3f} s")
-    plate, radius = (discrete.median_s(partial(optimize, each), 5 * repeats) for each in discrete.plate_and_radius())
-    console.print(f"cut from plates {plate * 1e3:.1f} ms, at the radii that they come to {radius * 1e3:.1f} ms")
+
+
+def shapes(console: Console, repeats: int) -> None:
+    """Counterweights cut from plates beside those at the radii that they come to."""
+    table = Table(title=f"counterweights cut from plates, least of {repeats}, milliseconds of the processor")
+    for heading in ("case", "plates", "radii", "ratio"):
+        table.add_column(heading, justify="left" if heading == "case" else "right")
+    for name, body in plates.KINDS.items():
+        plate, radius = plates.seconds(body, repeats)
+        table.add_row(name, f"{plate * 1e3:.2f}", f"{radius * 1e3:.2f}", f"{plate / radius:.2f}")
+    console.print(table)
 
 
 def start_to_ready() -> float:

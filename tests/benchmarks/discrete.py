@@ -1,4 +1,4 @@
-"""Choices from what there is and sixteen rows matched, beside SCIP; the orders of eight throws, and what a plate costs.
+"""Choices from what there is and sixteen rows matched, beside SCIP; the orders of eight throws.
 
 Every order of cranks is answered, with counterweights of its own; a program for SCIP has the best of them alone, so it
 has no column there. Times are those of the processor, so that others on the machine count little.
@@ -170,14 +170,3 @@ def eight_orders() -> SweepRequest:
     del body["pareto"]
     body["base"]["outputs"] = ["residual"]
     return SweepRequest.model_validate(body | {"angles_deg": [45 * n for n in range(8)]})
-
-
-def plate_and_radius() -> tuple[OptimizeRequest, OptimizeRequest]:
-    """The example with plates, and its machine with the radii that they come to."""
-    body = json.loads((EXAMPLES / "plate-single.json").read_bytes())
-    request = OptimizeRequest.model_validate(body)
-    found = optimize(request)
-    for web, one in zip(body["machine"]["webs"], found.counterweights, strict=True):
-        del web["envelope"]
-        web |= {"counterweight_radius_m": one.radius_m, "max_mass_kg": one.mass_kg}
-    return request, OptimizeRequest.model_validate(body)
