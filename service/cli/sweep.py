@@ -44,6 +44,22 @@ def sweep(
     as_json: AsJson = False,
 ) -> None:
     """Compute thousands to millions of designs of one machine; go on where an interrupted sweep ended."""
+    try:
+        _sweep(file, output, dry_run, workers, engine, folder, as_json)
+    except KeyboardInterrupt:
+        typer.echo("interrupted; what is finished is kept, and the same command goes on from there", err=True)
+        raise typer.Exit(_INTERRUPTED) from None
+
+
+def _sweep(
+    file: str,
+    output: Path | None,
+    dry_run: bool,
+    workers: int | None,
+    engine: str | None,
+    folder: Path | None,
+    as_json: bool,
+) -> None:
     from schemas.sweep import SweepRequest
 
     asked = question(SweepRequest, file)

@@ -6,6 +6,8 @@ import signal
 import subprocess
 import sys
 import time
+from importlib import import_module
+from operator import attrgetter
 from pathlib import Path
 from typing import Any
 
@@ -80,9 +82,10 @@ def interruptible() -> None:
 
 @pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGKILL])
 def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) -> None:
-    body, out = analyses(400, 1000), tmp_path / "rows.parquet"
+    body, out = analyses(400, 10), tmp_path / "rows.parquet"
     arguments = [written(tmp_path, body), "-o", str(out), "--workers", "1"]
-    command = [*COMMAND, *arguments]
+    # it stays at its second chunk, however late the signal comes
+    command = [sys.executable, "-m", "tests.jobs.held", "sweep", *arguments]
     with subprocess.Popen(command, cwd=ROOT, stderr=subprocess.PIPE, text=True, preexec_fn=interruptible) as first:
         results = tmp_path / "rows.parquet.sweep" / "results"
         deadline = time.monotonic() + 180
@@ -100,7 +103,36 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
     done = run(written(tmp_path, body), "-o", str(out), "--workers", "2")
     assert done.returncode == 1
     assert "going on with the sweep" in done.stderr
-    assert pq.read_table(out, columns=["index"])["index"].to_pylist() == list(range(400_000))
+    assert pq.read_table(out, columns=["index"])["index"].to_pylist() == list(range(4000))
+
+
+@pytest.mark.parametrize(
+    ("where", "during"),
+    [
+        ("service.jobs.desk", "Desk"),
+        ("service.jobs.owner_jobs", "OwnerJobs.sweep"),
+        ("service.cli.sweep", "_watch"),
+        ("service.jobs.export", "export"),
+        ("service.cli.sweep", "put"),
+    ],
+)
+def test_whenever_it_is_interrupted_it_says_so_and_goes_on(
+    where: str, during: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*_given: object, **_more: object) -> None:
+        raise KeyboardInterrupt
+
+    out = tmp_path / "rows.parquet"
+    command = (written(tmp_path, optimisations()), "-o", str(out), "--workers", "1")
+    with monkeypatch.context() as patch:
+        # the package has a command of the name of its module
+        *inside, name = during.split(".")
+        patch.setattr(attrgetter(*inside)(import_module(where)) if inside else import_module(where), name, interrupted)
+        done = here(*command)
+    assert done.exit_code == 130
+    assert "the same command goes on from there" in done.stderr
+    assert here(*command).exit_code == 0
+    assert pq.read_table(out).equals(expected(optimisations()))
 
 
 @pytest.mark.parametrize(
