@@ -1,10 +1,24 @@
 """What coordinators do to the chunks of jobs. Every method is one transaction."""
 
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from functools import cache
 from typing import Any
 
-from sqlalchemy import ColumnElement, Connection, Select, and_, exists, func, insert, or_, select, tuple_, update
+from sqlalchemy import (
+    ColumnElement,
+    Connection,
+    Select,
+    and_,
+    bindparam,
+    exists,
+    func,
+    insert,
+    or_,
+    select,
+    tuple_,
+    update,
+)
 
 from service.jobs import rows
 from service.jobs.database import Database
@@ -49,17 +63,15 @@ class Leases:
         """
         now = self._clock()
         # a lease that ends later than any can was made by a clock that has jumped since
-        over = or_(chunks.c.lease_until < now, chunks.c.lease_until > now + 2 * lease_s)
-        free = (chunks.c.state == "pending", and_(chunks.c.state == "leased", over))
-        tried = chunks.c.attempts > 0 if attempted else chunks.c.attempts == 0
+        times = {"now": now, "latest": now + 2 * lease_s}
         with self._database.read() as connection:
-            candidates: list[str] = list(connection.scalars(_waiting(now, free, tried, attempted)))
+            candidates: list[str] = list(connection.scalars(_waiting(attempted), times))
         for job in candidates:
             with self._database.write() as connection:
                 found = rows.find(connection, job, lock=True)
                 if found is None or not found.active:
                     continue
-                spans = _free(connection, job, free, tried, most)
+                spans = _free(connection, attempted, {"job": job, "most": most, **times})
                 if not spans and not attempted:
                     spans = _made(connection, found)[:most]
                 if spans:
@@ -248,14 +260,22 @@ def _this(chunk: Chunk) -> ColumnElement[bool]:
     return and_(chunks.c.job == chunk.job, chunks.c.start == chunk.start)
 
 
-def _waiting(
-    now: float, free: Sequence[ColumnElement[bool]], tried: ColumnElement[bool], attempted: bool
-) -> Select[Any]:
+def _may_be_given_out(attempted: bool) -> tuple[tuple[ColumnElement[bool], ColumnElement[bool]], ColumnElement[bool]]:
+    """Chunks that nobody holds, those that were never given out apart from others, and whether they were tried."""
+    over = or_(chunks.c.lease_until < bindparam("now"), chunks.c.lease_until > bindparam("latest"))
+    free = (chunks.c.state == "pending", and_(chunks.c.state == "leased", over))
+    return free, chunks.c.attempts > 0 if attempted else chunks.c.attempts == 0
+
+
+# put together once: that takes longer than the database takes to answer
+@cache
+def _waiting(attempted: bool) -> Select[Any]:
     """The jobs that have a chunk to give out, those first that shall have it."""
+    free, tried = _may_be_given_out(attempted)
     held = (
         select(chunks.c.job, func.coalesce(jobs.c.owner, "").label("owner"))
         .join(jobs, jobs.c.id == chunks.c.job)
-        .where(chunks.c.state == "leased", chunks.c.lease_until >= now)
+        .where(chunks.c.state == "leased", chunks.c.lease_until >= bindparam("now"))
         .subquery()
     )
     of_job = select(held.c.job, func.count().label("busy")).group_by(held.c.job).subquery()
@@ -271,13 +291,17 @@ def _waiting(
     )
 
 
-def _free(
-    connection: Connection, job: str, free: Sequence[ColumnElement[bool]], tried: ColumnElement[bool], most: int
-) -> list[tuple[int, int, int]]:
-    """Start, stop and attempts of chunks that may be given out, at most so many."""
-    for condition in free:
-        wanted = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == job, condition, tried)
-        found = connection.execute(wanted.order_by(chunks.c.start).limit(most)).all()
+@cache
+def _free_of_job(attempted: bool) -> tuple[Select[Any], ...]:
+    """Start, stop and attempts of chunks of a job that may be given out, at most so many."""
+    free, tried = _may_be_given_out(attempted)
+    wanted = select(chunks.c.start, chunks.c.stop, chunks.c.attempts).where(chunks.c.job == bindparam("job"), tried)
+    return tuple(wanted.where(one).order_by(chunks.c.start).limit(bindparam("most")) for one in free)
+
+
+def _free(connection: Connection, attempted: bool, about: Mapping[str, Any]) -> list[tuple[int, int, int]]:
+    for wanted in _free_of_job(attempted):
+        found = connection.execute(wanted, about).all()
         if found:
             return [(row.start, row.stop, row.attempts) for row in found]
     return []

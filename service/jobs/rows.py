@@ -3,7 +3,7 @@
 import re
 from dataclasses import dataclass
 
-from sqlalchemy import ColumnElement, Connection, Select, and_, case, func, select, update
+from sqlalchemy import ColumnElement, Connection, Select, and_, bindparam, case, func, select, update
 
 from service.jobs.job import ACTIVE, FIELDS, REMOVED, Job, State, job_from
 from service.jobs.tables import chunks, jobs, schema
@@ -12,6 +12,9 @@ _ID = re.compile(r"[0-9a-f]{32}")
 #: a file takes whole blocks of a disk
 _BLOCK = 4096
 JOB = [jobs.c[name] for name in FIELDS]
+# put together once, as they are asked at every turn
+_FOUND: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == bindparam("job"), jobs.c.state != REMOVED)
+_LOCKED = _FOUND.with_for_update()
 
 
 class UnknownJob(LookupError):
@@ -38,8 +41,7 @@ def find(connection: Connection, job: str, lock: bool = False) -> Job | None:
     # a database may choke on what is no id
     if _ID.fullmatch(job) is None:
         return None
-    wanted: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == job, jobs.c.state != REMOVED)
-    row = connection.execute(wanted.with_for_update() if lock else wanted).mappings().first()
+    row = connection.execute(_LOCKED if lock else _FOUND, {"job": job}).mappings().first()
     return None if row is None else job_from(row)
 
 

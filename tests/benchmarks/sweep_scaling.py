@@ -28,6 +28,7 @@ from service.settings import Settings
 from tests.benchmarks.sweep_case import sweep
 
 WORKERS = (1, 2)
+_ASK_S = 0.25
 #: nobody tells these to stop
 _NO_FLAG = "no flag"
 
@@ -38,9 +39,7 @@ def through_the_service(kind: str, request: SweepRequest, workers: int) -> float
         desk = Desk(Settings(data_dir=Path(folder), database_url=None, engine=engine, sweep_workers=workers))
         try:
             _run(desk, sweep(2000 * workers, seed=1))
-            began = time.perf_counter()
-            _run(desk, request)
-            return time.perf_counter() - began
+            return _run(desk, request)
         finally:
             desk.close()
 
@@ -58,14 +57,16 @@ def _engine(kind: str, workers: int) -> Iterator[str]:
         yield f"dask:{cluster.scheduler_address}"
 
 
-def _run(desk: Desk, request: SweepRequest) -> None:
+def _run(desk: Desk, request: SweepRequest) -> float:
+    """By the clock of the job, s: who asks often whether it is done takes time from those who do it."""
     jobs = desk.of()
     job, _ = jobs.sweep(request)
     while job.active:
-        time.sleep(0.02)
+        time.sleep(_ASK_S)
         job = jobs.get(job.id)
-    if (job.state, job.done) != ("done", request.total):
+    if (job.state, job.done) != ("done", request.total) or job.ended is None:
         raise RuntimeError(f"the sweep {job.state}: {job.error}")
+    return job.ended - job.created
 
 
 def without_a_service(request: SweepRequest, workers: int) -> float:
