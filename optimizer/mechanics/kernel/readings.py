@@ -76,16 +76,16 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
                 gas = _FORCE if factor == _ALL_ONE else _OF_GAS
                 for turn in range(turns):
                     for p in range(lanes):
-                        if turns > 1:
-                            where[_NUMBER, p], where[_DESIGN, p] = turn, design[turn]
-                        one = where[_DESIGN, p] if rows.scale.shape[0] > 1 else 0
-                        mass, friction = rows.scale[one, r, 0], rows.scale[one, r, 1]
-                        lane[_MASS, p], lane[_FRICTION, p] = mass, friction * functions.way[r, start + p]
+                        n = design[turn] if turns > 1 else where[_DESIGN, p]
+                        one = n if rows.scale.shape[0] > 1 else 0
+                        lane[_MASS, p] = rows.scale[one, r, 0]
+                        lane[_FRICTION, p] = rows.scale[one, r, 1] * functions.way[r, start + p]
                     if pressed and (turn == 0 or rows.area.shape[0] > 1):
                         constant(series, lane[_ZERO], _FORCE, lanes)
                         for c in range(kept - KEPT):
                             for p in range(lanes):
-                                lane[_AREA, p] = rows.area[where[_DESIGN, p] if rows.area.shape[0] > 1 else 0, r, c]
+                                n = design[turn] if turns > 1 else where[_DESIGN, p]
+                                lane[_AREA, p] = rows.area[n if rows.area.shape[0] > 1 else 0, r, c]
                             summed(series, _FORCE, _PRESSURES + c, lane[_AREA], _FORCE, lanes)
                         if gas == _OF_GAS:
                             product(series, _FORCE, factor, _OF_GAS, lanes, first)
@@ -98,13 +98,29 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
                             _added(series, inertia, k, lane[_MASS], value, off, lanes)
                         if rubs:
                             _added(series, factor, k, lane[_FRICTION], value, off, lanes)
-                        for p in range(lanes):
-                            n, at = where[_NUMBER, p], where[_ANGLE, p]
-                            middle[part, k - first, n, r, at] = lane[_SIGN, p] * value[p] if part == 1 else value[p]
-                            if bounded:
-                                known = radius[n, r, at]
-                                radius[n, r, at] = off[p] if part == 0 else np.sqrt(known * known + off[p] * off[p])
+                        if part == 1:
+                            sign = lane[_SIGN]
+                            for p in range(lanes):
+                                value[p] *= sign[p]
+                        if turns > 1:
+                            copied(value, middle[part, k - first, turn, r, start:], lanes)
+                        else:
+                            for p in range(lanes):
+                                middle[part, k - first, where[_NUMBER, p], r, where[_ANGLE, p]] = value[p]
+                        if bounded and turns > 1:
+                            for p in range(lanes):
+                                radius[turn, r, start + p] = _with_part(radius[turn, r, start + p], off[p], part)
+                        elif bounded:
+                            for p in range(lanes):
+                                n, at = where[_NUMBER, p], where[_ANGLE, p]
+                                radius[n, r, at] = _with_part(radius[n, r, at], off[p], part)
     return middle, radius
+
+
+@inner
+def _with_part(known, off, part):  # type: ignore[no-untyped-def]
+    """How far a vector may be off, by the first of its parts or with the second."""
+    return off if part == 0 else np.sqrt(known * known + off * off)
 
 
 @inner
