@@ -3,6 +3,7 @@
 from typing import Any
 
 import pytest
+from playwright.sync_api import expect
 
 from tests.browser.portal import Portal
 
@@ -147,12 +148,30 @@ def test_headings_and_drawing_follow_what_is_typed(portal: Portal) -> None:
     portal.open("two-rows-180")
     portal.input(f"{THROWS}/1/name").fill("drive end")
     heading = portal.page.locator(f"#form details[data-pointer='{THROWS}/1'] > summary")
-    assert heading.inner_text().lower() == "throw drive end"
+    expect(heading).to_have_text("throw drive end", ignore_case=True)
     asked = len(portal.bodies("/v1/optimize"))
     portal.page.locator("#drawings .side").get_by_text("throw drive end", exact=True).wait_for()
     portal.input(f"{THROWS}/1/crank_angle_deg").fill("90")
     portal.page.locator("#drawings .front title", has_text="throw drive end at 90°").wait_for(state="attached")
     assert len(portal.bodies("/v1/optimize")) == asked
+
+
+def test_a_drawing_that_waited_does_not_take_the_place_of_the_answers(portal: Portal) -> None:
+    # the page is never idle until the test says so
+    portal.page.add_init_script(
+        """globalThis.waiting = new Map();
+        globalThis.requestIdleCallback = (work) => { waiting.set(waiting.size + 1, work); return waiting.size; };
+        globalThis.cancelIdleCallback = (number) => waiting.set(number, () => {});"""
+    )
+    portal.open("2d12")
+    fitted = portal.page.locator("#drawings .counterweight")
+    before = portal.page.evaluate("waiting.size")
+    portal.input(f"{THROWS}/1/rotating_mass_kg").fill("12")
+    portal.page.wait_for_function("before => waiting.size > before", arg=before)
+    portal.optimise()
+    count = fitted.count()
+    portal.page.evaluate("() => [...waiting.values()].forEach((work) => work())")
+    assert fitted.count() == count > 0
 
 
 def test_the_keyboard_goes_through_a_table(portal: Portal) -> None:

@@ -71,6 +71,8 @@ export class Run {
     form()?.errors.clear();
     byId("problem").replaceChildren();
     byId("trouble").textContent = "";
+    // what was typed before is drawn no more: it would take the place of the answer's drawing
+    if (current) sketch.cancel();
     showAnswer(byId("answer"), request, answer, outputs.all(request));
     byId("results").classList.remove("empty");
     // what was typed meanwhile is not answered
