@@ -38,6 +38,8 @@ from schemas.requests import OptimizeRequest
 
 #: how often nodes are laid
 _ROUNDS = 12
+#: how often it is guessed where
+_GUESSES = 3
 #: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
 #: the centre of half a disc is at 0.42 of its radius
 _NEARER = 2.5
@@ -120,8 +122,13 @@ class _Task:
         """Nodes about what is guessed from those of tangents."""
         goal = self.request.objective
         share = min(OPTIMUM_SHARE, self.request.accuracy.relative_gap) * self.size
-        angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
-        return nodes if angle is None else closer_nodes(nodes, angle)
+        # under a budget coarse tangents reach further than plates do
+        for _ in range(_GUESSES if np.isfinite(self.whole.limits.max_total_mass[0]) else 1):
+            angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
+            if angle is None:
+                break
+            nodes = closer_nodes(nodes, angle)
+        return nodes
 
     def round(self, nodes: Real) -> _Round:
         """What tangents and, under a budget, chords between half-angles (n, P) come to."""

@@ -31,6 +31,12 @@ def cut(name: str, figures: Mapping[str, Any], *shapes: str, webs: int | None = 
     return body
 
 
+def budgeted() -> dict[str, Any]:
+    body = cut("2d12", _2D12, "segment")
+    body["machine"]["max_total_mass_kg"] = 80.0
+    return body
+
+
 def grouped() -> dict[str, Any]:
     body = cut("2d12", _2D12, "segment")
     body["machine"]["web_groups"] = [{"name": name, "webs": [f"{name}a", f"{name}b"]} for name in "12"]
@@ -44,6 +50,7 @@ KINDS = {
     "2D12, 4 segments": cut("2d12", _2D12, "segment"),
     "2D12, 2 of each": cut("2d12", _2D12, "sector", "segment"),
     "2D12, 2 groups of segments": grouped(),
+    "2D12, 4 segments of 80 kg in all": budgeted(),
     "2D12, 8 segments": cut("2d12", _2D12, "segment", webs=8),
     "2D12, 4 of each": cut("2d12", _2D12, "sector", "segment", webs=8),
     "V8, 8 sectors": cut("v8-cross-plane", _V8, "sector"),

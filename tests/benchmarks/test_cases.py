@@ -76,12 +76,15 @@ def test_what_else_is_chosen_runs() -> None:
 
 @pytest.mark.parametrize("body", plates.KINDS.values(), ids=plates.KINDS)
 def test_what_is_cut_is_what_the_same_radii_call_for(body: dict[str, Any]) -> None:
-    plate, radius = (optimize(each) for each in plates.plate_and_radius(body))
+    request, plain = plates.plate_and_radius(body)
+    plate, radius = optimize(request), optimize(plain)
     assert plate.status == radius.status == "optimal"
     # property: at these radii others may weigh less, but no objective is smaller
     assert plate.certificate is not None
     assert radius.certificate is not None
-    assert plate.certificate.lower_bound == pytest.approx(radius.certificate.lower_bound, rel=1e-6)
+    # but for a total mass, which at one radius buys less or more
+    apart = 1e-6 if request.machine.max_total_mass_kg is None else 0.05
+    assert plate.certificate.lower_bound == pytest.approx(radius.certificate.lower_bound, rel=apart)
     assert plate.total_mass_kg is not None
     assert radius.total_mass_kg is not None
     assert radius.total_mass_kg <= plate.total_mass_kg * (1 + 1e-4)
