@@ -36,7 +36,7 @@ quick: .venv/development $(kernels)
 bytecode: .venv/runtime
 	$(bin)/python -m compileall -q schemas optimizer service
 
-# compiled once, in half a minute, not by every process that needs them;
+# compiled once, in less than half a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
 $(kernels): optimizer/compiling.py $(wildcard optimizer/kernel/*.py optimizer/*/kernel/*.py) .venv/runtime | bytecode
 	rm -f optimizer/kernel/__pycache__/*.nb[ic] optimizer/*/kernel/__pycache__/*.nb[ic]

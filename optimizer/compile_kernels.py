@@ -1,7 +1,7 @@
 """Compile the kernels, once for an installation: ``python -m optimizer.compile_kernels``.
 
-Two processes take about as long: one what budgets are spent by and the interior point for any limits, the other what
-follows the turn, the interior point for plain discs, and what parts are matched by. What both interior points have in
+Two processes take about as long: one what budgets are spent by, the interior point for any limits, and what parts are
+matched by, the other what follows the turn, and the interior point for plain discs. What both interior points have in
 common is inlined in each.
 """
 
@@ -13,6 +13,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
+from optimizer.linked import link_first
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
 
 
@@ -31,20 +32,13 @@ def budgets() -> None:
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
 
 
-def all_else() -> None:
-    """Compile what loads over the whole turn need, what plain discs ask for, and what parts are matched by."""
-    follow_a_turn()
-    # which spends a budget, by what the other process has made first
-    plain_discs()
-    match_parts()
-
-
 def main() -> None:
     _say("compiling the kernels, once: half a minute on two cores")
     begun = time.perf_counter()
-    beside = get_context("spawn").Process(target=_alone, args=(all_else,))
+    beside = get_context("spawn").Process(target=_alone, args=(follow_a_turn, plain_discs))
     beside.start()
-    _alone(budgets, any_limits)
+    # a budget first: plain discs, made by the other process, spend one too
+    _alone(budgets, any_limits, match_parts)
     beside.join()
     if beside.exitcode:
         raise SystemExit("the second process failed; what it said stands above")
@@ -55,8 +49,11 @@ def _alone(*parts: Callable[[], None]) -> None:
     """In a process that ends thereafter."""
     # the compiler makes millions of objects and lets few go: looking for those is a sixth of its time
     gc.disable()
+    link_first()
     for part in parts:
         part()
+    # nor are they looked through at the end
+    gc.freeze()
 
 
 def _say(what: str) -> None:

@@ -5,33 +5,42 @@ references to every array that is handed on. So entries and inner functions are 
 that are written out is compiled for each of them; numpy's integers are of one type.
 """
 
+from collections.abc import Callable
+from typing import Any
+
 from numba import njit
-from numba.np import linalg
+from numba.core.caching import FunctionCache
+from numba.core.runtime import rtsys
 
 
-def _without_linear_algebra() -> None:
-    """Load numba's arithmetic of arrays now, as if scipy.linalg were not there.
+class _Kept(FunctionCache):  # type: ignore[misc]
+    """Loads machine code without all that numba would compile more with: a sixth of the command line's first answer."""
 
-    No kernel calls it, and to see whether it is there numba loads it: a third of a second of every process.
-    """
-
-    def absent() -> None:
-        raise ImportError
-
-    present, linalg.ensure_blas = linalg.ensure_blas, absent
-    try:
-        import numba.np.arraymath  # noqa: F401
-    finally:
-        linalg.ensure_blas = present
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        # what makes arrays; numba's own loads every function that it knows as well
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
 
 
-_without_linear_algebra()
+def _kept(**options: bool) -> Callable[[Any], Any]:
+    compiled = njit(error_model="numpy", no_cfunc_wrapper=True, **options)
+
+    def decorate(function: Any) -> Any:
+        dispatcher = compiled(function)
+        dispatcher._cache = _Kept(function)  # noqa: SLF001 - numba has no option for it
+        return dispatcher
+
+    return decorate
+
 
 #: an entry; a lane that fails may divide by zero; that it failed is seen by its infinities
-kernel = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True)
+kernel = _kept()
 #: an entry that makes no arrays
-in_place = njit(cache=True, error_model="numpy", no_cfunc_wrapper=True, _nrt=False)
+in_place = _kept(_nrt=False)
 #: what only kernels call, which makes no arrays and hands out none
 inner = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)
+#: what only kernels call, which makes arrays or hands them out
+inner_with_arrays = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True)
 #: for what stands in the innermost loops
 inlined = njit(error_model="numpy", inline="always")

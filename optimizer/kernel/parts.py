@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.compiling import inner, kernel
+from optimizer.compiling import inner, inner_with_arrays, kernel
 from optimizer.polynomials import shifts, to_bernstein
 
 #: what may hold a peak is cut into so many parts: by its polynomial, or to be expanded anew, which leaves out 16^-4
@@ -68,7 +68,7 @@ class Parts(NamedTuple):
     cubic: Complex  # (n, 4), offset included
 
 
-@kernel
+@inner_with_arrays
 def _none(count):  # type: ignore[no-untyped-def]
     return Parts(
         np.empty(count, np.int64),
@@ -123,7 +123,7 @@ def _size(value, sign):  # type: ignore[no-untyped-def]
     return _length(value) if sign == 0.0 else sign * value.real
 
 
-@kernel
+@inner_with_arrays
 def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
     """What a polynomial is not above, and its values at both ends."""
     if sign != 0.0:
@@ -223,7 +223,7 @@ def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
     return kept
 
 
-@kernel
+@inner_with_arrays
 def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
     """Some parts, each in so many as there are places, by the same polynomial."""
     share = places.size

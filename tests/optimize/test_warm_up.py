@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from optimizer.compile_kernels import all_else, any_limits, budgets
+from optimizer.compile_kernels import any_limits, budgets
 from optimizer.kernel import knapsack, parts
 from optimizer.mechanics.kernel import curves, readings, rows
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
-from optimizer.warm_up import warm_up
+from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
 
 _SOLVERS = {"numba", "cvxpy", "clarabel"}
 
@@ -37,7 +37,9 @@ def test_what_is_compiled_is_what_answers_need() -> None:
     """Of other types it would be kept twice: once as it is compiled, once as it is called."""
     budgets()
     any_limits()
-    all_else()
+    follow_a_turn()
+    plain_discs()
+    match_parts()
     warm_up()
     version = f"py{sys.version_info.major}{sys.version_info.minor}"
     entries = {

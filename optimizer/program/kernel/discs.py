@@ -15,7 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.program.kernel.compiling import inner, kernel
+from optimizer.program.kernel.compiling import inner, inner_with_arrays, kernel
 from optimizer.program.kernel.disc_steps import (
     AIM,
     C1X,
@@ -73,7 +73,7 @@ def _save(t, web, own, where):  # type: ignore[no-untyped-def]
         where[4 * webs + i] = own[Y1X + i * LANES + t]
 
 
-@kernel
+@inner_with_arrays
 def run(least_mass, programs, starts, tolerance, middle, ends, reached):  # type: ignore[no-untyped-def]
     """A stage of every program.
 

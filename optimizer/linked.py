@@ -1,0 +1,53 @@
+"""What only kernels call is linked into them, and not made machine code of on its own.
+
+Numba optimises every function for itself, makes machine code of it, and optimises it again in all that it is linked
+into. Of most of ours nobody asks for machine code, so both wait until somebody does: a sixth of the time to compile.
+"""
+
+from typing import Any
+
+from numba.core.codegen import JITCodeLibrary
+from numba.core.registry import cpu_target
+
+
+class _Linked(JITCodeLibrary):  # type: ignore[misc]
+    """A function and all that it calls, optimised when its machine code is first asked for."""
+
+    _made = False
+
+    def _optimize_final_module(self) -> None:
+        """Later, or never."""
+
+    def _set_compiled_object(self, value: bytes) -> None:
+        self._made = True
+        super()._set_compiled_object(value)
+
+    def _finalize_final_module(self) -> None:
+        if self._made:
+            super()._finalize_final_module()
+        else:
+            self._finalize_dynamic_globals()
+            self._finalized = True
+
+    def get_pointer_to_function(self, name: str) -> int:
+        self._ensure_finalized()
+        if not self._made and name in {each.name for each in self.get_defined_functions()}:
+            self._made = True
+            super()._optimize_final_module()
+            self._final_module.verify()
+            self._finalize_final_module()
+        return int(super().get_pointer_to_function(name))
+
+
+def link_first() -> None:
+    """From now on, in this process."""
+    codegen = cpu_target.target_context.codegen()
+    codegen._library_class = _Linked  # noqa: SLF001 - numba has no option for it
+    set_env = codegen.set_env
+
+    def set_where_made(name: str, env: Any) -> None:
+        # what is not machine code has no place for its environment, and nobody to look there
+        if codegen._engine.is_symbol_defined(name):  # noqa: SLF001
+            set_env(name, env)
+
+    codegen.set_env = set_where_made
