@@ -204,7 +204,7 @@ def budget_price(statement: Statement, multipliers: Multipliers, mass_cost: floa
     mass_cost : 0 in a bound on the objective, 1 in one on the mass.
     """
     limits = statement.limits
-    ends = np.add.reduce(limits.max_mass, axis=-1) > limits.max_total_mass
+    ends = limits.budget_ends
     if not ends.any():
         return np.zeros(ends.shape)
     minorant = _minorant(statement, multipliers, statement.ceilings.cap)

@@ -38,6 +38,11 @@ class Limits:
         """Largest m_k that the limits allow, kg (..., K)."""
         return np.minimum(self.max_mass, self.max_total_mass[..., None])
 
+    @property
+    def budget_ends(self) -> np.ndarray:
+        """Whether the budget ends before every web is full (...)."""
+        return np.asarray(np.add.reduce(self.max_mass, axis=-1) > self.max_total_mass)
+
     def spent(self, gain: Real) -> tuple[Real, Real]:
         """The masses of largest total gain: webs in falling order of it until the budget is spent, kg (..., K).
 

@@ -39,7 +39,8 @@ def shadow_prices(statement: Statement, u: Complex, multipliers: Multipliers) ->
     # what a kilogram on a web is worth; the budget is spent in falling order of it, and costs what the last one is
     # worth that it does not pay in full (docs/mathematics.md section 5)
     worth = limits.radius * limits.support(-slope)
-    _, budget = limits.spent(worth)
+    ends = limits.budget_ends
+    budget = limits.spent(worth)[1] if ends.any() else np.zeros(ends.shape)
     return ShadowPrices(
         max_mass=np.maximum(worth - budget[..., None], 0.0),
         half_angle=np.abs(u) * limits.opening(-slope),
