@@ -60,7 +60,10 @@ def follow_a_turn() -> None:
 
 def match_parts() -> None:
     """Nine parts on as many rows: too many for all of their orders to be listed."""
+    import numpy as np
+
     from optimizer.matching.match import match
+    from optimizer.matching.meeting import met
     from schemas.match import MatchRequest
 
     throws = [
@@ -75,6 +78,7 @@ def match_parts() -> None:
     machine = {"kind": "reciprocating", "speed_rpm": 1000.0, "throws": throws, "webs": []}
     parts = {"class": "part", "names": [str(k) for k in range(9)], "masses_kg": [1.0 + 0.1 * k**0.5 for k in range(9)]}
     match(MatchRequest.model_validate({"machine": machine, "parts": [parts], "accuracy": {"relative_gap": 1e-12}}))
+    met(np.zeros((1, 1)), np.zeros((1, 1)), 1.0, 1)
 
 
 def _machine() -> dict[str, object]:

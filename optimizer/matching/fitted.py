@@ -10,6 +10,7 @@ import numpy as np
 from optimizer.arrays import Real
 from optimizer.matching.bound import Plane, best_plane, plane
 from optimizer.matching.exhaustion import candidates
+from optimizer.matching.four_lists import near_to_nothing
 from optimizer.matching.problem import Places, Problem
 from optimizer.matching.row_halves import MOST, exhausted
 from optimizer.matching.search import searched
@@ -67,6 +68,9 @@ def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> 
             bound, all_counted = max(bound, ended.lower_bound), ended.complete
         else:
             mass, value = _improved(problem, cut, mass, bound + near, spent)
+            if bound <= problem.rounding:
+                mass = near_to_nothing(problem, mass, bound + near, spent)
+                value = _value(problem, mass)
     return Best(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
 
 
