@@ -6,31 +6,38 @@ The searches of one machine take the statement with finitely many cuts, and begi
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.balance_shafts import chosen
 from optimizer.certified_discrete import certified_discrete
-from optimizer.certified_fitted import certified_fitted, fitted_search
+from optimizer.certified_fitted import certified_fitted
 from optimizer.certified_robust import certified_any_mass, with_worst_case
 from optimizer.certified_turn import told
-from optimizer.choice_rounds import Choice, Sought, in_rounds
+from optimizer.choice_rounds import Choice, Ended, in_rounds
+from optimizer.choice_ways import way_of
 from optimizer.discrete.options import EQUAL
-from optimizer.discrete.search import Known
-from optimizer.discrete.search import search as discrete_search
-from optimizer.figures.counterweights import unbalance
+from optimizer.goals import Goals
 from optimizer.mechanics.layout import stacked
 from optimizer.out_of_reach import out_of_reach, unreachable
-from optimizer.program.cuts import Found, Unkept
+from optimizer.program.cuts import Found, Reached, Unkept, next_goal, over_turn
+from optimizer.program.over_turn import OverTurn
 from optimizer.program.reference.solver import Solver
 from optimizer.proven_turn import CertifiedTurn
 from optimizer.robust import Robust
 from optimizer.scene import Prepared
-from optimizer.searched import continuous, told_status
-from optimizer.stock import stock
-from schemas.answers import Certificate
+from optimizer.searched import continuous, told_ample, told_status
+from schemas.answers import Certificate, GoalReached
 from schemas.requests import OptimizeRequest
+
+#: width of the brackets by which choices are told apart, as a share of goals
+_CLOSE = 1e-10
+_EARLIER = (
+    "The last goal is within the asked gap under what those before it were left; of one of these the search ended with"
+    " a larger gap, which `goals` of the certificate tell."
+)
 
 
 def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> CertifiedTurn:
@@ -55,18 +62,20 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     usual = any_mass.accuracy.model_copy(update={"time_limit_s": request.accuracy.time_limit_s})
     any_mass = any_mass.model_copy(update={"accuracy": usual})
     robust = Robust(any_mass, scene)
-    asked, best = robust.solved()
-    if isinstance(best, Unkept):
-        return out_of_reach(any_mass, scene, asked, best)
-    size = float(asked.program.yardsticks[-1])
-    search = (_from_stock if request.machine.discrete else _fitted)(request, best, size, solver)
-    gap = request.accuracy.relative_gap * size
-    picked, found = in_rounds(asked.program, best, search, gap, EQUAL * size, lambda: robust.left_s)
+    asked = robust.asked()
+    first = _of_any_mass(asked.program, any_mass.accuracy.relative_gap, robust)
+    if isinstance(first, Unkept):
+        return out_of_reach(any_mass, scene, asked, first)
+    stages = _in_order(request, robust, asked, first, solver)
+    last, picked = stages[-1], stages[-1].picked
+    best, found = last.best, last.found
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
         return replace(unreachable(any_mass, scene, asked, shown, best.limits, None), status=status, reason=reason)
     judged = any_mass.model_copy(update={"accuracy": request.accuracy})
+    if len(stages) < len(asked.program.goals):
+        return _without_ceilings(judged, robust, picked, found, in_full)
     answer = told(judged, scene, asked, best, picked.mass, picked.angle, found.lower_bound, in_full)
     certificate = answer.fields["certificate"]
     assert isinstance(certificate, Certificate)
@@ -77,13 +86,17 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     certificate = certificate.model_copy(
         update={
             "continuous_lower_bound": any_lower,
-            "nodes": found.nodes,
+            "nodes": sum(stage.found.nodes for stage in stages),
             "method": found.method,
-            "rounds": best.rounds + found.rounds,
+            "rounds": best.rounds + sum(stage.found.rounds for stage in stages),
             "cuts": found.cuts,
+            "goals": _goals(certificate, stages, scene.omega_squared),
         }
     )
     status, reason = told_status(found, answer.status, answer.reason, proven)
+    reason = told_ample(reason, found, best.proof.bound)
+    if status == "optimal" and not all(stage.closed for stage in stages):
+        status, reason = "inaccurate", _EARLIER
     answer = replace(
         answer,
         status=status,
@@ -96,44 +109,81 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     return with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
 
 
+class _Stage(NamedTuple):
+    """A goal, the best choice for it under the goals before, and what is proven of all choices."""
+
+    best: Found  # of any masses at any angles, under the same
+    picked: Choice
+    found: Ended
+    closed: bool  # the gap is the asked one
+
+
+def _of_any_mass(program: OverTurn, gap: float, robust: Robust) -> Found | Unkept:
+    """The first goal by itself."""
+    return over_turn(program.changed(goals=program.goals[:1]), gap, False, (), robust.left_s)
+
+
+def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> list[_Stage]:
+    """The goals one after the other, each with the most that those before it may come to."""
+    program, gap, stages = asked.program, robust.request.accuracy.relative_gap, list[_Stage]()
+    reached: list[Reached] = []
+    for n, goal in enumerate(program.goals):
+        so_far = program.changed(goals=program.goals[: n + 1])
+        if stages:
+            best = next_goal(so_far, reached, stages[-1].picked.unbalance, gap, robust.left_s)
+        size, later = float(program.units[n]), len(program.goals) - n - 1
+        kept_back = robust.left_s * later / (later + 1)
+        way = way_of(request, best, size, solver)
+        closed, known = request.accuracy.relative_gap * size, stages[-1].picked if stages else None
+        left_s = _left(robust, kept_back)
+        picked, found = in_rounds(so_far, best, way, closed, EQUAL * size, left_s, known)
+        value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
+        stages.append(_Stage(best, picked, found, value - found.lower_bound <= max(closed, EQUAL * size)))
+        if later and not found.kept:
+            # counterweights that keep no ceilings are told by what any masses come to
+            break
+        # choices that are this near are equal, which leaves room for the brackets by which they are judged
+        most = max(value, found.lower_bound + asked.allowances[n] * size) + EQUAL * size if later else value
+        reached.append(Reached(goal.name, value, best.proof, most))
+    return stages
+
+
+def _left(robust: Robust, kept_back: float) -> Callable[[], float]:
+    """What is left of the time limit for a goal, for those after it some kept back."""
+    return lambda: max(robust.left_s - kept_back, 0.0)
+
+
+def _without_ceilings(
+    request: OptimizeRequest, robust: Robust, picked: Choice, found: Ended, in_full: bool
+) -> CertifiedTurn:
+    """What is told where no choice was found that keeps the ceilings: nothing is proven of what goals come to in their
+    order."""
+    asked, best = robust.solved()
+    if isinstance(best, Unkept):
+        return out_of_reach(request, robust.scene, asked, best)
+    answer = told(request, robust.scene, asked, best, picked.mass, picked.angle, -np.inf, in_full)
+    certificate = answer.fields["certificate"]
+    assert isinstance(certificate, Certificate)
+    nothing = {"lower_bound": None, "gap": None, "relative_gap": None, "nodes": found.nodes, "method": found.method}
+    status, reason = told_status(found, answer.status, answer.reason, True)
+    fields = {**answer.fields, "certificate": certificate.model_copy(update=nothing)}
+    return replace(answer, status=status, reason=reason, fields=fields)
+
+
+def _goals(certificate: Certificate, stages: list[_Stage], omega_squared: float) -> tuple[GoalReached, ...]:
+    """The goals before the last with what is proven of all choices, where anything is."""
+
+    def of(goal: GoalReached, stage: _Stage) -> GoalReached:
+        bound = min(stage.found.lower_bound * omega_squared, goal.value)
+        return goal if goal.lower_bound is None else goal.model_copy(update={"lower_bound": bound})
+
+    return tuple(of(goal, stage) for goal, stage in zip(certificate.goals, stages, strict=False))
+
+
 def _heavy_enough(request: OptimizeRequest, u: Complex) -> bool:
     webs = request.machine.webs
     mass = np.abs(u) / stacked([web.radius_m for web in webs])
     return bool(np.all((mass == 0) | (mass >= stacked([web.min_fitted_mass_kg or 0.0 for web in webs]))))
-
-
-def _from_stock(request: OptimizeRequest, best: Found, size: float, solver: Solver) -> Callable[[Sought], Choice]:
-    held, radius = stock(request.machine), best.limits.radius
-
-    def search(sought: Sought) -> Choice:
-        relaxed, *known = sought.points
-        found = discrete_search(
-            sought.statement,
-            held.options,
-            relaxed,
-            sought.at_least,
-            sought.gap / size,
-            size,
-            sought.time_limit_s,
-            Known(known, sought.below),
-        )
-        mass, angle = held.fitted(found.chosen)
-        return Choice(mass, angle, unbalance(mass, angle, radius), found)
-
-    return search
-
-
-def _fitted(request: OptimizeRequest, best: Found, size: float, solver: Solver) -> Callable[[Sought], Choice]:
-    radius = best.limits.radius
-
-    def search(sought: Sought) -> Choice:
-        relaxed, *known = sought.points
-        accuracy = {"relative_gap": sought.gap / size, "time_limit_s": sought.time_limit_s}
-        asked = request.model_copy(update={"accuracy": request.accuracy.model_copy(update=accuracy)})
-        mass, angle, found = fitted_search(asked, sought.below, relaxed, sought.at_least, size, solver, known)
-        return Choice(mass, angle, unbalance(mass, angle, radius), found)
-
-    return search
 
 
 def _nominal_choice(

@@ -60,6 +60,7 @@ def fitted_search(
     size: float,
     solver: Solver,
     known: Sequence[Complex] = (),
+    below: Statement | None = None,
 ) -> tuple[Real, Real, Found]:
     """Masses [kg] and angles [deg] (K,) of the best that are heavy enough, and where the search for them ended.
 
@@ -69,11 +70,12 @@ def fitted_search(
     continuous : (K,) kg m, its optimum whatever the least, and ``at_least`` the bound of that.
     size : what gaps are relative to.
     known : (K,) kg m each, points to begin with.
+    below : what bounds are of, nowhere above the statement; by default that one.
     """
     machine, asked = request.machine, request.accuracy
     least = stacked([web.min_fitted_mass_kg or 0.0 for web in machine.webs])
     share = OPTIMUM_SHARE * size if request.objective.least_mass else 0.0
     sought = Asked(asked.relative_gap * size, size, share, asked.time_limit_s)
-    found = search(statement, least * statement.limits.radius, continuous, at_least, sought, solver, known)
+    found = search(statement, least * statement.limits.radius, continuous, at_least, sought, solver, known, below)
     mass, angle = masses_and_angles(machine, found.unbalance, statement.limits)
     return np.where(np.abs(mass - least) <= _ROUNDING * least, least, mass), angle, found

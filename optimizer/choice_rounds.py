@@ -15,6 +15,8 @@ from optimizer.arrays import Complex, Real
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cut import Cut, Pool
 from optimizer.program.cuts import Found
+from optimizer.program.discs import in_discs
+from optimizer.program.levels import under_levels
 from optimizer.program.one_group import FEW, MANY, one_group
 from optimizer.program.over_turn import OverTurn
 from optimizer.program.statement import Statement
@@ -32,6 +34,8 @@ _ANGLES = 24
 _RECENT = 8
 #: share of the largest value of a quantity from which on its other maxima are cuts too
 _HIGH = 0.9
+#: prices of goals that come first: where programs are solved, and where choices are only judged
+_STEEP, _SHEER = 1e3, 1e9
 
 
 class Choice(NamedTuple):
@@ -47,7 +51,7 @@ class Sought(NamedTuple):
     """What is asked of a search."""
 
     statement: Statement  # whose best choice is wanted
-    below: Statement  # of fewer rows in one group, nowhere above it
+    below: Statement  # of fewer rows in one group, nowhere above it, for the batch kernel
     points: Complex  # (M, K) kg m, the optimum of any masses, then choices that are known
     at_least: float  # what the objective is known to come to
     gap: float  # in units of the objective
@@ -68,28 +72,44 @@ class Ended:
     cuts: int
 
 
+class Way(NamedTuple):
+    """How choices are searched."""
+
+    search: Callable[[Sought], Choice]
+    solved: bool  # programs are solved for them, in place of judging those that there are
+    reach: Real  # (K,) kg m, the largest unbalance of every web
+
+
 def in_rounds(
     program: OverTurn,
     best: Found,
-    search: Callable[[Sought], Choice],
+    way: Way,
     gap: float,
     resolution: float,
     left_s: Callable[[], float],
+    known: Choice | None = None,
 ) -> tuple[Choice, Ended]:
     """The best choice, and what is proven of all that may be chosen.
 
     Parameters
     ----------
-    program : of one goal.
-    best : its optimum of any masses at any angles.
+    program : whose last goal is to be small.
+    best : its optimum of any masses at any angles, with the most that the goals before it may come to.
     gap : that is asked, in units of the goal.
     resolution : objectives that differ by no more are equal.
     left_s : what is left of the time limit.
+    known : a choice that keeps ceilings and goals; there has to be one where goals come first.
     """
     pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
-    _learn(program, pool, points[0])
-    bound, least, chosen, stuck = best.proof.bound, np.inf, None, not program.quantities
-    most, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
+    most = np.array([goal.most for goal in best.goals[:-1]])
+    kinds = program.goal_of_case
+    bound, least, chosen, stuck = best.proof.bound, np.inf, known, not program.quantities
+    if known is not None:
+        points = np.concatenate([points, known.unbalance[None]])
+        least = float(program.values(known.unbalance, _CLOSE).goals[-1])
+    for point in points:
+        _learn(program, pool, point)
+    at_rest, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
 
     def ended(found: Searched, proven: bool, early: str | None) -> Ended:
         lower = np.inf if found.lower_bound == np.inf else bound
@@ -97,28 +117,38 @@ def in_rounds(
 
     while True:
         rounds += 1
-        whole = replace(program.statement(pool.cuts), limits=best.limits)
+        posed = replace(program.statement(pool.cuts), limits=best.limits)
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
-        below = one_group(whole, case_of, recent, FEW)
-        if case_of[-1] > 0:
+        loose = in_discs(under_levels(posed, program, most, bound, _STEEP), way.reach, inside=False)
+        below = one_group(loose, case_of, recent, FEW, kinds)
+        if way.solved:
+            # what comes to less than is known keeps the goals that come first
+            whole = in_discs(under_levels(posed, program, most, least, _STEEP), way.reach, inside=True)
+            whole = one_group(whole, case_of, recent, FEW, kinds)
+        else:
+            whole = under_levels(posed, program, most, bound, _SHEER)
             # a statement is of one sum
-            whole = one_group(whole, case_of, points, MANY)
-        wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, most) - bound))
-        last = search(Sought(whole, below, points, bound, wanted, left_s() * (1.0 if stuck else _TURN)))
+            whole = one_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
+        wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, at_rest) - bound))
+        last = way.search(Sought(whole, below, points, bound, wanted, left_s() * (1.0 if stuck else _TURN)))
         found, nodes = last.found, nodes + last.found.nodes
         if found.lower_bound == np.inf:
             # none keeps the cuts of the ceilings
             return last, ended(found, False, None)
-        bound = max(bound, found.lower_bound)
+        before, bound = (bound, least), max(bound, found.lower_bound)
         values = program.values(last.unbalance, _CLOSE)
-        value = float(values.goals[-1])
-        if values.excess <= CEILING_TOLERANCE and value <= least + resolution:
+        value, kept = float(values.goals[-1]), bool(np.all(values.goals[:-1] <= most))
+        if kept and values.excess <= CEILING_TOLERANCE and value <= least + resolution:
             least, chosen = min(value, least), last
         closed = least - bound <= max(gap, resolution)
         learnt = _learn(program, pool, last.unbalance)
+        if most.size:
+            # levels are told apart the better the closer both are
+            learnt |= bound > before[0] + resolution or least < before[1] - resolution
         if closed or left_s() <= 0.0 or (stuck and not learnt):
             all_compared = closed and chosen is last and found.proven
-            return chosen or last, ended(found, all_compared, None if closed else found.ended or "time")
+            early = None if closed else found.ended or ("time" if left_s() <= 0.0 else "cuts")
+            return chosen or last, ended(found, all_compared, early)
         stuck, points = not learnt, np.concatenate([points, last.unbalance[None]])
 
 

@@ -21,7 +21,12 @@ _TREE = "The gap to the proven lower bound of all sets that can be chosen is wit
 #: why a search left a gap
 LATE = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
 _SIZE = "The search ended because its tree had grown too large: the gap to the proven lower bound is what was reached."
-#: beside either, where the tree has proven nothing of its own
+_CUTS = (
+    "The search ended because its last choices have shown nothing new of the whole turn: the gap to the proven lower"
+    " bound is what was reached."
+)
+_WHY = {"time": LATE, "size": _SIZE, "cuts": _CUTS}
+#: beside any of these, where the tree has proven nothing of its own
 _AMPLE = (
     " So far it is that of any masses at any angles: of an ample choice, which comes near to what those reach, nothing"
     " closer can be proven."
@@ -60,7 +65,7 @@ class Found(Protocol):
 
     @property
     def ended(self) -> str | None:
-        """ "time" or "size" where that ended it before the asked gap."""
+        """ "time", "size" or "cuts" where that ended it before the asked gap."""
         ...
 
 
@@ -71,7 +76,7 @@ def ended(found: Found | None) -> str:
     if not found.kept:
         return _NONE.format(proof=_BY[found.method == EXHAUSTED]) if found.lower_bound == np.inf else _NONE_FOUND
     if found.ended is not None:
-        return LATE if found.ended == "time" else _SIZE
+        return _WHY[found.ended]
     return _LIGHTEST if found.proven else _TREE
 
 
@@ -108,8 +113,7 @@ def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_ga
         "method": np.array([found.method], dtype=object),
     }
     status, reason = told_status(found, str(judged.status[0]), str(judged.reason[0]), bool(proven[0]))
-    if reason in (LATE, _SIZE) and not of_sets > free.lower_bound:
-        reason += _AMPLE
+    reason = told_ample(reason, found, float(free.lower_bound[0, 0]))
     return replace(
         best,
         mass_kg=mass,
@@ -134,5 +138,15 @@ def told_status(found: Found, status: str, reason: str, proven: bool) -> tuple[s
     if status == "optimal":
         return status, _ALL if found.proven else _TREE
     if found.ended is not None:
-        return status, LATE if found.ended == "time" else _SIZE
+        return status, _WHY[found.ended]
     return status, reason
+
+
+def told_ample(reason: str, found: Found, of_any: float) -> str:
+    """The same with what is said of a choice of which nothing is proven but what holds for any masses at any angles.
+
+    Parameters
+    ----------
+    of_any : lower bound of these, over omega^2.
+    """
+    return reason + _AMPLE if reason in _WHY.values() and not found.lower_bound > of_any else reason

@@ -154,12 +154,7 @@ class OptimizeRequest(Scene, Ruled):
 
     def _choice_rules(self, what: str) -> Iterator[Rule]:
         """What does not go with either."""
-        message, goal = f"does not go with {what}: {_FIX_THE_CHOICE}", self.objective
-        yield Rule(self.tolerances is not None, ("tolerances",), message)
-        yield Rule(bool(goal.priorities), ("objective", "priorities"), message)
-        along_axes = [name for name in type(goal).model_fields if "_ceiling_x_" in name or "_ceiling_y_" in name]
-        for name in along_axes if goal.orders == "all" else ():
-            yield Rule(getattr(goal, name) is not None, ("objective", name), f"of all orders {message}")
+        yield Rule(self.tolerances is not None, ("tolerances",), f"does not go with {what}: {_FIX_THE_CHOICE}")
 
     def _fitted_rules(self) -> Iterator[Rule]:
         """What does not go with a least mass of what is fitted."""

@@ -166,7 +166,8 @@ class _Pairs:
     def evaluated(self, i: np.ndarray, j: np.ndarray) -> None:
         """Offer those of some pairs that are no worse than the best."""
         sums = self.terms + (self.one[i] + self.other[j]) @ self.lever.T
-        near = self.statement.objective_of(np.abs(sums)) <= self.incumbent.level + self.rounding
+        sizes = np.abs(self.statement.norms.counting(sums))
+        near = self.statement.objective_of(sizes) <= self.incumbent.level + self.rounding
         if np.any(near):
             self.offered(i[near], j[near])
 
@@ -227,15 +228,24 @@ class _Pairs:
         if np.any(left < 0):
             return None
         each = np.maximum(left, SMALLEST)[self.statement.row]
-        turn, scale = np.linalg.qr(self.lever / each[:, None])
-        scaled = self.terms / each
+        lever: Real | Complex = self.lever / each[:, None]
+        scaled: Real | Complex = self.terms / each
+        one: Real | Complex = self.one
+        other: Real | Complex = self.other
+        scalar = np.array(self.statement.norms.scalar, dtype=bool)
+        if np.any(scalar):
+            # of these only the real part, which is none of complex coordinates
+            lever = np.concatenate([np.hstack([lever.real, -lever.imag]), np.hstack([lever.imag, lever.real])[~scalar]])
+            scaled = np.concatenate([scaled.real, scaled.imag[~scalar]])
+            one, other = _real(one), _real(other)
+        turn, scale = np.linalg.qr(lever)
         centre = np.conj(turn.T) @ scaled
         beside = np.sum(np.abs(scaled - turn @ centre) ** 2)
         square = left.size * _MARGIN - beside / _MARGIN
         if square < 0:
             return None
         radius = float(np.sqrt(square)) * _MARGIN
-        return _tree(_real(self.one @ scale.T)), -_real(centre + self.other @ scale.T), radius
+        return _tree(_real(one @ scale.T)), -_real(centre + other @ scale.T), radius
 
 
 def _tree(points: Real) -> "cKDTree":
@@ -245,5 +255,5 @@ def _tree(points: Real) -> "cKDTree":
     return cKDTree(points)
 
 
-def _real(vectors: Complex) -> Real:
+def _real(vectors: Real | Complex) -> Real:
     return np.concatenate([vectors.real, vectors.imag], axis=-1)

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.arrays import Complex, Real
 from optimizer.program.cut import Pool
 from optimizer.program.cut_proof import Proof, times
 from optimizer.program.cut_settled import settled_turn
@@ -149,6 +149,26 @@ def over_turn(
     # what is sought more sharply may be found less so
     best = min(tried, key=lambda found: found.mass_gap)
     return replace(best, rounds=course.rounds, certify_s=course.certify_s, timed_out=course.timed_out)
+
+
+def next_goal(
+    program: OverTurn, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
+) -> Found:
+    """Certified optimum of the last goal of a program under levels of the others that are given.
+
+    Parameters
+    ----------
+    before : all goals but the last, with the most that they may come to.
+    u : (K,) kg m, within the limits, that keeps these levels and the ceilings.
+    """
+    inside = Point(u, program.values(u, _TOLD), float(np.sum(np.abs(u) / program.limits.radius)))
+    nearest = Stage(inside, None, 0, 0.0, False)
+    raised, until = inside.values.excess > -_AMPLE, time.thread_time() + time_limit_s
+    course = _Course(program, Pool(program.first, program.scatter), nearest, raised, False, until)
+    course.goals = list(before)
+    last = len(before)
+    course.keep(last, course.smallest(last, _ENOUGH * relative_gap * float(program.units[last])), 0.0)
+    return course.found(None, np.inf)
 
 
 class _Course:

@@ -22,7 +22,7 @@ FEW, MANY = 16, 240
 _TOGETHER = 20_000
 
 
-def one_group(statement: Statement, case_of: np.ndarray, points: Complex, most: int) -> Statement:
+def one_group(statement: Statement, case_of: np.ndarray, points: Complex, most: int, kind_of: np.ndarray) -> Statement:
     """One program with rows of one group, none of them above the objective, and with the ceilings that come next to
     being exceeded.
 
@@ -31,13 +31,14 @@ def one_group(statement: Statement, case_of: np.ndarray, points: Complex, most: 
     case_of : (groups,) sum to which a group belongs, in rising order.
     points : (M, K) kg m, at each of which the largest row is kept.
     most : rows, and ceilings, that are kept unless there are more points.
+    kind_of : (sums,) kind to which a sum belongs; each kind has its share of the rows, and the largest of it is kept.
     """
     of_terms = statement.norms.sizes(points)
     rows = statement.floor + np.add.reduceat(
         of_terms, np.searchsorted(statement.row, np.arange(statement.group.size)), axis=-1
     )
     level = np.array([np.sum(statement.largest(rows)[:, case_of == case], axis=-1) for case in np.unique(case_of)])
-    kept, slack = list[tuple[int, ...]](), list[float]()
+    kept, slack, kinds = list[tuple[int, ...]](), list[float](), list[int]()
     for case in np.unique(case_of):
         groups = np.flatnonzero(case_of == case)
         several = [np.flatnonzero(statement.group == group) for group in groups]
@@ -47,9 +48,15 @@ def one_group(statement: Statement, case_of: np.ndarray, points: Complex, most: 
         ]
         sums = list(itertools.product(*(each.tolist() for each in some)))
         values = np.sum(rows[:, np.array(sums)], axis=-1)
-        below = np.min(np.max(level, axis=0)[:, None] - values, axis=0)
+        of_kind = level[kind_of == kind_of[case]]
+        below = np.min(np.max(of_kind, axis=0)[:, None] - values, axis=0)
         kept, slack = kept + sums, slack + below.tolist()
-    chosen = [kept[n] for n in _nearest(np.array(slack)[None], max(most, len(points)))]
+        kinds += [int(kind_of[case])] * len(sums)
+    every = np.unique(kinds)
+    each_kind = max(most // every.size, len(points))
+    places = [np.flatnonzero(np.array(kinds) == kind) for kind in every]
+    some = [place[_nearest(np.array(slack)[None, place], each_kind)] for place in places]
+    chosen = [kept[n] for n in np.concatenate(some).tolist()]
     return replace(_of_rows(statement, chosen), ceilings=_nearest_ceilings(statement.ceilings, points, most))
 
 
@@ -82,7 +89,10 @@ def _of_rows(statement: Statement, sums: Sequence[tuple[int, ...]]) -> Statement
 def _nearest_ceilings(ceilings: Ceilings, points: Complex, most: int) -> Ceilings:
     if len(ceilings.names) <= most:
         return ceilings
-    some = _nearest(-ceilings.excess(points), max(most, len(points)))
+    excess = ceilings.excess(points)
+    # where some are exceeded those that come next to the largest, so that every point has its own
+    slack = np.maximum(np.max(excess, axis=-1, keepdims=True), 0.0) - excess
+    some = _nearest(slack, max(most, len(points)))
     norms, which = ceilings.norms, some.tolist()
     angles, scenarios, scalar = ceilings.angles_deg, ceilings.scenarios, scalars(norms)
     return replace(

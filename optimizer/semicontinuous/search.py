@@ -50,6 +50,7 @@ def search(
     asked: Asked,
     solver: Solver,
     known: Sequence[Complex] = (),
+    below: Statement | None = None,
 ) -> Found:
     """The counterweights with the smallest objective, and of those with the same webs the lightest.
 
@@ -60,6 +61,7 @@ def search(
     continuous : (K,) kg m, its optimum whatever the least.
     at_least : lower bound of that optimum.
     known : (K,) kg m each, points to begin with.
+    below : nowhere above the statement and with no tighter ceilings, which bounds are of; by default that one.
     """
     end, gap = time.thread_time() + asked.time_limit_s, asked.gap
 
@@ -72,11 +74,11 @@ def search(
     if known:
         incumbent.offer(np.stack(known))
     if incumbent.unbalance is None:
-        within = _within(statement, places, continuous, spent, solver)
+        within = _within(statement, places, continuous, spent, solver, below or statement)
         if not within.kept:
             return within
         incumbent.offer(within.unbalance[None])
-    tree = branch(incumbent, at_least, gap, lambda bound: False, spent)
+    tree = branch(incumbent, at_least, gap, lambda bound: False, spent, below or statement)
     bound = min(max(at_least, tree.lower_bound), incumbent.least)
     assert incumbent.unbalance is not None  # that keeps the ceilings was offered
     lightest = lightened(incumbent, incumbent.unbalance, min(asked.share, max(bound + gap - incumbent.least, 0.0)))
@@ -89,7 +91,12 @@ def _ended(tree: Tree, closed: bool) -> str | None:
 
 
 def _within(
-    statement: Statement, places: Places, continuous: Complex, spent: Callable[[], bool], solver: Solver
+    statement: Statement,
+    places: Places,
+    continuous: Complex,
+    spent: Callable[[], bool],
+    solver: Solver,
+    below: Statement,
 ) -> Found:
     """The first counterweights that keep the ceilings, or the proof that there are none."""
     incumbent = Incumbent(statement.excess(), places, 0.0, solver)
@@ -100,7 +107,8 @@ def _within(
     sharing(incumbent, continuous)
     tree = Tree(-np.inf, 0, False)
     if not kept():
-        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, spent)
+        loose = below.excess()
+        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, spent, loose)
     u = np.zeros(places.least.shape, complex) if incumbent.unbalance is None else incumbent.unbalance
     none = min(tree.lower_bound, incumbent.least) > CEILING_TOLERANCE
     ended = None if kept() or none else _ended(tree, False)

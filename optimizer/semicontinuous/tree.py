@@ -49,6 +49,7 @@ def branch(
     gap: float,
     enough: Callable[[float], bool],
     spent: Callable[[], bool],
+    below: Statement,
 ) -> Tree:
     """Offer points until none is better by more than ``gap``, time or memory are spent, or a bound is enough.
 
@@ -56,13 +57,14 @@ def branch(
     ----------
     at_least : what the objective is known to come to.
     enough : whether a bound of everything ends the search.
+    below : a program that is nowhere above the incumbent's, which bounds are of.
     """
     fresh, bounds = incumbent.places, np.array([at_least])
     open_nodes: list[tuple[float, int, _Open]] = []
     nodes, ties, closed = 0, 0, np.inf
     while True:
         nodes += len(bounds)
-        out, stays = _bounded(incumbent, fresh, bounds, gap)
+        out, stays = _bounded(incumbent, below, fresh, bounds, gap)
         closed = min(closed, out)
         for bound, node in stays:
             ties += 1
@@ -88,10 +90,10 @@ def branch(
 
 
 def _bounded(
-    incumbent: Incumbent, places: Places, inherited: Real, gap: float
+    incumbent: Incumbent, statement: Statement, places: Places, inherited: Real, gap: float
 ) -> tuple[float, list[tuple[float, _Open]]]:
     """What is proven of all that nodes lose here, and those that stay open with their bounds."""
-    statement, count = incumbent.statement, inherited.size
+    count = inherited.size
     program = relaxed(statement, places)
     close = max(gap, _CLOSE)
     found = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)

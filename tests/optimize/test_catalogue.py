@@ -258,7 +258,6 @@ def test_steps_of_angle_need_a_crank_and_a_place_in_the_sector() -> None:
 @pytest.mark.parametrize(
     ("kind", "body", "path"),
     [
-        (OptimizeRequest, {"objective": {"priorities": [{"goal": "external"}]}}, ("objective", "priorities")),
         (OptimizeRequest, {"tolerances": {"mass_relative": 0.01}}, ("tolerances",)),
         (ParetoRequest, {}, ("machine", "catalogue")),
         (AccuracyRequest, {}, ("machine", "catalogue")),

@@ -1,122 +1,31 @@
 """Choices from what there is for goals over the whole turn: what trying every set comes to."""
 
-import json
-from collections.abc import Sequence
 from itertools import product
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
-from pydantic import ValidationError
 
-from optimizer.analyze import analyze
 from optimizer.discrete.search import EXHAUSTED, TREE
 from optimizer.optimize import optimize
-from schemas.answers import Certificate, OptimizeAnswer
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.requests import OptimizeRequest
+from tests.optimize.choices import (
+    DEGREE,
+    FAST,
+    HOLES,
+    MASSES,
+    SLOW,
+    Loads,
+    asked,
+    certified,
+    chosen,
+    every_set,
+    twin,
+    two_webs,
+)
 from tests.optimize.whole_turn import ALONE
 from tests.sweep.single import assert_row_is_the_single_answer, sweep, table
-from tests.verification.checking import broken, optimized
-
-MASSES, HOLES = [4.0, 11.0], [0.0, 120.0, 240.0]
-BEARINGS = {"a": -0.6, "b": 0.6}
-FAST = {"name": "fast", "weight": 0.5, "changes": [{"path": "/machine/speed_rpm", "value": 1300}]}
-SLOW = {"name": "slow", "changes": []}
-
-
-def twin(**more: Any) -> dict[str, Any]:
-    """Two cranks at right angles between two bearings, four webs with three holes each."""
-    path = Path(__file__).parents[2] / "examples" / "catalogue-twin.json"
-    machine: dict[str, Any] = json.loads(path.read_bytes())["machine"]
-    machine["bearings"] = [{"name": name, "position_m": z} for name, z in BEARINGS.items()]
-    machine["catalogue"] = {"masses_kg": MASSES}
-    machine["webs"] = [{**web, "hole_angles_deg": HOLES} for web in machine["webs"]]
-    for throw in machine["throws"]:
-        throw["rows"][0]["connecting_rod"] = {"length_m": 0.4, "mass_kg": 0}
-    return machine | more
-
-
-def asked(machine: dict[str, Any], gap: float = 1e-6, **goal: Any) -> dict[str, Any]:
-    return {
-        "machine": machine,
-        "objective": goal,
-        "accuracy": {"relative_gap": gap, "time_limit_s": 30},
-        "angles": {"step_deg": 30},
-    }
-
-
-class Loads:
-    """Loads of both bearings over the turn by statics: of the machine from the analysis, of masses by levers."""
-
-    def __init__(self, machine: dict[str, Any]) -> None:
-        bare = {name: value for name, value in machine.items() if name not in ("catalogue", "max_counterweights")}
-        bare["webs"] = [{k: v for k, v in web.items() if k != "hole_angles_deg"} for web in machine["webs"]]
-        self.bare = bare
-        found = analyze(
-            AnalyzeRequest.model_validate({"machine": bare, "outputs": ["main_bearings"], "angles": {"step_deg": 1}})
-        )
-        assert found.main_bearings is not None
-        self.theta = np.deg2rad(found.main_bearings.angle_deg)
-        self.still = np.array(
-            [
-                np.array(one.before.force_x_N) + 1j * np.array(one.before.force_y_N)
-                for one in found.main_bearings.bearings
-            ]
-        )
-        self.square = (machine["speed_rpm"] * np.pi / 30.0) ** 2
-        self.place = np.array([web["position_m"] for web in machine["webs"]])
-        self.radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
-        self.at = np.array(list(BEARINGS.values()))
-
-    def over(self, u: np.ndarray) -> np.ndarray:
-        """(sets, bearings, angles) N of unbalances (sets, webs)."""
-        share = (self.place - self.at[0]) / (self.at[1] - self.at[0])
-        each = np.stack([u @ (1.0 - share), u @ share], axis=-1) * self.square
-        return self.still + each[..., None] * np.exp(1j * self.theta)
-
-    def frame(self, u: np.ndarray, plane: float) -> tuple[np.ndarray, np.ndarray]:
-        """Peaks of the first-order force and moment about a plane: phasors with the shaft and against it."""
-        co, counter = np.zeros((2, 2), complex)
-        for throw in self.bare["throws"]:
-            lever, crank = np.array([1.0, throw["position_m"] - plane]), np.deg2rad(throw["crank_angle_deg"])
-            (row,) = throw["rows"]
-            half = 0.5 * row["reciprocating_mass_kg"]
-            co += lever * throw["crank_radius_m"] * (throw["rotating_mass_kg"] + half) * np.exp(1j * crank)
-            back = 2 * np.deg2rad(row["axis_deg"]) - crank
-            counter += lever * throw["crank_radius_m"] * half * np.exp(1j * back)
-        added = np.stack([np.sum(u, axis=-1), u @ (self.place - plane)])
-        force, moment = self.square * (np.abs(co[:, None] + added) + np.abs(counter)[:, None])
-        return force, moment
-
-
-def every_set(
-    machine: dict[str, Any], masses: Sequence[float] = MASSES
-) -> tuple[list[tuple[tuple[float, float], ...]], np.ndarray]:
-    """Masses and angles of all sets, and their unbalances (sets, webs) kg m."""
-    options = [(0.0, 0.0), *product(masses, HOLES)]
-    sets = list(product(options, repeat=len(machine["webs"])))
-    each = np.array(sets)
-    radius = np.array([web["counterweight_radius_m"] for web in machine["webs"]])
-    return sets, each[..., 0] * radius * np.exp(1j * np.deg2rad(each[..., 1]))
-
-
-def certified(body: dict[str, Any]) -> tuple[OptimizeAnswer, Certificate]:
-    found = optimized(body)
-    assert found.status == "optimal", found.status_reason
-    assert found.certificate is not None
-    assert not broken(body, found.model_dump(mode="json"))
-    return found, found.certificate
-
-
-def chosen(found: OptimizeAnswer) -> np.ndarray:
-    """(1, webs) kg m."""
-    each = [one.mass_kg * 0.12 * np.exp(1j * np.deg2rad(one.angle_deg)) for one in found.counterweights]
-    return np.array([each])
-
-
-#: of a smooth curve, what a degree leaves out at most
-DEGREE = 3e-4
+from tests.verification.checking import optimized
 
 
 @pytest.mark.parametrize(
@@ -196,13 +105,7 @@ def test_ceilings_and_counts() -> None:
 
 def test_least_masses() -> None:
     """Independent: both of two webs fitted, one or none, by a fine grid of masses and angles."""
-    machine = twin()
-    del machine["catalogue"]
-    machine["webs"] = [
-        {"name": web["name"], "position_m": web["position_m"], "counterweight_radius_m": 0.12, "max_mass_kg": 16.0,
-         "min_fitted_mass_kg": 14.0}
-        for web in (machine["webs"][0], machine["webs"][3])
-    ]  # fmt: skip
+    machine = two_webs()
     found, proof = certified(asked(machine, 1e-4, bearing_weight=1, **ALONE))
     assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
     loads = Loads(machine)
@@ -246,23 +149,20 @@ def test_the_time_ends_it() -> None:
         assert "time_limit_s" in found.status_reason
 
 
+def test_of_an_ample_choice_it_says_that_nothing_closer_can_be_proven() -> None:
+    machine = twin(catalogue={"mass_step_kg": 0.37, "angle_step_deg": 7.5})
+    machine["webs"] = [{k: v for k, v in web.items() if k != "hole_angles_deg"} for web in machine["webs"]]
+    body = asked(machine, bearing_weight=1, **ALONE)
+    found = optimized(body | {"accuracy": {"relative_gap": 1e-9, "time_limit_s": 0.3}})
+    assert found.certificate is not None
+    assert found.status == "inaccurate"
+    assert found.certificate.lower_bound == found.certificate.continuous_lower_bound
+    assert "nothing closer can be proven" in found.status_reason
+
+
 def test_rows_of_a_sweep() -> None:
     """Rows are the single answers (property)."""
     request = sweep(asked(twin(), bearing_weight=1, **ALONE), {"path": "/machine/speed_rpm", "values": [900, 1100]})
     rows = table(request).to_pylist()
     assert [assert_row_is_the_single_answer(request, row) for row in rows] == ["optimal"] * 2
     assert all(row["method"] in (EXHAUSTED, TREE) for row in rows)
-
-
-@pytest.mark.parametrize(
-    ("goal", "field"),
-    [
-        ({"priorities": [{"goal": "external"}, {"goal": "bearings"}], "bearing_weight": 1}, "priorities"),
-        ({"orders": "all", "force_ceiling_x_N": 1e5}, "force_ceiling_x_N"),
-    ],
-)
-def test_what_is_refused(goal: dict[str, Any], field: str) -> None:
-    with pytest.raises(ValidationError) as refused:
-        OptimizeRequest.model_validate(asked(twin(), **goal))
-    problems = [problem.path for error in refused.value.errors() for problem in error["ctx"]["problems"]]
-    assert ("objective", field) in problems

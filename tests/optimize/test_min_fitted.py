@@ -252,7 +252,6 @@ def test_the_time_ends_a_search() -> None:
         ({"machine": {"webs": {"min_fitted_mass_kg": 0.0}}}, ("machine", "webs", 0, "min_fitted_mass_kg")),
         ({"machine": {"webs": {"max_mass_kg": None}}}, ("machine", "webs", 0, "max_mass_kg")),
         ({"tolerances": {"angle_deg": 1}}, ("tolerances",)),
-        ({"objective": {"priorities": [{"goal": "external"}]}}, ("objective", "priorities")),
     ],
 )
 def test_what_it_does_not_go_with_is_said(change: dict[str, Any], path: tuple[str | int, ...]) -> None:

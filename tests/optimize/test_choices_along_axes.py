@@ -1,0 +1,112 @@
+"""Choices under ceilings along an axis on force and moment of all orders: what trying every set comes to."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.discrete import branch, search
+from tests.optimize.choices import DEGREE, Loads, asked, certified, chosen, every_set, twin, two_webs
+from tests.optimize.whole_turn import ALONE
+from tests.verification.checking import optimized
+
+GOAL: dict[str, Any] = {"orders": "all", "bearing_weight": 1, "force_weight": 0.5, "moment_weight": 1.0}
+CEILINGS = ("force_ceiling_x_N", "force_ceiling_y_N", "moment_ceiling_x_Nm", "moment_ceiling_y_Nm")
+
+
+def of_frame(machine: dict[str, Any], u: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Force and moment about 0 of all orders (sets, angles) by the kinematics of crank and rod, which has no mass."""
+    theta = np.deg2rad(np.arange(0.0, 360.0, 0.5))
+    force, moment = np.zeros((2, theta.size), complex)
+    for throw in machine["throws"]:
+        (row,) = throw["rows"]
+        r, length = throw["crank_radius_m"], row["connecting_rod"]["length_m"]
+        crank, axis = theta + np.deg2rad(throw["crank_angle_deg"]), np.deg2rad(row["axis_deg"])
+        phi = crank - axis
+        # x = r cos phi + s, s^2 = l^2 - r^2 sin^2 phi, and what it becomes by deriving twice
+        s = np.sqrt(length**2 - (r * np.sin(phi)) ** 2)
+        rise = -(r**2) * np.sin(phi) * np.cos(phi)
+        bent = -r * np.cos(phi) - r**2 * np.cos(2 * phi) / s - rise**2 / s**3
+        each = throw["rotating_mass_kg"] * r * np.exp(1j * crank) - row["reciprocating_mass_kg"] * bent * np.exp(
+            1j * axis
+        )
+        force, moment = force + each, moment + each * throw["position_m"]
+    square = (machine["speed_rpm"] * np.pi / 30.0) ** 2
+    place = np.array([web["position_m"] for web in machine["webs"]])
+    turning = np.exp(1j * theta)
+    added = np.stack([np.sum(u, axis=-1), u @ place])[..., None] * turning
+    return square * (force + added[0]), square * (moment + added[1])
+
+
+def along(machine: dict[str, Any], u: np.ndarray) -> dict[str, np.ndarray]:
+    force, moment = of_frame(machine, u)
+    each = (force.real, force.imag, moment.real, moment.imag)
+    return {name: np.max(np.abs(one), axis=-1) for name, one in zip(CEILINGS, each, strict=True)}
+
+
+@pytest.mark.parametrize(
+    ("by_tree", "share"),
+    [
+        (False, {"force_ceiling_x_N": 0.9, "moment_ceiling_y_Nm": 0.9}),
+        (True, {"force_ceiling_x_N": 0.9, "moment_ceiling_y_Nm": 0.9}),
+        (False, {"force_ceiling_y_N": 0.99}),
+        (False, {"moment_ceiling_x_Nm": 0.8}),
+    ],
+)
+def test_no_set_by_hand_is_better(monkeypatch: pytest.MonkeyPatch, by_tree: bool, share: dict[str, float]) -> None:
+    """Independent: of all 2,401 sets those that keep ceilings which the best of all does not."""
+    if by_tree:
+        monkeypatch.setattr(search, "_SUMS", 0)
+        monkeypatch.setattr(branch, "_SETS", 50)
+    machine = twin()
+    machine["reference_plane_m"] = 0.0
+    _, u = every_set(machine)
+    force, moment = of_frame(machine, u)
+    shaking = 0.5 * np.max(np.abs(force), axis=-1) + np.max(np.abs(moment), axis=-1)
+    value = shaking + np.max(np.abs(Loads(machine).over(u)), axis=(-2, -1))
+    each, least = along(machine, u), np.argmin(value)
+    ceilings = {name: float(part * each[name][least]) for name, part in share.items()}
+    found, proof = certified(asked(machine, 1e-3, **GOAL, **ceilings))
+    best = float(np.min(value[np.all([each[name] <= ceiling for name, ceiling in ceilings.items()], axis=0)]))
+    assert best > 1.05 * float(value[least])
+    assert best * (1 - 1e-9) <= proof.objective <= best * (1 + DEGREE + 1e-3)
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= best * (1 + DEGREE)
+    here = along(machine, chosen(found))
+    assert all(float(here[name][0]) <= ceiling * (1 + 1e-9) for name, ceiling in ceilings.items())
+
+
+def test_none_keeps_them() -> None:
+    """Independent: no set comes below the least of all sets, though other masses do."""
+    machine = twin()
+    machine["reference_plane_m"] = 0.0
+    least = float(np.min(along(machine, every_set(machine)[1])["moment_ceiling_y_Nm"]))
+    found = optimized(asked(machine, **GOAL, moment_ceiling_y_Nm=0.999 * least))
+    assert found.status == "infeasible"
+    assert found.status_reason.startswith("No set")
+    assert found.infeasibility is not None
+    assert found.infeasibility.conflict == ("moment_ceiling_y_Nm",)
+
+
+def test_least_masses() -> None:
+    """Independent: of both of two webs fitted, one or none, those of a grid that keep a ceiling."""
+    machine = two_webs()
+    machine["reference_plane_m"] = 0.0
+    free, _ = certified(asked(machine, 1e-3, bearing_weight=1, orders="all", **ALONE))
+    ceiling = 0.95 * float(along(machine, chosen(free))["force_ceiling_y_N"][0])
+    goal = {"bearing_weight": 1, "orders": "all", **ALONE, "force_ceiling_y_N": ceiling}
+    found, proof = certified(asked(machine, 1e-3, **goal))
+    assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
+    assert float(along(machine, chosen(found))["force_ceiling_y_N"][0]) <= ceiling * (1 + 1e-9)
+    turned = np.exp(1j * np.deg2rad(np.arange(0.0, 360.0, 8.0)))
+    one = 0.12 * np.append(0.0, np.multiply.outer(np.linspace(14.0, 16.0, 3), turned).ravel())
+    loads, best = Loads(machine), np.inf
+    for each in one:
+        u = np.stack([np.full(one.size, each), one], axis=-1)
+        kept = along(machine, u)["force_ceiling_y_N"] <= ceiling
+        if np.any(kept):
+            best = min(best, float(np.min(np.max(np.abs(loads.over(u[kept])), axis=(-2, -1)))))
+    # a grid is above what it is a grid of
+    assert proof.lower_bound is not None
+    assert proof.lower_bound <= best
+    assert 0.9 * best <= proof.objective <= best * (1 + 1e-3)

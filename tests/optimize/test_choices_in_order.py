@@ -1,0 +1,194 @@
+"""Choices for goals one after the other, each keeping what was reached before it: what trying every set comes to."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optimizer.discrete import branch, search
+from schemas.answers import OptimizeAnswer
+from tests.optimize.choices import (
+    DEGREE,
+    FAST,
+    SLOW,
+    Loads,
+    asked,
+    certified,
+    chosen,
+    every_set,
+    twin,
+    two_webs,
+)
+from tests.sweep.single import assert_row_is_the_single_answer, sweep, table
+from tests.verification.checking import optimized
+
+WEIGHTS = {"bearing_weight": 1, "force_weight": 0.5, "moment_weight": 2.0}
+
+
+def in_order(*goals: str, allowance: float = 0.0, **more: Any) -> dict[str, Any]:
+    first, *others = goals
+    order = [{"goal": first, "allowance": allowance}, *({"goal": goal} for goal in others)]
+    return {**WEIGHTS, "priorities": order, **more}
+
+
+def by_hand(loads: Loads, u: np.ndarray, plane: float, goal: dict[str, Any]) -> dict[str, np.ndarray]:
+    """What sets (sets, webs) come to by statics."""
+    force, moment = loads.frame(u, plane)
+    combined = np.maximum if goal.get("combine") == "max" else np.add
+    return {
+        "external": combined(0.5 * force, 2.0 * moment),
+        "bearings": np.max(np.abs(loads.over(u)), axis=(-2, -1)),
+    }
+
+
+def assert_best(found: OptimizeAnswer, first: np.ndarray, last: np.ndarray, allowed: float) -> None:
+    """Independent: no set that keeps what the first goal leaves comes to less of the last one.
+
+    Parameters
+    ----------
+    first, last : (sets,) what sets come to, angles between those that were looked at apart.
+    allowed : what the first goal may come to.
+    """
+    proof = found.certificate
+    assert proof is not None
+    (kept,) = proof.goals
+    assert kept.value == pytest.approx(float(np.min(first)), rel=DEGREE)
+    assert kept.lower_bound == pytest.approx(float(np.min(first)), rel=DEGREE)
+    assert kept.limit == pytest.approx(allowed, rel=DEGREE)
+    # those at the very limit may be on either side of it
+    surely, perhaps = first <= kept.limit * (1 - DEGREE), first <= kept.limit * (1 + DEGREE)
+    assert proof.objective <= float(np.min(last, where=surely, initial=np.inf)) * (1 + DEGREE)
+    assert proof.objective >= float(np.min(last[perhaps])) * (1 - 1e-9)
+    assert proof.lower_bound is not None
+    assert proof.lower_bound == pytest.approx(proof.objective, rel=1e-5)
+    assert proof.continuous_lower_bound is not None
+    assert proof.continuous_lower_bound <= proof.lower_bound
+
+
+@pytest.mark.parametrize("by_tree", [False, True])
+@pytest.mark.parametrize(
+    "goal",
+    [
+        in_order("external", "bearings", "mass"),
+        in_order("external", "bearings", allowance=0.1),
+        in_order("external", "bearings", allowance=0.03, combine="max"),
+        in_order("bearings", "external", allowance=0.02),
+    ],
+)
+def test_no_set_by_hand_is_better(monkeypatch: pytest.MonkeyPatch, by_tree: bool, goal: dict[str, Any]) -> None:
+    """Independent: all 2,401 sets at 360 angles by statics."""
+    if by_tree:
+        monkeypatch.setattr(search, "_SUMS", 0)
+        monkeypatch.setattr(branch, "_SETS", 1)
+    machine = twin()
+    found, _ = certified(asked(machine, **goal))
+    loads, (_, u) = Loads(machine), every_set(machine)
+    values, here = (by_hand(loads, each, found.reference_plane_m, goal) for each in (u, chosen(found)))
+    names = [each["goal"] for each in goal["priorities"]]
+    first, last = values[names[0]], values[names[1]]
+    still = float(first[0])
+    assert_best(found, first, last, float(np.min(first)) + goal["priorities"][0]["allowance"] * still)
+    assert found.certificate is not None
+    assert float(here[names[1]][0]) == pytest.approx(found.certificate.objective, rel=DEGREE)
+    assert float(here[names[0]][0]) <= found.certificate.goals[0].limit * (1 + 1e-9)
+
+
+def test_in_scenarios() -> None:
+    """Independent: the worst of two speeds of either goal, by statics."""
+    machine, goal = twin(), in_order("external", "bearings", allowance=0.05)
+    found, _ = certified(asked(machine, **goal) | {"scenarios": [FAST, SLOW]})
+    _, u = every_set(machine)
+    cases = ((1.0, Loads(machine)), (0.5, Loads(machine | {"speed_rpm": 1300})))
+    each = [by_hand(loads, u, found.reference_plane_m, goal) for _, loads in cases]
+    first, last = (
+        np.maximum(*(weight * of[name] for (weight, _), of in zip(cases, each, strict=True)))
+        for name in ("external", "bearings")
+    )
+    assert_best(found, first, last, float(np.min(first) + 0.05 * first[0]))
+    assert found.price_of_robustness is not None
+
+
+def test_under_a_ceiling() -> None:
+    """Independent: of the sets that keep a ceiling on the moment the same."""
+    machine, goal = twin(), in_order("bearings", "external", allowance=0.02)
+    loads, (_, u) = Loads(machine), every_set(machine)
+    _, moment = loads.frame(u, 0.0)
+    ceiling = float(np.sort(moment)[300]) * (1 + 1e-6)
+    machine["reference_plane_m"] = 0.0
+    found, _ = certified(asked(machine, **goal, moment_ceiling_Nm=ceiling))
+    kept = moment <= ceiling
+    values = by_hand(loads, u, 0.0, goal)
+    allowed = float(np.min(values["bearings"][kept]) + 0.02 * values["bearings"][0])
+    assert_best(found, values["bearings"][kept], values["external"][kept], allowed)
+
+
+def test_least_masses() -> None:
+    """Independent: both of two webs fitted, one or none, by a grid of masses and angles."""
+    machine, goal = two_webs(), in_order("external", "bearings", allowance=0.02)
+    found, proof = certified(asked(machine, 1e-4, **goal))
+    assert all(one.mass_kg == 0.0 or one.mass_kg >= 14.0 for one in found.counterweights)
+    loads, (kept,) = Loads(machine), proof.goals
+    plane = found.reference_plane_m
+    still = float(by_hand(loads, np.zeros((1, 2)), plane, goal)["external"][0])
+
+    def best(each: list[np.ndarray]) -> tuple[float, float, np.ndarray]:
+        """The least of both goals, of the last under the limit, and where; sets are of all options of both webs."""
+        sets = np.stack([one.ravel() for one in np.meshgrid(*each, indexing="ij")], axis=-1)
+        force, moment = loads.frame(sets, plane)
+        first = 0.5 * force + 2.0 * moment
+        within = sets[first <= kept.limit]
+        last = by_hand(loads, within, plane, goal)["bearings"]
+        place = np.argmin(last) if last.size else 0
+        return float(np.min(first)), float(np.min(last, initial=np.inf)), within[place : place + 1].ravel()
+
+    def about(at: complex, share: float, angles: int) -> np.ndarray:
+        masses = np.clip(np.abs(at) / 0.12 + share * np.linspace(-2.0, 2.0, 5), 14.0, 16.0)
+        turned = np.exp(1j * (np.angle(at) + share * np.linspace(-np.pi, np.pi, angles)))
+        return np.asarray(0.12 * np.append(0.0, np.multiply.outer(masses, turned).ravel()))
+
+    first, last, at = best([about(1.8, 1.0, 91)] * 2)
+    for share in 0.1 * 0.7 ** np.arange(16):
+        lower, closer, there = best([about(each, share, 5) for each in at])
+        first = min(first, lower)
+        if closer < last:
+            last, at = closer, there
+    # a grid is above what it is a grid of
+    assert kept.lower_bound is not None
+    assert kept.lower_bound <= first
+    assert kept.value <= first * (1 + 1e-4)
+    assert kept.limit == pytest.approx(kept.lower_bound + 0.02 * still, rel=1e-6)
+    assert 0.99 * last <= proof.objective <= last * (1 + 1e-4)
+
+
+def test_rows_of_a_sweep() -> None:
+    """Rows are the single answers (property)."""
+    request = sweep(
+        asked(twin(), **in_order("external", "bearings")), {"path": "/machine/speed_rpm", "values": [900, 1100]}
+    )
+    rows = table(request).to_pylist()
+    assert [assert_row_is_the_single_answer(request, row) for row in rows] == ["optimal"] * 2
+    assert all(row["goal_value.external"] >= row["goal_lower_bound.external"] for row in rows)
+
+
+def test_a_ceiling_that_no_set_keeps() -> None:
+    """Independent: no set is below the least moment of all, though some masses are."""
+    machine = twin()
+    machine["reference_plane_m"] = 0.0
+    _, moment = Loads(machine).frame(every_set(machine)[1], 0.0)
+    goal = in_order("external", "bearings", moment_ceiling_Nm=float(np.min(moment)) * 0.999)
+    found = optimized(asked(machine, **goal))
+    assert found.status == "infeasible"
+    assert found.status_reason.startswith("No set")
+    assert found.certificate is None
+
+
+def test_the_time_ends_it_before_the_last_goal() -> None:
+    machine = twin(catalogue={"mass_step_kg": 0.37, "angle_step_deg": 7.5})
+    machine["webs"] = [{k: v for k, v in web.items() if k != "hole_angles_deg"} for web in machine["webs"]]
+    body = asked(machine, **in_order("bearings", "external", allowance=0.01))
+    found = optimized(body | {"accuracy": {"relative_gap": 1e-9, "time_limit_s": 0.2}})
+    assert found.status == "inaccurate"
+    assert found.certificate is not None
+    (kept,) = found.certificate.goals
+    assert kept.lower_bound is not None
+    assert kept.lower_bound <= kept.value <= kept.limit
