@@ -6,15 +6,24 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.arrays import Real
+from optimizer.choice_rounds import in_rounds
+from optimizer.choice_ways import way_of
+from optimizer.discrete.options import EQUAL
 from optimizer.discrete.search import search
 from optimizer.formulate import formulate
+from optimizer.program.cuts import METHOD, Unkept, over_turn
+from optimizer.program.deciding import Group
 from optimizer.program.norms import Norms
 from optimizer.program.optima import optima
+from optimizer.program.over_turn import Goal
 from optimizer.program.reach import within_reach
 from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import total_mass
 from optimizer.program.statement import Names, Statement, Term
 from optimizer.response import Response
-from optimizer.searched import ended
+from optimizer.robust import Robust
+from optimizer.scene import Prepared
+from optimizer.searched import continuous, ended, told_ample
 from optimizer.stock import stock
 from schemas.requests import OptimizeRequest
 
@@ -78,3 +87,30 @@ def _weighed(program: Statement) -> Statement:
         floor=np.zeros(1),
         names=Names((Term("mass", "co"),) * webs, ("mass",)),
     )
+
+
+def certified_light_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
+    """The same under ceilings over the whole turn.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told.
+    """
+    any_mass, gap = continuous(request), request.accuracy.relative_gap
+    robust = Robust(any_mass.model_copy(update={"accuracy": request.accuracy}), scene)
+    program = robust.asked().program
+    weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
+    best = over_turn(weighed, _SHARP, False, (), robust.left_s)
+    if isinstance(best, Unkept):
+        nothing = np.zeros(program.limits.radius.shape)
+        return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, METHOD)
+    size = max(best.point.mass, best.proof.bound) or 1.0
+    way = way_of(request, best, size, solver)
+    picked, found = in_rounds(weighed, best, way, gap * size, EQUAL * size, lambda: robust.left_s)
+    value = float(np.sum(picked.mass))
+    status = "optimal" if found.kept and value - found.lower_bound <= gap * value else "inaccurate"
+    if not found.kept and found.lower_bound == np.inf:
+        status = "infeasible"
+    reason = told_ample(ended(found), found, best.proof.bound)
+    return Lightest(picked.mass, picked.angle, found.lower_bound, status, reason, found.nodes, found.method)

@@ -29,6 +29,8 @@ MAX_POINTS_TOGETHER = 600
 MAX_PLACES = 20_000
 
 Status = Literal["optimal", "inaccurate", "infeasible"]
+_NO_ORDER = "a front has no order of its goals"
+
 Reason = Literal["reached_together", "resolution", "undecided"]
 Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MAX_BUDGETS), NotEmpty()]
 
@@ -100,19 +102,21 @@ class ParetoRequest(OptimizeRequest):
         limited = any(getattr(self.objective, name) is not None for name in ceilings)
         message = "the least mass of all is none: give ceilings that are to be kept"
         yield Rule(counts.least == "mass" and not limited, ("counts", "least"), message)
+        ordered = bool(self.objective.priorities) and self.responses is None
+        yield Rule(ordered, ("objective", "priorities"), _NO_ORDER)
 
     def _trade_rules(self) -> Iterator[Rule]:
         if self.responses is None:
-            for name in self.objective.over_the_turn:
+            for name in self.objective.over_the_turn if self.counts is None else ():
                 message = "a front is of the first-order peaks: what the whole turn asks for needs responses"
                 yield Rule(True, ("objective", name), message)
             return
+        yield Rule(bool(self.objective.priorities), ("objective", "priorities"), _NO_ORDER)
         for k, web in enumerate(self.machine.webs):
             fixed = web.fixed is not None
             yield Rule(fixed, ("machine", "webs", k, "fixed"), "serves only the front of force and moment")
         for index, name in enumerate(self.responses):
             yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
-        yield Rule(bool(self.objective.priorities), ("objective", "priorities"), "a front has no order of its goals")
         yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
         together = self.points * max(1, len(self.total_mass_budgets_kg or ()))
         most = f"points times budgets must be at most {MAX_TRADED_POINTS} where responses are named"

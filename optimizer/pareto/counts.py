@@ -2,20 +2,27 @@
 
 import time
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 
 from optimizer.arrays import Real
+from optimizer.certified_choice import certified_choice
 from optimizer.certified_discrete import certified_discrete
-from optimizer.certified_light import certified_light
+from optimizer.certified_light import certified_light, certified_light_over_turn
+from optimizer.errors import MissingInput
 from optimizer.figures.counterweights import counterweights, unbalance
 from optimizer.fixed import beside, fixed_masses
 from optimizer.mechanics.layout import stacked
+from optimizer.program.cuts import METHOD
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import CONTRADICTED
+from optimizer.required import missing
 from optimizer.scene import Prepared
 from optimizer.stock import part_numbers, stock
+from schemas.answers import Certificate
 from schemas.catalogue import Catalogue
+from schemas.counterweights import Counterweight
 from schemas.counts import Counted, CountFront, CountPoint, CountTrade
 from schemas.machine import Machine
 from schemas.pareto import ParetoRequest
@@ -44,7 +51,12 @@ def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solve
     """The front under one limit of the total mass; all its searches together end at the time asked."""
     asked, half = request.counts, 0.5 * request.accuracy.time_limit_s
     assert asked is not None  # else it would be another front
-    whole = OptimizeRequest(machine=machine, objective=request.objective, accuracy=request.accuracy)
+    whole = OptimizeRequest(
+        machine=machine, objective=request.objective, accuracy=request.accuracy, fidelity=request.fidelity
+    )
+    lacking = list(missing(whole))
+    if lacking:
+        raise MissingInput(lacking)
 
     def point(number: int | None, seconds: float) -> CountPoint:
         accuracy = whole.accuracy.model_copy(update={"time_limit_s": max(seconds, 1e-3)})
@@ -122,6 +134,8 @@ def _chosen(machine: Machine) -> np.ndarray:
 
 def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The smallest objective, as a single answer has it."""
+    if request.objective.over_the_turn:
+        return _smallest_over_turn(request, scene, solver)
     best = certified_discrete(request, scene.responses, np.array([scene.omega_squared]), solver)
     mass, angle = beside(request.machine, best.mass_kg[0], best.angle_deg[0])
     figures = {name: column[0] for name, column in best.certificate.items()}
@@ -138,9 +152,31 @@ def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Bes
     )
 
 
+def _smallest_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
+    best = certified_choice(request, scene, solver, in_full=False)
+    proof, fitted = best.fields["certificate"], cast(tuple[Counterweight, ...], best.fields["counterweights"])
+    if not isinstance(proof, Certificate):
+        nothing = np.zeros(len(request.machine.webs))
+        return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, 0, METHOD)
+    return _Best(
+        np.array([each.mass_kg for each in fitted]),
+        np.array([each.angle_deg for each in fitted]),
+        proof.objective,
+        np.nan if proof.lower_bound is None else proof.lower_bound,
+        np.nan if proof.relative_gap is None else proof.relative_gap,
+        best.status,
+        best.reason,
+        proof.nodes or 0,
+        proof.method,
+    )
+
+
 def _lightest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The least total mass of all that keep the ceilings."""
-    best = certified_light(request, scene.responses, np.array([scene.omega_squared]), solver)
+    if request.objective.over_the_turn:
+        best = certified_light_over_turn(request, scene, solver)
+    else:
+        best = certified_light(request, scene.responses, np.array([scene.omega_squared]), solver)
     mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(request.machine)))
     bound, status, reason = best.lower_bound + fixed, best.status, best.reason

@@ -13,7 +13,7 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.program.deciding import Group, Weighed
 from optimizer.program.norms import Norms
 from optimizer.program.over_turn import Goal, OverTurn
-from optimizer.program.rows import Row, WeightedPeak
+from optimizer.program.rows import Row, total_mass
 from optimizer.scene import Prepared
 from schemas.objective import Objective
 from schemas.requests import OptimizeRequest
@@ -104,7 +104,7 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
     asked = request.model_copy(update={"objective": alone(request.objective, names)})
     case = Case(asked, scene.laden, (scene.responses,), turn)
     program = goals(asked, [case], scene.omega_squared).program
-    groups = {"mass": Group((_mass(program),))} | {
+    groups = {"mass": Group((total_mass(program.limits),))} | {
         name: Group(
             tuple(row for group in program.groups for row in group.rows if row.name == name),
             tuple(
@@ -126,14 +126,6 @@ def unit_of(name: Traded, objective: Objective) -> str:
         return RESPONSES[name].unit
     specific = objective.bearing_measure == "specific"
     return {"bearings": "Pa" if specific else "N", "bending": "N m", "mass": "kg"}[name]
-
-
-def _mass(program: OverTurn) -> Row:
-    """The total mass, a term for each web."""
-    radius = program.limits.radius
-    of_web = np.eye(radius.size) / np.where(radius > 0, radius, 1.0)
-    nothing = np.zeros(1, dtype=complex)
-    return Row("mass", tuple(WeightedPeak("mass", np.zeros(()), Norms(nothing, each[None])) for each in of_web))
 
 
 def _along(group: Group, anchor: float, unit: float) -> Group:

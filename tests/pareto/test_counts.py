@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
+from optimizer.errors import MissingInput
 from optimizer.pareto.pareto import pareto
 from schemas.counts import CountFront
 from schemas.pareto import ParetoRequest
+from tests.optimize import choices
 from tests.verification.checking import optimized
 
 PLANES, RADIUS, MASSES = (-0.4, -0.2, 0.2, 0.4), 0.12, (3.0, 7.5, 16.0)
@@ -196,3 +198,81 @@ def test_without_a_catalogue_nothing_is_counted() -> None:
     with pytest.raises(ValidationError) as refused:
         ParetoRequest.model_validate({**asked, "counts": {"of": "weights"}})
     assert ("counts",) in [problem.path for problem in refused.value.errors()[0]["ctx"]["problems"]]
+
+
+@pytest.mark.parametrize("of", ["weights", "part_numbers"])
+def test_numbers_for_the_whole_turn(of: str) -> None:
+    """Independent: the largest bearing load of all 2,401 sets of no more than a number, by statics."""
+    machine = choices.twin()
+    chosen, u = choices.every_set(machine)
+    loads = np.max(np.abs(choices.Loads(machine).over(u)), axis=(-2, -1))
+    used = np.array([_used(one, of) for one in chosen])
+    found = front(choices.asked(machine, bearing_weight=1, force_weight=0, moment_weight=0), of, "objective")
+    assert found.status == "optimal"
+    assert [point.at_most for point in found.points] == list(range(len(found.points)))
+    for point in found.points:
+        best = float(np.min(loads[used <= point.at_most]))
+        assert point.value is not None
+        assert best * (1 - 1e-9) <= point.value <= best * (1 + choices.DEGREE)
+        assert point.lower_bound == pytest.approx(point.value, rel=1e-5)
+        assert point.status_reason
+    assert found.points[-1].value == pytest.approx(float(np.min(loads)), rel=choices.DEGREE)
+
+
+@pytest.mark.parametrize("of", ["weights", "part_numbers"])
+def test_the_least_mass_for_the_whole_turn(of: str) -> None:
+    """Independent: of all 2,401 sets that keep a ceiling on the bearings the lightest."""
+    machine = choices.twin()
+    chosen, u = choices.every_set(machine)
+    loads = np.max(np.abs(choices.Loads(machine).over(u)), axis=(-2, -1))
+    used, mass = np.array([_used(one, of) for one in chosen]), np.array([sum(m for m, _ in one) for one in chosen])
+    # between two loads, so that angles in between tell nothing else
+    ordered = np.unique(loads)
+    gap = np.flatnonzero(ordered[1:] > ordered[:-1] * (1 + 3 * choices.DEGREE))
+    place = int(gap[gap >= 3][0])
+    ceiling = float(0.5 * (ordered[place] + ordered[place + 1]))
+    asked = choices.asked(machine, moment_weight=0, bearing_ceiling_N=ceiling)
+    found = front(asked, of, "mass")
+    assert found.status == "optimal"
+    statuses = set()
+    for point in found.points:
+        allowed = (loads <= ceiling) & (used <= point.at_most)
+        statuses.add(point.status)
+        assert (point.status == "optimal") == bool(np.any(allowed)), point.status_reason
+        if np.any(allowed):
+            assert point.value == point.total_mass_kg == pytest.approx(float(np.min(mass[allowed])), rel=1e-9)
+            assert point.lower_bound == pytest.approx(point.value, rel=1e-6)
+    assert statuses == {"optimal", "infeasible"}
+
+
+def test_masses_that_nothing_keeps_over_the_turn() -> None:
+    """Independent: a ceiling below what any masses reach."""
+    asked = choices.asked(choices.twin(), moment_weight=0, bearing_ceiling_N=100.0)
+    for least in ("objective", "mass"):
+        found = front(asked, "weights", least)
+        assert found.status == "infeasible"
+        assert all(
+            (point.status, point.value, point.counterweights) == ("infeasible", None, ()) for point in found.points
+        )
+
+
+def _used(chosen: Any, of: str) -> int:
+    masses = [mass for mass, _ in chosen if mass > 0]
+    return len(masses) if of == "weights" else len(set(masses))
+
+
+@pytest.mark.parametrize("more", [{}, {"responses": ["force", "mass"]}])
+def test_goals_in_their_order_are_no_front(more: dict[str, Any]) -> None:
+    goal = {"bearing_weight": 1, "priorities": [{"goal": "external"}, {"goal": "bearings"}]}
+    with pytest.raises(ValidationError) as refused:
+        front(choices.asked(choices.twin(), **goal), "weights", "objective", **more)
+    problems = [problem.path for error in refused.value.errors() for problem in error["ctx"]["problems"]]
+    assert ("objective", "priorities") in problems
+
+
+def test_what_the_whole_turn_needs_is_named() -> None:
+    machine = choices.twin()
+    del machine["bearings"]
+    with pytest.raises(MissingInput) as refused:
+        front(choices.asked(machine, bearing_weight=1), "weights", "objective")
+    assert [problem.path for problem in refused.value.problems] == [("machine", "bearings")]
