@@ -20,6 +20,8 @@ class Model(BaseModel):
         allow_inf_nan=False,
         hide_input_in_errors=True,
         use_attribute_docstrings=False,
+        # a process builds the models that it meets; all of them are a sixth of an import
+        defer_build=True,
     )
 
     @classmethod
