@@ -62,8 +62,8 @@ def match_parts() -> None:
     """Nine parts on as many rows: too many for all of their orders to be listed."""
     import numpy as np
 
+    from optimizer.matching.kernel.meeting import met
     from optimizer.matching.match import match
-    from optimizer.matching.meeting import met
     from schemas.match import MatchRequest
 
     throws = [

@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Real
-from optimizer.matching.meeting import met
+from optimizer.matching.kernel.meeting import met
 from optimizer.matching.problem import Problem
 
 #: places of a group, and pairs of orders of two groups that are kept

@@ -2,7 +2,7 @@
 
 A plane below the peaks takes its height of what they may come to; what is left, the slack, is no less than the sum of
 lengths |g_j v_j|, with g_j what the plane leaves of the weight of a length. So every coordinate of these vectors lies
-in a window, and few sums of one half meet one of the other there (:mod:`optimizer.matching.joined`).
+in a window, and few sums of one half meet one of the other there (:mod:`optimizer.matching.kernel.joined`).
 """
 
 from collections.abc import Callable
@@ -14,9 +14,9 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.matching.bound import Plane
-from optimizer.matching.joined import MAP, Peaks, Sets, Window, joined
+from optimizer.matching.kernel.joined import MAP, Peaks, Sets, Window, joined
+from optimizer.matching.kernel.quarters import BITS, LANES, Quarters, Tables, tabled
 from optimizer.matching.problem import Problem
-from optimizer.matching.quarters import BITS, LANES, Quarters, Tables, tabled
 
 #: parts of a class for which all sets are looked at in some seconds
 MOST = 16

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from optimizer.matching.four_lists import near_to_nothing
+from optimizer.matching.kernel.meeting import met
 from optimizer.matching.match import match
-from optimizer.matching.meeting import met
 from optimizer.matching.problem import stated
 from schemas.match import MatchRequest
 from tests.matching.cases import every, machine, mirrored, objective, parts

@@ -9,6 +9,7 @@ import pytest
 
 from optimizer.compile_kernels import any_limits, budgets
 from optimizer.kernel import knapsack, parts
+from optimizer.matching.kernel import joined, meeting, quarters
 from optimizer.mechanics.kernel import curves, readings, rows
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
@@ -56,6 +57,9 @@ def test_what_is_compiled_is_what_answers_need() -> None:
         curves: ("sums_of_rows",),
         knapsack: ("filled",),
         parts: ("first_open", "narrowed", "still_open"),
+        quarters: ("tabled",),
+        joined: ("joined",),
+        meeting: ("met",),
     }
     for module, names in entries.items():
         kept = Path(str(module.__file__)).parent / "__pycache__"

@@ -3,7 +3,7 @@
 The places of a class are dealt into two halves. Of the sums of either only those are listed that the other reaches in
 every coordinate. A map of the cells of space that those of the first half lie in tells which of the second may cancel
 one, and a map of the cells that those want which of the first; what is left of both is compared pair by pair. Sums of
-a half are those of its quarters (:mod:`optimizer.matching.quarters`).
+a half are those of its quarters (:mod:`optimizer.matching.kernel.quarters`).
 """
 
 from typing import NamedTuple
@@ -12,7 +12,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.compiling import inner, kernel
-from optimizer.matching.quarters import BITS, LANE, LANES, packed, put_on
+from optimizer.matching.kernel.quarters import BITS, LANE, LANES, packed, put_on
 
 #: bits of a place in the maps
 MAP = 18
