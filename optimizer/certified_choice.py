@@ -68,7 +68,8 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         return out_of_reach(any_mass, scene, asked, first)
     stages = _in_order(request, robust, asked, first, solver)
     last, picked = stages[-1], stages[-1].picked
-    best, found = last.best, last.found
+    found = last.found
+    best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
@@ -116,6 +117,7 @@ class _Stage(NamedTuple):
     picked: Choice
     found: Ended
     closed: bool  # the gap is the asked one
+    contradicted: bool  # the choice comes to less than any is proven to
 
 
 def _of_any_mass(program: OverTurn, gap: float, robust: Robust) -> Found | Unkept:
@@ -138,7 +140,9 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
         left_s = _left(robust, kept_back)
         picked, found = in_rounds(so_far, best, way, closed, EQUAL * size, left_s, known)
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
-        stages.append(_Stage(best, picked, found, value - found.lower_bound <= max(closed, EQUAL * size)))
+        left = value - found.lower_bound
+        contradicted = found.kept and left < -EQUAL * size
+        stages.append(_Stage(best, picked, found, left <= max(closed, EQUAL * size), contradicted))
         if later and not found.kept:
             # counterweights that keep no ceilings are told by what any masses come to
             break
@@ -174,6 +178,7 @@ def _goals(certificate: Certificate, stages: list[_Stage], omega_squared: float)
     """The goals before the last with what is proven of all choices, where anything is."""
 
     def of(goal: GoalReached, stage: _Stage) -> GoalReached:
+        # above it by no more than rounding
         bound = min(stage.found.lower_bound * omega_squared, goal.value)
         return goal if goal.lower_bound is None else goal.model_copy(update={"lower_bound": bound})
 
