@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, plain
+from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.norms import Norms
 from optimizer.program.reference.modelling import ScaledData, ScaledSolution, Shape, Stage
@@ -81,7 +81,9 @@ def least_change(influence: Real | Complex, constant: Complex, passes: int = 1) 
 
     *leading, terms, webs = influence.shape
     shape = (math.prod(leading), terms, webs)
-    rows, wanted = plain(influence.astype(complex)).reshape(shape), plain(constant).reshape(shape[:-1])
+    # real or complex, compiled once
+    rows = np.array(influence, complex, order="C").reshape(shape)
+    wanted = np.array(constant, complex, order="C").reshape(shape[:-1])
     found: Complex = least_changes(rows, wanted, passes).reshape(*leading, webs)
     return found
 
