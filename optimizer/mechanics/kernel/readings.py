@@ -43,7 +43,7 @@ def row_series(rows, functions, design, angles, reading):  # type: ignore[no-unt
     A force is the acceleration times m r omega^2, the friction and the gas, each times one function of the motion.
     """
     count, kept, terms, places = functions.middle.shape
-    bounded, parts = functions.radius.shape[0] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
+    bounded, parts = functions.radius.shape[1] > 0, 2 if reading in (ON_SHAFT, ON_FRAME) else 1
     number, first = design.size, terms - 1 if bounded else 0
     middle = np.empty((parts, terms - first, number, count, angles))
     radius = np.zeros((number if bounded else 0, count, angles))

@@ -91,7 +91,7 @@ class Functions(NamedTuple):
 
     middle : (R, 6 + C, order + 1, Q) acceleration over r omega^2, cos and sin of the crank angle, sin of twice the
         angle, sin^2, 1 / cos beta, and pressures [Pa] unless there are none.
-    radius : the same of enclosures; without rows at points.
+    radius : the same of enclosures; without functions at points.
     way : (R, Q) which way the row moves: 1 to the shaft.
     """
 
@@ -107,7 +107,7 @@ def row_functions(rows, places, order, pressed):  # type: ignore[no-untyped-def]
     designs, count = rows.motion.shape[:2]
     number, chambers = places.centre.size, rows.gas.shape[2] if pressed else 0
     middle = np.empty((count, KEPT + chambers, order + 1, number))
-    radius = np.empty((count if bounded else 0, KEPT + chambers, order + 1, number))
+    radius = np.empty((count, KEPT + chambers if bounded else 0, order + 1, number))
     way = np.empty((count, number))
     shape = (_PRESSURES + chambers, order + 1, LANES)
     series = Series(np.zeros(shape), np.zeros(shape), bounded)
