@@ -38,7 +38,8 @@ def in_discs(statement: Statement, reach: Real, inside: bool) -> Statement:
     towards = np.where(size > 0, strongest / np.where(size > 0, size, 1.0), 1.0)
     along: Real = (lines * np.conj(towards)[:, None]).real
     assert np.allclose(along * towards[:, None], lines, rtol=0.0, atol=1e-9 * float(np.max(size, initial=0.0)))
-    far = np.abs(constant) + np.abs(along) @ reach
+    # a line beyond all vectors is kept by them, by its disc too where that is drawn for such as reach it
+    far = np.maximum(np.abs(constant) + np.abs(along) @ reach, ceilings.cap[scalar])
     radius = _RADII * far
     middle = ceilings.cap[scalar] - radius
     wide = radius - _ROUNDING * far if inside else np.hypot(radius, far) + _ROUNDING * far
