@@ -91,12 +91,15 @@ def _axes(problem: Problem) -> tuple[Real, Real]:
 
 def _dealt(problem: Problem, chance: np.random.Generator) -> list[np.ndarray]:
     """Four groups of places, each of one class; fewer where there are no more places."""
-    least = -(-4 // len(problem.classes))
-    groups = []
-    for part in problem.slices:
-        places = chance.permutation(np.arange(part.start, part.stop))
-        groups += np.array_split(places, max(least, -(-places.size // _PLACES)))
-    return [groups[k] for k in chance.permutation(len(groups))[:4] if groups[k].size]
+    size, groups = np.array([part.stop - part.start for part in problem.slices]), []
+    for least in range(1, 5):
+        # of a class no more groups than it has places
+        many = np.minimum(np.maximum(least, -(-size // _PLACES)), size)
+        if np.sum(many) >= 4:
+            break
+    for part, count in zip(problem.slices, many.tolist(), strict=True):
+        groups += np.array_split(chance.permutation(np.arange(part.start, part.stop)), count)
+    return [groups[k] for k in chance.permutation(len(groups))[:4]]
 
 
 def _orders(rows: Real, mass: Real, places: np.ndarray) -> _Orders:

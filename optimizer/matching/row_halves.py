@@ -175,8 +175,8 @@ class _Class:
         high = np.stack([one @ rising[0].T, other @ rising[1].T], axis=1)
         least = self._height + low[:, 0, 0] + low[:, 1, 0] - self._rounding
         effect = self._peaks.effect
-        middle = self._peaks.start + np.mean(one, axis=1)[:, None] * np.sum(effect[:, :half], axis=1)
-        middle = middle + np.mean(other, axis=1)[:, None] * np.sum(effect[:, half:], axis=1)
+        middle = self._peaks.start + _middle(one) * np.sum(effect[:, :half], axis=1)
+        middle = middle + _middle(other) * np.sum(effect[:, half:], axis=1)
         order = np.lexsort((np.abs(middle) @ np.sum(self._peaks.weight, axis=0), least))
         return Sets(np.sum(1 << parts, axis=1)[order], least[order], low[order, :, 1:], high[order, :, 1:])
 
@@ -283,4 +283,9 @@ def _coordinates(vectors: Complex, lifted: Real, half: int, scatter: float, slac
 
 def _centred(rows: Real) -> Real:
     """What is left without the mean of each row."""
-    return rows - np.mean(rows, axis=1, keepdims=True)
+    return rows - _middle(rows)
+
+
+def _middle(rows: Real) -> Real:
+    """Mean of each row (N, 1); 0 of none, as the second half of two places has."""
+    return np.sum(rows, axis=1, keepdims=True) / max(rows.shape[1], 1)

@@ -44,6 +44,19 @@ def test_one_class_of_few_rows_is_left_as_it_is_where_nothing_is_better() -> Non
     assert sorted(near_to_nothing(problem, problem.listed, 0.0, never)) == sorted(problem.listed)
 
 
+def test_a_class_of_one_row_ends_nothing() -> None:
+    """Regression: groups without places were among the four that are dealt, and nothing was tried."""
+    rows = [{"throw": k, "row": 0} for k in range(17)]
+    classes = parts(3, 1, 16)
+    classes[0]["rows"], classes[1]["rows"] = rows[:1], rows[1:]
+    given = machine([360.0 * k / 17 for k in range(17)], [90.0] * 17)
+    body = {"machine": given, "parts": classes, "objective": {"moment_weight": 0}}
+    problem = stated(MatchRequest.model_validate(body), np.zeros(0), np.zeros(0))
+    found = near_to_nothing(problem, problem.listed, 0.0, never)
+    before, after = (float(problem.peaks.at(problem.vectors(mass))) for mass in (problem.listed, found))
+    assert after < 1e-2 * before
+
+
 def test_two_classes_of_sixteen_rows_are_matched_to_the_asked_gap() -> None:
     """Regression: exchanges of one class at a time ended at 2.8e-4 of what is listed."""
     body = {"machine": machine(mirrored(16), [90.0] * 16), "parts": parts(3, 16, 16, scatter=0.01)}

@@ -166,3 +166,21 @@ def test_equal_parts_and_parts_without_mass() -> None:
     # all but one of nine equal vectors that cancel: one is left
     assert answer.residual.after.force.peak_N == pytest.approx(2.0 * 0.12 * 50.0**2, rel=1e-9)
     assert answer.status == "optimal"
+
+
+def test_classes_of_a_part_or_two_beside_a_large_one() -> None:
+    """Metamorphic: what a random assignment comes to is no less; of a class of two the second half has no places."""
+    rows = [{"throw": k, "row": 0} for k in range(15)]
+    body: dict[str, Any] = {"machine": machine([24.0 * (7 * k % 15) for k in range(15)], [90.0] * 15), "parts": []}
+    for name, some in (("a", rows[:1]), ("b", rows[1:3]), ("c", rows[3:])):
+        masses = [40.0 + 0.013 * k * k for k in range(len(some))]
+        names = [str(k) for k in range(len(some))]
+        body["parts"].append({"class": name, "names": names, "masses_kg": masses, "rows": some})
+    request = MatchRequest.model_validate(body | {"accuracy": {"time_limit_s": 30}})
+    answer, problem = match(request), problem_of(request)
+    chance = np.random.default_rng(0)
+    some_of = [np.array([chance.permutation(problem.listed[part]) for _ in range(20_000)]) for part in problem.slices]
+    omega_squared = (request.machine.speed_rpm * np.pi / 30.0) ** 2
+    least = float(np.min(problem.peaks.at(problem.vectors(np.concatenate(some_of, axis=1))))) * omega_squared
+    assert answer.certificate.lower_bound is not None
+    assert answer.certificate.lower_bound <= answer.certificate.objective <= least
