@@ -51,7 +51,7 @@ def guessed(whole: Statement, plates: Plates, nodes: Real, share: Real, least_ma
             machine_webs=alike.first.size,
         )
         whole, count = united(whole, alike), alike.count[unit[plates.webs]].astype(float)
-    if not suits_kernel(laid.program):
+    if not suits_kernel(laid.program) or not laid.program.limits.reach.any():
         return None
     found, price = unproven(laid.program, share, least_mass)
     u = laid.carried(found)[0]

@@ -159,6 +159,13 @@ def test_a_budget_counts_what_is_cut(shape: str) -> None:
     assert found.certificate.objective > free.certificate.objective * 1.01
 
 
+def test_of_a_budget_of_nothing_nothing_is_cut() -> None:
+    body = asked(SHAPES[0])
+    body["machine"]["max_total_mass_kg"] = 0.0
+    found = answered(body)
+    assert (found.status, found.total_mass_kg) == ("optimal", 0.0)
+
+
 @pytest.mark.parametrize("share", [0.1, 0.4, 0.8])
 @pytest.mark.parametrize("shape", SHAPES)
 def test_the_mass_is_proven_for_what_a_budget_lets_chords_reach(
