@@ -15,6 +15,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.discrete.bound import proven, uphill
+from optimizer.discrete.clock import Clock, Pace
 from optimizer.discrete.few import at_most, costs, offer_few
 from optimizer.discrete.options import Incumbent, Options
 from optimizer.discrete.relaxed import apart, on_first, relaxed
@@ -60,7 +61,7 @@ def branch(
     at_least: float,
     gap: float,
     enough: Callable[[float], bool],
-    spent: Callable[[], bool],
+    clock: Clock,
     most_nodes: float = np.inf,
     below: Statement | None = None,
 ) -> Tree:
@@ -71,10 +72,11 @@ def branch(
     at_least : what the objective is known to come to.
     gap : in units of the objective, 0 to tell all but equals apart.
     enough : whether a bound of all sets that were not offered ends the search.
+    clock : what is left of the time.
     most_nodes : after which it ends as well.
     below : a program of one group that is nowhere above the incumbent's, which bounds are of; by default that one.
     """
-    work = _Work(options, incumbent, gap, below or incumbent.statement)
+    work, pace = _Work(options, incumbent, gap, below or incumbent.statement), Pace(clock)
     root = work.settled(options.exists, frozenset())
     if root is None:
         return Tree(np.inf, 0, False)
@@ -87,18 +89,20 @@ def branch(
         for first in range(0, len(fresh), size):
             batch = fresh[first : first + size]
             nodes += len(batch)
-            out, splits = work.bounded(batch, bounds[first : first + size], spent)
+            out, splits = work.bounded(batch, bounds[first : first + size], clock)
             closed = min(closed, out)
             for bound, split in splits:
                 ties += 1
                 heapq.heappush(open_nodes, (bound, ties, split))
+        if fresh:
+            pace.took(len(fresh))
         lowest = min(closed, open_nodes[0][0] if open_nodes else np.inf)
         full = len(open_nodes) * 2 * root.bits.size > _MEMORY
         done = not open_nodes or lowest >= incumbent.least - gap
-        if done or full or enough(lowest) or nodes >= most_nodes or spent():
+        if done or full or enough(lowest) or nodes >= most_nodes or clock.spent():
             return Tree(lowest, nodes, full and not done)
-        fresh, bounds = [], []
-        while open_nodes and len(fresh) < size:
+        fresh, bounds, most = [], [], pace.most(size)
+        while open_nodes and len(fresh) < most:
             bound, _, split = heapq.heappop(open_nodes)
             if bound >= incumbent.least - gap:
                 closed = min(closed, bound)
@@ -162,7 +166,7 @@ class _Work:
         return np.unpackbits(bits, axis=-1, count=self.options.mass.shape[1]).astype(bool)
 
     def bounded(
-        self, nodes: list[_Node], inherited: list[float], spent: Callable[[], bool]
+        self, nodes: list[_Node], inherited: list[float], clock: Clock
     ) -> tuple[float, list[tuple[float, _Split]]]:
         """What is proven of all that nodes lose here, and those that stay open with their bounds."""
         options, statement = self.options, self.statement
@@ -199,7 +203,7 @@ class _Work:
         lowest, cost = costs(left, forced[stays])
         few = at_most(cost, self.incumbent.least - self.gap - lowest) <= _SETS
         for n in np.flatnonzero(few):
-            if spent():
+            if clock.spent():
                 closed = min(closed, float(bound[which[n]]))
                 continue
             others = offer_few(statement, self.incumbent, cost[n], self.incumbent.least - self.gap - float(lowest[n]))

@@ -5,6 +5,7 @@ from collections.abc import Callable
 import numpy as np
 
 from optimizer.arrays import Complex
+from optimizer.discrete.clock import Clock
 from optimizer.discrete.halves import exhaust
 from optimizer.discrete.options import Incumbent, Options
 
@@ -27,9 +28,7 @@ def start(incumbent: Incumbent, u: Complex) -> None:
         incumbent.offer(np.where(rank[None] < np.arange(1, options.slots)[:, None], near[every], 0))
 
 
-def neighbourhoods(
-    incumbent: Incumbent, u: Complex, patience: int, enough: Callable[[], bool], spent: Callable[[], bool]
-) -> None:
+def neighbourhoods(incumbent: Incumbent, u: Complex, patience: int, enough: Callable[[], bool], clock: Clock) -> None:
     """Make the set better, a few slots at a time, until nothing is found for a while.
 
     Parameters
@@ -41,7 +40,7 @@ def neighbourhoods(
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     useful = np.flatnonzero(np.sum(options.exists, axis=-1) > 1)
     left = patience * useful.size
-    while left > 0 and incumbent.chosen is not None and not enough() and not spent():
+    while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():
         size = min(int(chance.choice(_SIZES)), useful.size)
         some = chance.choice(useful, size, replace=False)
         before, target = (incumbent.least, tuple(incumbent.chosen)), u if chance.random() < 0.5 else None
@@ -50,7 +49,7 @@ def neighbourhoods(
         for k in some:
             about = options.unbalance[k, incumbent.chosen[k]] if target is None else target[k]
             which[k] = _about(options, k, about, int(incumbent.chosen[k]), most)
-        exhaust(options, which, incumbent, _SUMS, _PAIRS, spent)
+        exhaust(options, which, incumbent, _SUMS, _PAIRS, clock)
         left = left - 1 if (incumbent.least, tuple(incumbent.chosen)) == before else patience * useful.size
 
 

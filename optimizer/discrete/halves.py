@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.discrete.clock import Clock, Pace
 from optimizer.discrete.options import EQUAL, Incumbent, Options
 from optimizer.program.statement import Statement
 
@@ -51,7 +52,7 @@ def exhaust(
     incumbent: Incumbent,
     most_sums: int,
     most_pairs: int,
-    spent: Callable[[], bool],
+    clock: Clock,
 ) -> bool:
     """Offer all that can be best; whether all were offered.
 
@@ -59,7 +60,7 @@ def exhaust(
     ----------
     which : (K) options of every slot that are to be tried, at least one each.
     most_sums, most_pairs : sums of a half, and pairs of them, beyond which it is given up.
-    spent : whether the time is over.
+    clock : what is left of the time; what there is not enough for is given up.
     """
     statement = incumbent.statement
     many = sorted((k for k, some in enumerate(which) if len(some) > 1), key=lambda k: -len(which[k]))
@@ -73,8 +74,9 @@ def exhaust(
     single = np.ones(options.slots, bool)
     single[many] = False
     rest = np.sum(options.of(effect, fixed)[single], axis=0)
-    one, other = (sums_of(options, effect, which, side) for side in sides)
-    if max(one.code.size, other.code.size) > most_sums:
+    pace = Pace(clock)
+    one, other = (sums_of(options, effect, which, side, pace) for side in sides)
+    if one is None or other is None or max(one.code.size, other.code.size) > most_sums:
         return False
     if not one.code.size or not other.code.size:
         return True
@@ -91,16 +93,22 @@ def exhaust(
     terms = statement.norms.constant + lever @ rest
     pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
     if not np.isfinite(incumbent.level) or pairs.count <= _FEW:
-        return pairs.count <= most_pairs and pairs.all(spent)
-    pairs.nearest(spent)
-    return pairs.near(most_pairs, spent)
+        return pairs.count <= most_pairs and pairs.all(clock)
+    pairs.nearest(clock)
+    return pairs.near(most_pairs, clock)
 
 
-def sums_of(options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int]) -> _Sums:
-    """All sums of the slots of a side that the counts of all slots together leave."""
+def sums_of(
+    options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int], pace: Pace
+) -> _Sums | None:
+    """All sums of the slots of a side that the counts of all slots together leave; None where the time is too short."""
     sums = _Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
     for k in side:
         some = which[k]
+        count = sums.code.size * some.size
+        # more than the next ones are still to come: pairs, and of the first half the other one
+        if pace.most(2 * count) < 2 * count:
+            return None
         fitted = options.webs[k] * (some > 0) if options.limits_fitted else np.zeros(some.size, np.int64)
         bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
         bits = bits if options.limits_parts else np.zeros_like(bits)
@@ -114,6 +122,7 @@ def sums_of(options: Options, effect: Complex, which: Sequence[np.ndarray], side
         )
         within = _counted(options, longer)
         sums = _merged(_Sums(*(each[within] for each in longer)))
+        pace.took(max(count, 1))
     return sums
 
 
@@ -171,18 +180,18 @@ class _Pairs:
         if np.any(near):
             self.offered(i[near], j[near])
 
-    def all(self, spent: Callable[[], bool]) -> bool:
+    def all(self, clock: Clock) -> bool:
         """Every pair; whether the time was enough."""
         step = max(1, _AT_ONCE // self.one.shape[0])
         for start in range(0, self.other.shape[0], step):
-            if start and spent():
+            if start and clock.spent():
                 return False
             part = np.arange(start, min(start + step, self.other.shape[0]))
             i, j = np.meshgrid(np.arange(self.one.shape[0]), part, indexing="ij")
             self.evaluated(i.ravel(), j.ravel())
         return True
 
-    def nearest(self, spent: Callable[[], bool]) -> None:
+    def nearest(self, clock: Clock) -> None:
         """To every sum of one half the nearest of the other, which mostly makes the ball small."""
         ball = self._ball()
         if ball is None:
@@ -192,10 +201,10 @@ class _Pairs:
             off, place = tree.query(points[start : start + _SOUGHT], distance_upper_bound=radius)
             found = np.flatnonzero(np.isfinite(off))
             self.evaluated(place[found], start + found)
-            if spent():
+            if clock.spent():
                 return
 
-    def near(self, most: int, spent: Callable[[], bool]) -> bool:
+    def near(self, most: int, clock: Clock) -> bool:
         """Every pair that can be no worse than the best; whether they were few enough for number and time."""
         ball = self._ball()
         if ball is None:
@@ -205,7 +214,7 @@ class _Pairs:
         for start in range(0, len(points), _COUNTED):
             few = points[start : start + _COUNTED]
             counts[start : start + _COUNTED] = tree.query_ball_point(few, radius, return_length=True)
-            if int(np.sum(counts[start : start + _COUNTED])) > most or spent():
+            if int(np.sum(counts[start : start + _COUNTED])) > most or clock.spent():
                 return False
         if int(np.sum(counts)) > most:
             return False
@@ -214,7 +223,7 @@ class _Pairs:
             if part.size:
                 pairs = _tree(points[part]).sparse_distance_matrix(tree, radius, output_type="ndarray")
                 self.evaluated(pairs["j"], part[pairs["i"]])
-            if spent():
+            if clock.spent():
                 return False
         return True
 

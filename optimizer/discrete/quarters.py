@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.discrete.clock import Clock
 from optimizer.discrete.options import Incumbent, Options
 
 #: sums of a quarter, and quarters that are dealt out in a row without finding a better set
@@ -56,14 +57,14 @@ class _Pairs(NamedTuple):
                 sets[:, slot] = each[digit]
 
 
-def quarters(incumbent: Incumbent, enough: Callable[[], bool], spent: Callable[[], bool]) -> None:
+def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> None:
     """Make the set better, by options near to those that are there."""
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     few = np.sum(np.sum(options.exists, axis=-1) > 1) < _FEWEST
     if few or incumbent.coordinates[0].shape[-1] >= _MANY:
         return
     left = _PATIENCE
-    while left > 0 and incumbent.chosen is not None and not enough() and not spent():
+    while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():
         before, chosen, measure = incumbent.least, incumbent.chosen, _Measure(incumbent)
         some = _near(options, chosen, _SUMS)
         a, b, c, d = (_quarter(measure, chosen, slots, some) for slots in _dealt(some, _SUMS, chance))

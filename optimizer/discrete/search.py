@@ -1,7 +1,6 @@
 """The way in: the best set of options, and what is proven of it."""
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -9,6 +8,7 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.discrete.branch import branch
+from optimizer.discrete.clock import Clock
 from optimizer.discrete.exchange import neighbourhoods, start
 from optimizer.discrete.halves import exhaust
 from optimizer.discrete.options import EQUAL, Incumbent, Options
@@ -71,13 +71,7 @@ def search(
     relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
     known : sets to begin with, and what a tree is of.
     """
-    began = time.thread_time()
-
-    def spent() -> bool:
-        return time.thread_time() >= began + time_limit_s
-
-    def halfway() -> bool:
-        return time.thread_time() >= began + 0.5 * time_limit_s
+    clock, half = Clock(time_limit_s), Clock(0.5 * time_limit_s)
 
     points, below = np.stack([relaxed, *known.sets]), known.below or statement
     if options.alike is not None:
@@ -88,11 +82,11 @@ def search(
     every = [np.flatnonzero(some) for some in options.exists]
     if incumbent.chosen is None:
         # first of all a set that keeps the ceilings
-        within = _within(statement, options, relaxed, every, spent, below)
+        within = _within(statement, options, relaxed, every, clock, below)
         if not within.kept:
             return within
         incumbent.offer(within.chosen[None])
-    if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, spent):
+    if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
         return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
     gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
     nodes, floor = 0, at_least
@@ -101,15 +95,15 @@ def search(
         return incumbent.least - at_least <= gap
 
     for patience, most_nodes in _SEARCHES:
-        neighbourhoods(incumbent, relaxed, patience, enough, halfway)
-        tree = branch(options, incumbent, at_least, gap, lambda bound: False, spent, most_nodes, below)
+        neighbourhoods(incumbent, relaxed, patience, enough, half)
+        tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
         nodes, at_least = nodes + tree.nodes, max(at_least, tree.lower_bound)
         if tree.nodes == 1 and tree.lower_bound <= floor + gap:
             # the options reach what no masses undercut, and no tree tells more
-            quarters(incumbent, enough, halfway)
+            quarters(incumbent, enough, half)
         bound = min(at_least, incumbent.least)
         closed = incumbent.least - bound <= max(gap, 0.0)
-        if closed or spent():
+        if closed or clock.spent():
             break
     ended = None if closed else "size" if tree.full else "time"
     return _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
@@ -132,7 +126,7 @@ def _within(
     options: Options,
     relaxed: Complex,
     every: list[np.ndarray],
-    spent: Callable[[], bool],
+    clock: Clock,
     below: Statement,
 ) -> Found:
     """The first set that keeps the ceilings, or the proof that there is none."""
@@ -142,10 +136,10 @@ def _within(
         return incumbent.least <= CEILING_TOLERANCE
 
     start(incumbent, relaxed[None])
-    neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], kept, spent)
+    neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], kept, clock)
     bound, nodes, method, ended = -np.inf, 0, EXHAUSTED, None
     if not kept():
-        if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, spent):
+        if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
             bound = incumbent.least
         else:
             tree = branch(
@@ -154,7 +148,7 @@ def _within(
                 -np.inf,
                 0.0,
                 lambda bound: kept() or bound > CEILING_TOLERANCE,
-                spent,
+                clock,
                 below=below.excess(),
             )
             bound, nodes, method = tree.lower_bound, tree.nodes, TREE

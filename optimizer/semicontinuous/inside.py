@@ -10,6 +10,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.discrete.clock import Clock
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
@@ -20,6 +21,8 @@ from optimizer.semicontinuous.solved import Solved, solved
 SPECK = 1e-9
 #: tangents that are tried one after the other, for the objective and for the mass
 _TANGENTS, _LIGHTER = 5, 25
+#: points that are moved to their tangents before the clock is looked at
+_AT_ONCE = 8
 #: a fall of the mass that ends them, relative
 _HARDLY = 1e-6
 #: rounding of a size, relative
@@ -62,25 +65,38 @@ class Incumbent:
         return value
 
 
-def improved(incumbent: Incumbent, u: Complex, fitted: np.ndarray) -> None:
+def improved(incumbent: Incumbent, u: Complex, fitted: np.ndarray, clock: Clock) -> None:
     """Offer the best that tangents find from the directions of points (M, K), something on some of the webs.
 
     Parameters
     ----------
     fitted : (M, K) bool, on which of the webs with a least; nothing is on the others that have one.
+    clock : what is left of the time, after which those that are found are offered.
     """
-    before, share, gap = np.full(len(u), np.inf), np.full(len(u), 1e-9), np.zeros(len(u))
+    before = np.full(len(u), np.inf)
     for _ in range(_TANGENTS):
-        base, room, program = _beyond(incumbent, u, fitted)
-        # what is a speck is nothing
-        u = base + np.where(room, incumbent.solved(program, share, gap, False).unbalance, 0.0)
+        u = _tangent(incumbent, u, fitted, clock)
         value = incumbent.offer(u)
-        if not np.any(value < before - incumbent.resolution):
+        if clock.spent() or not np.any(value < before - incumbent.resolution):
             return
         before = value
 
 
-def lightened(incumbent: Incumbent, u: Complex, share: float) -> Complex:
+def _tangent(incumbent: Incumbent, u: Complex, fitted: np.ndarray, clock: Clock) -> Complex:
+    """The best beyond the tangents at the directions of points (M, K); of the first ones alone where the time ends."""
+    found: list[Complex] = []
+    for first in range(0, len(u), _AT_ONCE):
+        if found and clock.spent():
+            break
+        some = slice(first, first + _AT_ONCE)
+        base, room, program = _beyond(incumbent, u[some], fitted[some])
+        share, gap = np.full(len(base), 1e-9), np.zeros(len(base))
+        # what is a speck is nothing
+        found.append(base + np.where(room, incumbent.solved(program, share, gap, False).unbalance, 0.0))
+    return np.concatenate(found)
+
+
+def lightened(incumbent: Incumbent, u: Complex, share: float, clock: Clock) -> Complex:
     """With the same webs fitted a lighter point (K,) that is worse than the best by a share at most, or the same.
 
     What is beyond the least is no heavier than the least and it together, and as heavy where it is along the least.
@@ -98,7 +114,7 @@ def lightened(incumbent: Incumbent, u: Complex, share: float) -> Complex:
         if alone.least > incumbent.least + share or after >= before:
             break
         u = found[0]
-        if before - after <= _HARDLY * before:
+        if before - after <= _HARDLY * before or clock.spent():
             break
     return u
 
@@ -139,7 +155,7 @@ def cones(limits: Limits, reach: Real, centre: Real, half: Real, budget: Real) -
     )
 
 
-def sharing(incumbent: Incumbent, u: Complex) -> None:
+def sharing(incumbent: Incumbent, u: Complex, clock: Clock) -> None:
     """Offer what comes of a relaxed point (K,) with something on more and more of its webs, the heaviest first."""
     least = incumbent.places.least
     share = np.where(least > 0, np.abs(u) / np.where(least > 0, least, 1.0), np.inf)
@@ -148,4 +164,4 @@ def sharing(incumbent: Incumbent, u: Complex) -> None:
     fitted = np.repeat((share >= 1.0)[None], order.size + 1, axis=0)
     for count in range(1, order.size + 1):
         fitted[count, order[:count]] = True
-    improved(incumbent, np.repeat(u[None], len(fitted), axis=0), incumbent.places.whole(fitted))
+    improved(incumbent, np.repeat(u[None], len(fitted), axis=0), incumbent.places.whole(fitted), clock)

@@ -1,13 +1,13 @@
 """The way in: the best counterweights that are heavy enough or not there, and what is proven of them."""
 
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.discrete.clock import Clock
 from optimizer.discrete.search import TREE
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.reference.solver import Solver
@@ -63,25 +63,23 @@ def search(
     known : (K,) kg m each, points to begin with.
     below : nowhere above the statement and with no tighter ceilings, which bounds are of; by default that one.
     """
-    end, gap = time.thread_time() + asked.time_limit_s, asked.gap
-
-    def spent() -> bool:
-        return time.thread_time() >= end
+    clock, gap = Clock(asked.time_limit_s), asked.gap
 
     places = root(least, statement.limits)
     incumbent = Incumbent(statement, places, _EQUAL * asked.yardstick, solver)
-    sharing(incumbent, continuous)
+    sharing(incumbent, continuous, clock)
     if known:
         incumbent.offer(np.stack(known))
     if incumbent.unbalance is None:
-        within = _within(statement, places, continuous, spent, solver, below or statement)
+        within = _within(statement, places, continuous, clock, solver, below or statement)
         if not within.kept:
             return within
         incumbent.offer(within.unbalance[None])
-    tree = branch(incumbent, at_least, gap, lambda bound: False, spent, below or statement)
+    tree = branch(incumbent, at_least, gap, lambda bound: False, clock, below or statement)
     bound = min(max(at_least, tree.lower_bound), incumbent.least)
+    share = min(asked.share, max(bound + gap - incumbent.least, 0.0))
     assert incumbent.unbalance is not None  # that keeps the ceilings was offered
-    lightest = lightened(incumbent, incumbent.unbalance, min(asked.share, max(bound + gap - incumbent.least, 0.0)))
+    lightest = lightened(incumbent, incumbent.unbalance, share, clock)
     closed = incumbent.least - bound <= gap
     return Found(lightest, True, bound, tree.nodes, _ended(tree, closed))
 
@@ -94,7 +92,7 @@ def _within(
     statement: Statement,
     places: Places,
     continuous: Complex,
-    spent: Callable[[], bool],
+    clock: Clock,
     solver: Solver,
     below: Statement,
 ) -> Found:
@@ -104,11 +102,11 @@ def _within(
     def kept() -> bool:
         return incumbent.least <= CEILING_TOLERANCE
 
-    sharing(incumbent, continuous)
+    sharing(incumbent, continuous, clock)
     tree = Tree(-np.inf, 0, False)
     if not kept():
         loose = below.excess()
-        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, spent, loose)
+        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, clock, loose)
     u = np.zeros(places.least.shape, complex) if incumbent.unbalance is None else incumbent.unbalance
     none = min(tree.lower_bound, incumbent.least) > CEILING_TOLERANCE
     ended = None if kept() or none else _ended(tree, False)

@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
+from optimizer.discrete.clock import Clock, Pace
 from optimizer.program.statement import Statement
 from optimizer.semicontinuous.bound import proven, uphill
 from optimizer.semicontinuous.inside import Incumbent, cones, improved
@@ -48,7 +49,7 @@ def branch(
     at_least: float,
     gap: float,
     enough: Callable[[float], bool],
-    spent: Callable[[], bool],
+    clock: Clock,
     below: Statement,
 ) -> Tree:
     """Offer points until none is better by more than ``gap``, time or memory are spent, or a bound is enough.
@@ -57,14 +58,16 @@ def branch(
     ----------
     at_least : what the objective is known to come to.
     enough : whether a bound of everything ends the search.
+    clock : what is left of the time.
     below : a program that is nowhere above the incumbent's, which bounds are of.
     """
     fresh, bounds = incumbent.places, np.array([at_least])
     open_nodes: list[tuple[float, int, _Open]] = []
-    nodes, ties, closed = 0, 0, np.inf
+    nodes, ties, closed, pace = 0, 0, np.inf, Pace(clock)
     while True:
         nodes += len(bounds)
-        out, stays = _bounded(incumbent, below, fresh, bounds, gap)
+        out, stays = _bounded(incumbent, below, fresh, bounds, gap, clock)
+        pace.took(len(bounds))
         closed = min(closed, out)
         for bound, node in stays:
             ties += 1
@@ -72,11 +75,12 @@ def branch(
         lowest = min(closed, open_nodes[0][0] if open_nodes else np.inf)
         full = len(open_nodes) > _OPEN
         done = not open_nodes or lowest >= incumbent.least - gap
-        if done or full or enough(lowest) or spent():
+        if done or full or enough(lowest) or clock.spent():
             return Tree(lowest, nodes, full and not done)
         children: list[Places] = []
         inherited: list[float] = []
-        while open_nodes and len(children) < _BATCH:
+        most = pace.most(_BATCH)
+        while open_nodes and len(children) < most:
             bound, _, node = heapq.heappop(open_nodes)
             if bound >= incumbent.least - gap:
                 closed = min(closed, bound)
@@ -90,7 +94,7 @@ def branch(
 
 
 def _bounded(
-    incumbent: Incumbent, statement: Statement, places: Places, inherited: Real, gap: float
+    incumbent: Incumbent, statement: Statement, places: Places, inherited: Real, gap: float, clock: Clock
 ) -> tuple[float, list[tuple[float, _Open]]]:
     """What is proven of all that nodes lose here, and those that stay open with their bounds."""
     count = inherited.size
@@ -99,7 +103,7 @@ def _bounded(
     found = incumbent.solved(program, np.full(count, 1e-3 * close), np.full(count, 0.1 * close), False)
     near = np.where(places.out, 0.0, found.unbalance)
     multipliers = replace(found.multipliers, ceiling=found.multipliers.ceiling[:, : statement.ceilings.cap.size])
-    _offer(incumbent, places, near, inherited)
+    _offer(incumbent, places, near, inherited, clock)
     target = incumbent.least - gap
     known = proven(statement, places, multipliers)
     raised = proven(statement, places, uphill(statement, places, multipliers, known.price, target))
@@ -138,14 +142,14 @@ def _bounded(
     return closed, stays
 
 
-def _offer(incumbent: Incumbent, places: Places, near: Complex, bounds: Real) -> None:
+def _offer(incumbent: Incumbent, places: Places, near: Complex, bounds: Real, clock: Clock) -> None:
     """Relaxed points as they are, and the most promising with everything kept."""
     least = places.least
     incumbent.offer(np.where((least > 0) & (np.abs(near) <= _MISSES * least), 0.0, near))
     # one after the other where the kernel may not take them
     best = np.argsort(bounds, kind="stable")[: _TRIED if places.alike is None else 1]
     some = near[best]
-    improved(incumbent, some, places.whole(places.fitted[best] | (np.abs(some) >= 0.5 * least)))
+    improved(incumbent, some, places.whole(places.fitted[best] | (np.abs(some) >= 0.5 * least)), clock)
 
 
 def relaxed(statement: Statement, places: Places) -> Statement:

@@ -1,9 +1,12 @@
 """Four quarters of the slots: what comes near to a point where no tree proves more."""
 
+from itertools import count
+
 import numpy as np
 import pytest
 
 from optimizer.certified import certified
+from optimizer.discrete.clock import Clock
 from optimizer.discrete.exchange import neighbourhoods, start
 from optimizer.discrete.options import EQUAL, Incumbent
 from optimizer.discrete.quarters import quarters
@@ -43,9 +46,10 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
     def found() -> tuple[float, Incumbent]:
         incumbent = Incumbent(problem, options, EQUAL * float(problem.at_rest))
         start(incumbent, best.found.unbalance[:1])
-        neighbourhoods(incumbent, best.found.unbalance[0], 1, lambda: False, lambda: False)
-        before, rounds = incumbent.least, iter(range(1))
-        quarters(incumbent, lambda: False, lambda: next(rounds, None) is None)
+        neighbourhoods(incumbent, best.found.unbalance[0], 1, lambda: False, Clock(3600.0))
+        before, looks = incumbent.least, count(0.0)
+        # a second passes from look to look: one round
+        quarters(incumbent, lambda: False, Clock(1.5, lambda: next(looks)))
         return before, incumbent
 
     before, incumbent = found()

@@ -6,6 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optimizer.discrete import branch, halves, search
+from optimizer.discrete.clock import Clock, Pace
 from optimizer.discrete.options import EQUAL, Incumbent, Options
 from optimizer.discrete.search import EXHAUSTED, TREE, Found
 from optimizer.program.limits import Limits
@@ -168,4 +169,4 @@ def test_halves_hold_no_sums_that_counts_rule_out(fitted: int | None, parts: int
     options = options_of(problem, [0.11 * most, 0.37 * most], [0.0, 50.0, 110.0, 170.0, 230.0, 310.0], fitted, parts)
     every = [np.flatnonzero(some) for some in options.exists]
     _, effect = Incumbent(problem, options, 0.0).coordinates
-    assert len(halves.sums_of(options, effect, every, (0, 1)).code) == count
+    assert len(halves.sums_of(options, effect, every, (0, 1), Pace(Clock(_LONG))).code) == count
