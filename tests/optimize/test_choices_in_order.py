@@ -1,12 +1,18 @@
 """Choices for goals one after the other, each keeping what was reached before it: what trying every set comes to."""
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
+from optimizer import certified_choice
+from optimizer.choice_rounds import Choice, Ended, in_rounds
 from optimizer.discrete import branch, search
+from optimizer.optimize import optimize
+from optimizer.program.verdict import CONTRADICTED
 from schemas.answers import OptimizeAnswer
+from schemas.requests import OptimizeRequest
 from tests.optimize.choices import (
     DEGREE,
     FAST,
@@ -192,3 +198,17 @@ def test_the_time_ends_it_before_the_last_goal() -> None:
     (kept,) = found.certificate.goals
     assert kept.lower_bound is not None
     assert kept.lower_bound <= kept.value <= kept.limit
+
+
+def test_a_goal_below_its_bound_contradicts(monkeypatch: pytest.MonkeyPatch) -> None:
+    def above(*given: Any) -> tuple[Choice, Ended]:
+        picked, found = in_rounds(*given)
+        # of the first goal only: that of the last is judged with the answer
+        first = len(given[0].goals) == 1
+        return picked, replace(found, lower_bound=2.0 * found.lower_bound) if first else found
+
+    monkeypatch.setattr(certified_choice, "in_rounds", above)
+    answer = optimize(OptimizeRequest.model_validate(asked(twin(), **in_order("bearings", "external"))))
+    assert (answer.status, answer.status_reason) == ("inaccurate", CONTRADICTED)
+    assert answer.certificate is not None
+    assert [goal.lower_bound for goal in answer.certificate.goals] == [None]
