@@ -15,9 +15,9 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.mechanics.plates import Plates
 from optimizer.plate_pieces import pieces, tangents
-from optimizer.program.alike import united
 from optimizer.program.compiled import suits_kernel, unproven
 from optimizer.program.statement import Statement
+from optimizer.program.united import united
 
 #: Newton's steps, and how often one is halved
 _STEPS, _HALVES = 10, 6

@@ -6,10 +6,10 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.discrete.options import Options
-from optimizer.program.alike import united
 from optimizer.program.compiled import suits_kernel
 from optimizer.program.limits import Limits
 from optimizer.program.statement import Statement
+from optimizer.program.united import united
 
 #: share of its size that a relaxed slot without room is given, which the kernel needs
 _SPECK = 1e-9

@@ -5,17 +5,12 @@ t_k conj(w) where it is mirrored: what may be is a space over the real numbers, 
 mean over every unit (docs/mathematics.md section 5).
 """
 
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-
-if TYPE_CHECKING:
-    from optimizer.program.limits import Limits
-    from optimizer.program.norms import Norms
-    from optimizer.program.statement import Statement
 
 
 @dataclass(frozen=True)
@@ -102,31 +97,3 @@ class Alike:
         leader = start[np.array(self.leader, dtype=int)[web]] + np.arange(web.size) - start[web]
         mirrored = np.array(self.mirrored)[web].tolist()
         return Alike(self.turn[..., web], self.ahead_deg[..., web], tuple(leader.tolist()), tuple(mirrored))
-
-
-def united(statement: "Statement", alike: Alike) -> "Statement":
-    """The program whose unknowns are n times what the first of each n alike webs carries; none is mirrored.
-
-    A term sees the mean of the turned influences, and an unknown weighs what all its webs weigh together.
-    """
-
-    def mean(norms: "Norms") -> "Norms":
-        turned = alike.summed(norms.influence * alike.turn[..., None, :]) / alike.count
-        # cranks in one plane leave it real
-        return replace(norms, influence=turned.real.copy() if not np.any(turned.imag) else turned)
-
-    ceilings = replace(statement.ceilings, norms=mean(statement.ceilings.norms))
-    limits = of_units(statement.limits, alike)
-    return replace(statement, norms=mean(statement.norms), ceilings=ceilings, limits=limits)
-
-
-def of_units(limits: "Limits", alike: Alike) -> "Limits":
-    """Limits of the first webs, each with the largest mass of its whole unit."""
-    names = ("radius", "free", "centre", "half_angle_cos", "half_angle_sin")
-    first = {name: getattr(limits, name)[..., alike.first] for name in names}
-    return replace(limits, **first, max_mass=limits.max_mass[..., alike.first] * alike.count, alike=None)
-
-
-def apart(of_units: Complex, alike: Alike) -> Complex:
-    """Unbalances of the webs (..., K) of unknowns of :func:`united` (..., U)."""
-    return alike.carried(of_units / alike.count)

@@ -169,7 +169,7 @@ def _in_loops(statement: Statement, multipliers: Multipliers, target: Real | Non
         return in_full()
     if target is not None and target.shape != flat.leading:
         return in_full()
-    bound, dear = flat.bounds(multipliers, target)
+    bound, dear = flat.bounds(multipliers.term, multipliers.row, multipliers.ceiling, target)
     return np.where(dear, in_full(), bound) if dear.any() else bound
 
 

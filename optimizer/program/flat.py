@@ -5,15 +5,13 @@ An answer asks for a handful of numbers many times: a loop of simple operations 
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optimizer.arrays import Complex, Real, in_order
-
-if TYPE_CHECKING:
-    from optimizer.program.certificate import Multipliers
-    from optimizer.program.statement import Statement
+from optimizer.program.ceilings import Ceilings
+from optimizer.program.limits import Limits
+from optimizer.program.norms import Norms
 
 
 @dataclass(frozen=True)
@@ -64,25 +62,26 @@ class Flat:
         )
         return found.reshape(4, *leading)
 
-    def bounds(self, multipliers: "Multipliers", target: Real | None = None) -> tuple[Real, np.ndarray]:
+    def bounds(self, term: Complex, row: Real, ceiling: Complex, target: Real | None = None) -> tuple[Real, np.ndarray]:
         """Lower bounds (..., *leading) on the objective, or on the mass, and which call for finer numbers.
 
         Parameters
         ----------
+        term, row, ceiling : the multipliers that prove them.
         target : leading axes; largest objective that counts, for a bound on the mass.
         """
         from optimizer.program.kernel.bounds import bounds
 
-        leading = multipliers.row.shape[:-1]
+        leading = row.shape[:-1]
         many, (rows, terms, webs) = math.prod(leading), (self.floor.shape[1], *self.influence.shape[1:])
         found, dear = np.empty(many), np.empty(many, np.bool_)
         bounds(
             0.0 if target is None else 1.0,
             self.budget if target is None else in_order(target).reshape(-1),
             self.cap if target is None else self.counted,
-            in_order(multipliers.term).reshape(many, -1),
-            in_order(multipliers.row).reshape(many, -1),
-            in_order(multipliers.ceiling).reshape(many, terms - self.owner.size),
+            in_order(term).reshape(many, -1),
+            in_order(row).reshape(many, -1),
+            in_order(ceiling).reshape(many, terms - self.owner.size),
             self.owner,
             self.constant,
             self.influence,
@@ -155,11 +154,23 @@ class Flat:
         )
 
 
-def flat(statement: "Statement") -> Flat | None:
-    """Programs as loops take them; None where some are not of the kind that they are for."""
-    norms, ceilings, limits = statement.norms, statement.ceilings, statement.limits
-    influence, leading = statement.every_influence, statement.floor.shape[:-1]
-    if statement.group[-1] > 0 or limits.alike is not None or influence.dtype != float or not influence.size:
+def flat(
+    norms: Norms,
+    row: np.ndarray,
+    floor: Real,
+    ceilings: Ceilings,
+    limits: Limits,
+    constant: Complex,
+    influence: Real | Complex,
+) -> Flat | None:
+    """Programs of one group as loops take them; None where some are not of the kind that they are for.
+
+    Parameters
+    ----------
+    constant, influence : (..., J + I) and (..., J + I, K) of the terms of the objective, then of the ceilings.
+    """
+    leading = floor.shape[:-1]
+    if limits.alike is not None or influence.dtype != float or not influence.size:
         return None
     if norms.scatter or ceilings.norms.scatter or any(norms.scalar) or any(ceilings.norms.scalar):
         return None
@@ -173,10 +184,10 @@ def flat(statement: "Statement") -> Flat | None:
 
     return Flat(
         leading=leading,
-        owner=in_order(statement.row),
-        constant=of_programs(statement.every_constant),
+        owner=in_order(row),
+        constant=of_programs(constant),
         influence=in_order(influence).reshape(many, -1, webs),
-        floor=of_programs(statement.floor),
+        floor=of_programs(floor),
         cap=of_programs(ceilings.cap),
         counted=of_programs(kept),
         size=of_programs(ceilings.size),

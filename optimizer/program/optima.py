@@ -7,7 +7,6 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from optimizer.program.alike import apart, united
 from optimizer.program.cascade import cascade
 from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.compiled import both_stages, suits_kernel
@@ -25,6 +24,7 @@ from optimizer.program.solution import (
     joined,
 )
 from optimizer.program.statement import Statement
+from optimizer.program.united import apart, united
 from optimizer.program.verdict import yardstick
 
 

@@ -11,13 +11,13 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
-from optimizer.program.alike import united
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.limits import Limits
 from optimizer.program.norms import scalars
 from optimizer.program.reference.solver import Solver
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Statement
+from optimizer.program.united import united
 
 #: a limit this many times the unbalance that cancels everything is as far away as none
 _FAR = 1e3

@@ -84,7 +84,10 @@ class Statement:
     @cached_property
     def flat(self) -> Flat | None:
         """The same for compiled loops; None where those are not for such programs."""
-        return flat(self)
+        if self.group[-1] > 0:
+            return None
+        terms = self.every_constant, self.every_influence
+        return flat(self.norms, self.row, self.floor, self.ceilings, self.limits, *terms)
 
     def objective(self, u: Complex) -> Real:
         """P(u), exact (..., )."""

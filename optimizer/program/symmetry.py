@@ -9,8 +9,8 @@ the mass (docs/mathematics.md section 9).
 import numpy as np
 
 from optimizer.arrays import Complex, plain
-from optimizer.program.alike import apart, united
 from optimizer.program.statement import Statement
+from optimizer.program.united import apart, united
 
 
 def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None) -> Complex:

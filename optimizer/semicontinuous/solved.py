@@ -6,7 +6,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.arrays import Complex, Real
-from optimizer.program.alike import Alike, apart, united
+from optimizer.program.alike import Alike
 from optimizer.program.cascade import cascade
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, nothing_proven
@@ -15,6 +15,7 @@ from optimizer.program.edge import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.single import Asked, interior_point
 from optimizer.program.statement import Statement
+from optimizer.program.united import apart, united
 
 #: of an objective at rest: any closer takes a cone program many attempts, and bounds are made of multipliers anyway
 _CLOSE = 1e-7

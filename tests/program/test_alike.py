@@ -7,11 +7,12 @@ from hypothesis import strategies as st
 
 from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
-from optimizer.program.alike import Alike, apart, united
+from optimizer.program.alike import Alike
 from optimizer.program.ceilings import Ceilings
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 from optimizer.program.statement import Names, Statement, Term
+from optimizer.program.united import apart, united
 
 WEBS = 6
 
