@@ -12,12 +12,12 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.balance_shafts import chosen
-from optimizer.certified_discrete import certified_discrete
-from optimizer.certified_fitted import certified_fitted
+from optimizer.certified_one import certified_one
 from optimizer.certified_robust import certified_any_mass, with_worst_case
 from optimizer.certified_turn import told
-from optimizer.choice_rounds import Choice, Ended, in_rounds
-from optimizer.choice_ways import way_of
+from optimizer.choice_rounds import Ended, in_rounds
+from optimizer.choices.construction import feasible_set
+from optimizer.choices.feasible_set import Choice
 from optimizer.discrete.options import EQUAL
 from optimizer.goals import Goals
 from optimizer.mechanics.layout import stacked
@@ -25,10 +25,10 @@ from optimizer.out_of_reach import out_of_reach, unreachable
 from optimizer.program.cuts import Found, Reached, Unkept, next_goal, over_turn
 from optimizer.program.over_turn import OverTurn
 from optimizer.program.reference.solver import Solver
-from optimizer.proven_turn import CertifiedTurn
 from optimizer.robust import Robust
 from optimizer.scene import Prepared
 from optimizer.searched import continuous, told_ample, told_status
+from optimizer.solve.outcome import Outcome
 from schemas.answers import Certificate, GoalReached
 from schemas.requests import OptimizeRequest
 
@@ -40,7 +40,7 @@ _EARLIER = (
 )
 
 
-def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> CertifiedTurn:
+def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:
     """Of what can be chosen the best, over the turn and in the worst of all scenarios.
 
     Parameters
@@ -135,10 +135,11 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
             best = next_goal(so_far, reached, stages[-1].picked.unbalance, gap, robust.left_s)
         size, later = float(program.units[n]), len(program.goals) - n - 1
         kept_back = robust.left_s * later / (later + 1)
-        way = way_of(request, best, size, solver)
-        closed, known = request.accuracy.relative_gap * size, stages[-1].picked if stages else None
+        choices, asked_gap = feasible_set(request, best.limits, solver), request.accuracy.relative_gap
+        assert choices is not None  # else there would be nothing to search
+        closed, known = asked_gap * size, stages[-1].picked if stages else None
         left_s = _left(robust, kept_back)
-        picked, found = in_rounds(so_far, best, way, closed, EQUAL * size, left_s, known)
+        picked, found = in_rounds(so_far, best, choices, asked_gap, size, left_s, known)
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
         left = value - found.lower_bound
         contradicted = found.kept and left < -EQUAL * size
@@ -157,9 +158,7 @@ def _left(robust: Robust, kept_back: float) -> Callable[[], float]:
     return lambda: max(robust.left_s - kept_back, 0.0)
 
 
-def _without_ceilings(
-    request: OptimizeRequest, robust: Robust, picked: Choice, found: Ended, in_full: bool
-) -> CertifiedTurn:
+def _without_ceilings(request: OptimizeRequest, robust: Robust, picked: Choice, found: Ended, in_full: bool) -> Outcome:
     """What is told where no choice was found that keeps the ceilings: nothing is proven of what goals come to in their
     order."""
     asked, best = robust.solved()
@@ -202,7 +201,6 @@ def _nominal_choice(
     if alone.objective.over_the_turn:
         of_turn = certified_choice(alone, scene, solver, in_full=False)
         return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"
-    certify = certified_discrete if request.machine.discrete else certified_fitted
-    best = certify(alone, scene.responses, np.array([scene.omega_squared]), solver)
+    _, best = certified_one(alone, scene.responses, np.array([scene.omega_squared]), solver)
     status = str(best.status[0])
     return best.unbalance[0] if status == "optimal" else None, status == "inaccurate"

@@ -7,9 +7,8 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.choice_rounds import in_rounds
-from optimizer.choice_ways import way_of
-from optimizer.discrete.options import EQUAL
-from optimizer.discrete.search import search
+from optimizer.choices.construction import feasible_set
+from optimizer.choices.feasible_set import Subproblem
 from optimizer.formulate import formulate
 from optimizer.program.cuts import METHOD, Unkept, over_turn
 from optimizer.program.deciding import Group
@@ -24,7 +23,6 @@ from optimizer.response import Response
 from optimizer.robust import Robust
 from optimizer.scene import Prepared
 from optimizer.searched import continuous, ended, told_ample
-from optimizer.stock import stock
 from schemas.requests import OptimizeRequest
 
 #: gap of the least mass of any masses at any angles, which the search begins with
@@ -58,17 +56,19 @@ def certified_light(
     OutOfRange
         where the options of a web cannot be told.
     """
-    held, gap = stock(request.machine), request.accuracy.relative_gap
+    gap = request.accuracy.relative_gap
     program = within_reach(formulate(request.machine, request.objective, responses, omega_squared), solver)
     weighed = _weighed(program.chosen(0))
+    choices = feasible_set(request, weighed.limits, solver)
+    assert choices is not None  # else there would be nothing to search
     best = optima(weighed.alone(), _SHARP, False, solver)
     if best.unreachable[0]:
         nothing = np.zeros(weighed.limits.radius.shape)
         return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, str(best.method[0]))
     least = float(best.lower_bound[0])
     size = max(float(best.objective[0]), least)
-    found = search(weighed, held.options, best.unbalance[0], least, gap, size, request.accuracy.time_limit_s)
-    mass, angle = held.fitted(found.chosen)
+    subproblem = Subproblem(weighed, best.unbalance[:1], least, gap, size, request.accuracy.time_limit_s)
+    mass, angle, _, found = choices.best(subproblem)
     bound = max(least, found.lower_bound)
     status = "optimal" if found.kept and float(np.sum(mass)) - bound <= gap * float(np.sum(mass)) else "inaccurate"
     if not found.kept and bound == np.inf:
@@ -106,8 +106,9 @@ def certified_light_over_turn(request: OptimizeRequest, scene: Prepared, solver:
         nothing = np.zeros(program.limits.radius.shape)
         return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, METHOD)
     size = max(best.point.mass, best.proof.bound) or 1.0
-    way = way_of(request, best, size, solver)
-    picked, found = in_rounds(weighed, best, way, gap * size, EQUAL * size, lambda: robust.left_s)
+    choices = feasible_set(request, best.limits, solver)
+    assert choices is not None  # else there would be nothing to search
+    picked, found = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
     value = float(np.sum(picked.mass))
     status = "optimal" if found.kept and value - found.lower_bound <= gap * value else "inaccurate"
     if not found.kept and found.lower_bound == np.inf:

@@ -16,9 +16,9 @@ from optimizer.out_of_reach import out_of_reach
 from optimizer.program.brackets import Brackets
 from optimizer.program.cut import Quantity
 from optimizer.program.cuts import Found, Unkept, over_turn
-from optimizer.proven_turn import CertifiedTurn
 from optimizer.robust import Machine, Measure, Robust
 from optimizer.scene import Prepared
+from optimizer.solve.outcome import Outcome
 from schemas.answers import Certificate
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
@@ -29,7 +29,7 @@ _CLOSE, _ABOUT = 1e-10, 1e-2
 _NO_PRICE = " The time limit left the nominal optimum in price_of_robustness open."
 
 
-def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> CertifiedTurn:
+def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:
     """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
 
     Parameters
@@ -44,7 +44,7 @@ def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool 
     return certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
 
 
-def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn:
+def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
     """Counterweights that are optimal in the worst of all cases, each as far off as it may be.
 
     Raises
@@ -61,7 +61,7 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> CertifiedTurn
     return with_worst_case(robust, told, *_nominal_optimum(robust))
 
 
-def with_worst_case(robust: Robust, told: CertifiedTurn, nominal: Complex | None, late: bool) -> CertifiedTurn:
+def with_worst_case(robust: Robust, told: Outcome, nominal: Complex | None, late: bool) -> Outcome:
     """What is told of counterweights, with what the worst case costs.
 
     Parameters

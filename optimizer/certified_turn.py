@@ -23,8 +23,8 @@ from optimizer.program.cut_proof import Proof
 from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
-from optimizer.proven_turn import CertifiedTurn, multipliers_of
 from optimizer.scene import Prepared
+from optimizer.solve.outcome import Outcome, multipliers_of
 from schemas.answers import Certificate, GoalReached
 from schemas.limits import MachineLimit, ShadowPrice
 from schemas.proof import Multipliers
@@ -36,7 +36,7 @@ _CLOSE = 1e-10
 _CLOSER = 1e-12
 
 
-def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> CertifiedTurn:
+def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:
     """Counterweights that are optimal over the whole turn.
 
     Parameters
@@ -60,9 +60,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = Tr
     return fitted(request, scene, asked, found, in_full)
 
 
-def fitted(
-    request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, in_full: bool = True
-) -> CertifiedTurn:
+def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, in_full: bool = True) -> Outcome:
     """What is told of counterweights that were found.
 
     Parameters
@@ -83,7 +81,7 @@ def told(
     angle: Real,
     of_choices: float | None = None,
     in_full: bool = True,
-) -> CertifiedTurn:
+) -> Outcome:
     """The same of counterweights with masses [kg] and angles [deg] (K,).
 
     Parameters
@@ -107,7 +105,7 @@ def told(
     if in_full and of_choices is None and not (several or np.isnan(gap) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
         prices = prices_over_turn(posed(request), asked, found.proof, u, shown.all_of_them, touched, gap)
-    return CertifiedTurn(
+    return Outcome(
         str(judged.status),
         f"{ended}{judged.reason}",
         shown.on_crank,

@@ -7,11 +7,12 @@ cuts are known is not found again for less than it comes to, so that rounds end 
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.arrays import Complex
+from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult, Subproblem
+from optimizer.discrete.options import EQUAL
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cut import Cut, Pool
 from optimizer.program.cuts import Found
@@ -19,8 +20,6 @@ from optimizer.program.discs import in_discs
 from optimizer.program.levels import under_levels
 from optimizer.program.one_group import FEW, MANY, one_group
 from optimizer.program.over_turn import OverTurn
-from optimizer.program.statement import Statement
-from optimizer.searched import Found as Searched
 
 #: width of the brackets by which choices are told apart, as a share of goals and ceilings
 _CLOSE = 1e-10
@@ -38,26 +37,6 @@ _HIGH = 0.9
 _STEEP, _SHEER = 1e3, 1e9
 
 
-class Choice(NamedTuple):
-    """What a search has chosen."""
-
-    mass: Real  # (K,) kg
-    angle: Real  # (K,) degrees
-    unbalance: Complex  # (K,) kg m
-    found: Searched
-
-
-class Sought(NamedTuple):
-    """What is asked of a search."""
-
-    statement: Statement  # whose best choice is wanted
-    below: Statement  # of fewer rows in one group, nowhere above it, for the batch kernel
-    points: Complex  # (M, K) kg m, the optimum of any masses, then choices that are known
-    at_least: float  # what the objective is known to come to
-    gap: float  # in units of the objective
-    time_limit_s: float
-
-
 @dataclass(frozen=True)
 class Ended:
     """Where the rounds ended, as a search does, by what is true over the turn."""
@@ -72,20 +51,12 @@ class Ended:
     cuts: int
 
 
-class Way(NamedTuple):
-    """How choices are searched."""
-
-    search: Callable[[Sought], Choice]
-    solved: bool  # programs are solved for them, in place of judging those that there are
-    reach: Real  # (K,) kg m, the largest unbalance of every web
-
-
 def in_rounds(
     program: OverTurn,
     best: Found,
-    way: Way,
-    gap: float,
-    resolution: float,
+    choices: FeasibleSet,
+    relative_gap: float,
+    size: float,
     left_s: Callable[[], float],
     known: Choice | None = None,
 ) -> tuple[Choice, Ended]:
@@ -95,11 +66,12 @@ def in_rounds(
     ----------
     program : whose last goal is to be small.
     best : its optimum of any masses at any angles, with the most that the goals before it may come to.
-    gap : that is asked, in units of the goal.
-    resolution : objectives that differ by no more are equal.
+    relative_gap : that is asked.
+    size : what gaps are relative to, in units of the goal.
     left_s : what is left of the time limit.
     known : a choice that keeps ceilings and goals; there has to be one where goals come first.
     """
+    gap, resolution = relative_gap * size, EQUAL * size
     pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
     most = np.array([goal.most for goal in best.goals[:-1]])
     kinds = program.goal_of_case
@@ -111,7 +83,7 @@ def in_rounds(
         _learn(program, pool, point)
     at_rest, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
 
-    def ended(found: Searched, proven: bool, early: str | None) -> Ended:
+    def ended(found: SearchResult, proven: bool, early: str | None) -> Ended:
         lower = np.inf if found.lower_bound == np.inf else bound
         return Ended(chosen is not None, lower, nodes, found.method, proven, early, rounds, pool.count())
 
@@ -119,18 +91,19 @@ def in_rounds(
         rounds += 1
         posed = replace(program.statement(pool.cuts), limits=best.limits)
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
-        loose = in_discs(under_levels(posed, program, most, bound, _STEEP), way.reach, inside=False)
+        loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
         below = one_group(loose, case_of, recent, FEW, kinds)
-        if way.solved:
+        if choices.solved:
             # what comes to less than is known keeps the goals that come first
-            whole = in_discs(under_levels(posed, program, most, least, _STEEP), way.reach, inside=True)
+            whole = in_discs(under_levels(posed, program, most, least, _STEEP), choices.reach, inside=True)
             whole = one_group(whole, case_of, recent, FEW, kinds)
         else:
             whole = under_levels(posed, program, most, bound, _SHEER)
             # a statement is of one sum
             whole = one_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
         wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, at_rest) - bound))
-        last = way.search(Sought(whole, below, points, bound, wanted, left_s() * (1.0 if stuck else _TURN)))
+        left = left_s() * (1.0 if stuck else _TURN)
+        last = choices.best(Subproblem(whole, points, bound, wanted / size, size, left, below))
         found, nodes = last.found, nodes + last.found.nodes
         if found.lower_bound == np.inf:
             # none keeps the cuts of the ceilings

@@ -17,8 +17,8 @@ from optimizer.program.limits import Limits
 from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
-from optimizer.proven_turn import CertifiedTurn, multipliers_of
 from optimizer.scene import Prepared
+from optimizer.solve.outcome import Outcome, multipliers_of
 from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.proof import InfeasibilityMultipliers
 from schemas.requests import OptimizeRequest
@@ -31,7 +31,7 @@ _TAKES_PART = 1e-6
 _MOST_AT_FAULT = 6
 
 
-def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> CertifiedTurn:
+def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> Outcome:
     """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
     mass, angle = masses_and_angles(posed(request).machine, found.closest.unbalance, found.limits)
     return unreachable(request, scene, asked, chosen(request, mass, angle), found.limits, found)
@@ -44,7 +44,7 @@ def unreachable(
     shown: Fitted,
     within: Limits,
     found: Unkept | None,
-) -> CertifiedTurn:
+) -> Outcome:
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
     machine, square = posed(request).machine, scene.omega_squared
     alone = asked.program.changed(ceilings=(), limited=())
@@ -117,7 +117,7 @@ def unreachable(
         ),
     }
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
-    return CertifiedTurn("infeasible", INFEASIBLE, None, None, None, spent, fields)
+    return Outcome("infeasible", INFEASIBLE, None, None, None, spent, fields)
 
 
 def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

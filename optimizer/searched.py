@@ -1,12 +1,12 @@
 """What may be claimed of counterweights that a search has found, beside what is proven of any mass at any angle."""
 
 from dataclasses import replace
-from typing import Protocol
 
 import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.certified import Certified
+from optimizer.choices.feasible_set import SearchResult
 from optimizer.discrete.search import EXHAUSTED
 from optimizer.figures.counterweights import unbalance
 from optimizer.program.verdict import claim, verdict
@@ -39,37 +39,7 @@ _NONE_FOUND = (
 )
 
 
-class Found(Protocol):
-    """Where a search ended."""
-
-    @property
-    def kept(self) -> bool:
-        """Whether what was found keeps the ceilings."""
-        ...
-
-    @property
-    def lower_bound(self) -> float:
-        """Of all that may be chosen, over omega^2; inf where it is proven that nothing may."""
-        ...
-
-    @property
-    def nodes(self) -> int: ...
-
-    @property
-    def method(self) -> str: ...
-
-    @property
-    def proven(self) -> bool:
-        """Whether all equals were compared as well."""
-        ...
-
-    @property
-    def ended(self) -> str | None:
-        """ "time", "size" or "cuts" where that ended it before the asked gap."""
-        ...
-
-
-def ended(found: Found | None) -> str:
+def ended(found: SearchResult | None) -> str:
     """What is said of the lightest set that keeps the ceilings; None: none of any masses does."""
     if found is None:
         return _NONE.format(proof="none of any masses does")
@@ -86,7 +56,7 @@ def continuous(request: OptimizeRequest) -> OptimizeRequest:
     return request.model_copy(update={"objective": goal, "accuracy": Accuracy()})
 
 
-def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_gap: float) -> Certified:
+def searched(best: Certified, found: SearchResult, mass: Real, angle: Real, relative_gap: float) -> Certified:
     """What was found, and what may be claimed of it.
 
     Parameters
@@ -127,7 +97,7 @@ def searched(best: Certified, found: Found, mass: Real, angle: Real, relative_ga
     )
 
 
-def told_status(found: Found, status: str, reason: str, proven: bool) -> tuple[str, str]:
+def told_status(found: SearchResult, status: str, reason: str, proven: bool) -> tuple[str, str]:
     """What may be said of a set, from what the search and the verdict say."""
     if not proven:
         return status, reason
@@ -142,7 +112,7 @@ def told_status(found: Found, status: str, reason: str, proven: bool) -> tuple[s
     return status, reason
 
 
-def told_ample(reason: str, found: Found, of_any: float) -> str:
+def told_ample(reason: str, found: SearchResult, of_any: float) -> str:
     """The same with what is said of a choice of which nothing is proven but what holds for any masses at any angles.
 
     Parameters

@@ -8,8 +8,8 @@ import numpy as np
 
 from optimizer.arrays import Real
 from optimizer.certified_choice import certified_choice
-from optimizer.certified_discrete import certified_discrete
 from optimizer.certified_light import certified_light, certified_light_over_turn
+from optimizer.certified_one import certified_one
 from optimizer.errors import MissingInput
 from optimizer.figures.counterweights import counterweights, unbalance
 from optimizer.fixed import beside, fixed_masses
@@ -136,7 +136,7 @@ def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Bes
     """The smallest objective, as a single answer has it."""
     if request.objective.over_the_turn:
         return _smallest_over_turn(request, scene, solver)
-    best = certified_discrete(request, scene.responses, np.array([scene.omega_squared]), solver)
+    _, best = certified_one(request, scene.responses, np.array([scene.omega_squared]), solver)
     mass, angle = beside(request.machine, best.mass_kg[0], best.angle_deg[0])
     figures = {name: column[0] for name, column in best.certificate.items()}
     return _Best(

@@ -7,12 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from optimizer.arrays import Real
+from optimizer.certified_first import finite_or_null
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.figures.first_order import first_order, floor
 from optimizer.figures.limits import touched_limits
 from optimizer.figures.proof import implied_max_mass, named, physical
 from optimizer.fixed import beside, fixed_masses
-from optimizer.optimize import finite_or_null, optimize
+from optimizer.optimize import optimize
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
 from optimizer.pareto.counts import count_front

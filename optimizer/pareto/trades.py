@@ -10,10 +10,11 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.certified_first import finite_or_null
 from optimizer.certified_turn import whole_turn_of
 from optimizer.errors import MissingInput
 from optimizer.figures.counterweights import counterweights, masses_and_angles, unbalance
-from optimizer.optimize import finite_or_null, optimize
+from optimizer.optimize import optimize
 from optimizer.pareto.measures import Measures, alone, measures, unit_of
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cuts import METHOD, Found, Unkept, over_turn

@@ -6,11 +6,11 @@ from typing import Any
 import numpy as np
 
 from optimizer.arrays import Complex
-from optimizer.certified_over_turn import certified_over_turn
 from optimizer.outputs import prepare
 from optimizer.program.cuts import METHOD
 from optimizer.program.reference.solver import Solver
-from optimizer.proven_turn import CertifiedTurn
+from optimizer.solve.outcome import Outcome
+from optimizer.solve.solve import solve
 from schemas.answers import Certificate, GoalReached
 from schemas.infeasibility import Infeasibility
 from schemas.proof import DesignMultipliers
@@ -30,7 +30,7 @@ def optimal_over_turn(
     """
     alone = [prepare(one.model_copy(update={"outputs": ("residual",)})) for one in requests]
     # a row has no column for prices and sensitivities
-    found = [certified_over_turn(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
+    found = [solve(one, scene, solver, in_full=False) for one, scene in zip(requests, alone, strict=True)]
     rows = [_row(one, each, multipliers) for one, each in zip(requests, found, strict=True)]
     columns = {
         name: np.array([row[name] for row in rows], dtype=object if isinstance(first, str | None) else float)
@@ -40,7 +40,7 @@ def optimal_over_turn(
     return columns, np.array([nothing if each.unbalance is None else each.unbalance for each in found])
 
 
-def _row(request: OptimizeRequest, best: CertifiedTurn, multipliers: bool) -> dict[str, str | float | None]:
+def _row(request: OptimizeRequest, best: Outcome, multipliers: bool) -> dict[str, str | float | None]:
     """One design by the names of its columns; what is not there is nan."""
     certificate, total = best.fields["certificate"], best.fields["total_mass_kg"]
     row: dict[str, str | float | None] = {

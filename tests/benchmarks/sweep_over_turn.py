@@ -30,7 +30,7 @@ _LACKING = ("loads", "pin_loads")
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
     "design as a request, mechanics": ("optimizer.sweep.over_turn:prepare",),
-    "counterweights, proof": ("optimizer.sweep.over_turn:certified_over_turn",),
+    "counterweights, proof": ("optimizer.sweep.over_turn:solve",),
     "columns of outputs": ("optimizer.sweep.rows:columns",),
 }
 

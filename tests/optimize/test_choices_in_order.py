@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 
 from optimizer import certified_choice
-from optimizer.choice_rounds import Choice, Ended, in_rounds
+from optimizer.choice_rounds import Ended, in_rounds
+from optimizer.choices.feasible_set import Choice
 from optimizer.discrete import branch, search
 from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED

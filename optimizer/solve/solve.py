@@ -1,22 +1,20 @@
-"""Certified counterweights of one request that asks for more than the first order of the machine as it is given: the
-whole turn, or the worst of several cases; however they may be chosen."""
+"""Certified counterweights of one request, whatever it asks for and however they may be chosen."""
 
 from optimizer.certified_choice import certified_choice
+from optimizer.certified_first import certified_first
 from optimizer.certified_robust import certified_any_mass
 from optimizer.program.reference.solver import Solver
-from optimizer.proven_turn import CertifiedTurn
 from optimizer.scene import Prepared
+from optimizer.solve.outcome import Outcome
 from schemas.requests import OptimizeRequest
 
 
-def certified_over_turn(
-    request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True
-) -> CertifiedTurn:
-    """Chosen from a catalogue, at least so heavy, or of any mass.
+def solve(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:
+    """The first order of the machine as it is given, or the whole turn, or the worst of several cases.
 
     Parameters
     ----------
-    in_full : with prices of the limits and what misplaced counterweights may cost.
+    in_full : over the turn, with prices of the limits and what misplaced counterweights may cost.
 
     Raises
     ------
@@ -25,6 +23,8 @@ def certified_over_turn(
     MissingInput
         if a machine lacks what the objective needs.
     """
+    if not (request.objective.over_the_turn or request.robust):
+        return certified_first(request, scene, solver)
     if request.machine.discrete or request.machine.semicontinuous:
         return certified_choice(request, scene, solver, in_full)
     return certified_any_mass(request, scene, in_full)

@@ -1,15 +1,16 @@
-"""Counterweights over the turn with what is proven of them, for answers and for rows of sweeps."""
+"""Counterweights that were chosen with what is proven of them, whatever was asked: for answers and rows of sweeps."""
 
 from dataclasses import dataclass
 
 from optimizer.arrays import Complex
 from optimizer.figures.proof import named, physical
 from optimizer.program.cuts import Found
+from optimizer.scene import Prepared
 from schemas.proof import BoundMultipliers
 
 
 @dataclass(frozen=True)
-class CertifiedTurn:
+class Outcome:
     """Counterweights as they are fitted, and the fields of the answer that tell what is proven of them."""
 
     status: str
@@ -19,6 +20,8 @@ class CertifiedTurn:
     shafts: Complex | None  # (S,) kg m, of the balance shafts; None where there are none to show
     certify_s: float  # time spent on bounds
     fields: dict[str, object]
+    cut: Prepared | None = None  # the scene with the radii of what is cut from plates; None where nothing is
+    report_s: float = 0.0  # of the time, that spent on the fields
 
 
 def multipliers_of(found: Found, omega_squared: float) -> BoundMultipliers:

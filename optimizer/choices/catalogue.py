@@ -1,0 +1,47 @@
+"""Finitely many options for every web, from a machine's catalogue, holes and steps of angle."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.choices.feasible_set import Choice, Subproblem
+from optimizer.discrete.search import Known, search
+from optimizer.figures.counterweights import unbalance
+from optimizer.program.statement import Statement
+from optimizer.stock import Stock
+
+
+@dataclass(frozen=True)
+class Catalogue:
+    """Every web takes one of its options, the first of which is nothing."""
+
+    stock: Stock
+    radius: Real  # (K,) m
+
+    solved = False
+
+    @property
+    def reach(self) -> Real:
+        return np.max(np.abs(self.stock.options.on_webs), axis=-1)
+
+    def holds(self, mass_kg: Real) -> bool:
+        return False
+
+    def posed(self, statement: Statement) -> Statement:
+        return statement
+
+    def best(self, subproblem: Subproblem) -> Choice:
+        relaxed, *known = subproblem.points
+        found = search(
+            subproblem.statement,
+            self.stock.options,
+            relaxed,
+            subproblem.at_least,
+            subproblem.relative_gap,
+            subproblem.yardstick,
+            subproblem.time_limit_s,
+            Known(known, subproblem.below),
+        )
+        mass, angle = self.stock.fitted(found.chosen)
+        return Choice(mass, angle, unbalance(mass, angle, self.radius), found)

@@ -1,0 +1,83 @@
+"""What a set that is not convex answers: the best choice for a statement, and what is proven of all choices."""
+
+from typing import NamedTuple, Protocol
+
+from optimizer.arrays import Complex, Real
+from optimizer.program.statement import Statement
+
+
+class Subproblem(NamedTuple):
+    """One program whose best choice is wanted, and how closely and how long a search may look for it."""
+
+    statement: Statement  # one program, no leading axes
+    points: Complex  # (M, K) kg m, its optimum of any masses, then choices that are known
+    at_least: float  # what the objective is known to come to
+    relative_gap: float  # in units of the yardstick
+    yardstick: float  # what gaps are relative to, in units of the objective
+    time_limit_s: float
+    below: Statement | None = None  # of few rows in one group, nowhere above it, for the batch kernel; None is that one
+
+
+class SearchResult(Protocol):
+    """Where a search ended."""
+
+    @property
+    def kept(self) -> bool:
+        """Whether what was found keeps the ceilings."""
+        ...
+
+    @property
+    def lower_bound(self) -> float:
+        """Of all that may be chosen, over omega^2; inf where it is proven that nothing may."""
+        ...
+
+    @property
+    def nodes(self) -> int: ...
+
+    @property
+    def method(self) -> str: ...
+
+    @property
+    def proven(self) -> bool:
+        """Whether all equals were compared as well."""
+        ...
+
+    @property
+    def ended(self) -> str | None:
+        """ "time", "size" or "cuts" where that ended it before the asked gap."""
+        ...
+
+
+class Choice(NamedTuple):
+    """What a search has chosen."""
+
+    mass: Real  # (K,) kg
+    angle: Real  # (K,) degrees
+    unbalance: Complex  # (K,) kg m
+    found: SearchResult
+
+
+class FeasibleSet(Protocol):
+    """A set of counterweights."""
+
+    @property
+    def solved(self) -> bool:
+        """Whether programs are solved for its choices, in place of judging those that there are."""
+        ...
+
+    @property
+    def reach(self) -> Real:
+        """The largest unbalance of every web (K,), kg m."""
+        ...
+
+    def holds(self, mass_kg: Real) -> bool:
+        """Whether counterweights of any mass (K,) happen to be choices, so that nothing is to be searched."""
+        ...
+
+    def posed(self, statement: Statement) -> Statement:
+        """A program of any masses as it is searched, with limits that hold every choice."""
+        ...
+
+    def best(self, subproblem: Subproblem) -> Choice:
+        """The best choice, and what is proven of all."""
+        ...

@@ -1,0 +1,53 @@
+"""Counterweights that are at least so heavy where they are fitted, or not there: semicontinuous masses."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.arrays import Real
+from optimizer.choices.feasible_set import Choice, Subproblem
+from optimizer.figures.counterweights import masses_and_angles, unbalance
+from optimizer.program.limits import Limits
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.program.statement import Statement
+from optimizer.semicontinuous.search import Asked, search
+from schemas.machine import Machine
+
+#: of a mass, relative: what is this near to the least is the least
+_ROUNDING = 1e-11
+
+
+@dataclass(frozen=True)
+class MinimumMasses:
+    """The mass of every web is 0, or from a least one to its limit."""
+
+    machine: Machine
+    least: Real  # (K,) kg, 0 where there is none
+    limits: Limits
+    lightest: bool  # of all that are optima, but for their share, the lightest is wanted
+    solver: Solver
+
+    solved = True
+
+    @property
+    def reach(self) -> Real:
+        return self.limits.reach
+
+    def holds(self, mass_kg: Real) -> bool:
+        return bool(np.all((mass_kg == 0) | (mass_kg >= self.least)))
+
+    def posed(self, statement: Statement) -> Statement:
+        # what no optimum of any masses needs, those of a least mass may
+        return replace(statement, limits=self.limits)
+
+    def best(self, subproblem: Subproblem) -> Choice:
+        relaxed, *known = subproblem.points
+        statement, size = subproblem.statement, subproblem.yardstick
+        share = OPTIMUM_SHARE * size if self.lightest else 0.0
+        asked = Asked(subproblem.relative_gap * size, size, share, subproblem.time_limit_s)
+        least = self.least * statement.limits.radius
+        found = search(statement, least, relaxed, subproblem.at_least, asked, self.solver, known, subproblem.below)
+        mass, angle = masses_and_angles(self.machine, found.unbalance, statement.limits)
+        mass = np.where(np.abs(mass - self.least) <= _ROUNDING * self.least, self.least, mass)
+        return Choice(mass, angle, unbalance(mass, angle, self.limits.radius), found)

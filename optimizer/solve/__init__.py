@@ -1,0 +1,1 @@
+"""From a request and its simulation to counterweights, and what is proven of them."""
