@@ -20,7 +20,7 @@ from optimizer.program.cut_attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cut_proof import Proof, proofs, resting_proof, times, units
 from optimizer.program.over_turn import OverTurn, Values
 from optimizer.program.reference.assembled import NoPoint, Target, solved
-from optimizer.program.reference.modelling import Stage as CostStage
+from optimizer.program.scaled_program import Stage as CostStage
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
 from optimizer.program.statement import Statement

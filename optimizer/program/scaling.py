@@ -14,7 +14,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.norms import Norms
-from optimizer.program.reference.modelling import ScaledData, ScaledSolution, Shape, Stage
+from optimizer.program.scaled_program import ScaledData, ScaledSolution, Shape, Stage
 from optimizer.program.statement import Statement
 
 

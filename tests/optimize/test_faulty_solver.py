@@ -11,7 +11,7 @@ from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from optimizer.program import cut_proof, cut_stage
 from optimizer.program.reference.assembled import Assembled, NoPoint, solved
-from optimizer.program.reference.modelling import ScaledSolution
+from optimizer.program.scaled_program import ScaledSolution
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answers import Certificate, OptimizeAnswer
 from schemas.requests import AnalyzeRequest

@@ -4,8 +4,9 @@ import cvxpy as cp
 import numpy as np
 import pytest
 
-from optimizer.program.reference.modelling import CompiledPrograms, ConeProgram, Shape
+from optimizer.program.reference.modelling import CompiledPrograms, ConeProgram
 from optimizer.program.reference.solver import Solver
+from optimizer.program.scaled_program import Shape
 from tests.program.cases import random_statement
 
 SHAPE = Shape("objective", webs=2, rows=(0, 0), groups=(0,), ceilings=0, sectors=False, budget=False)

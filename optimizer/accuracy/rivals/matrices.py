@@ -7,7 +7,7 @@ import numpy as np
 from optimizer.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.reference.assembled import Assembly, NoPoint, dense, solved
-from optimizer.program.reference.modelling import ScaledData, ScaledSolution
+from optimizer.program.scaled_program import ScaledData, ScaledSolution
 from optimizer.program.scaling import Scaling, natural_reach, scale
 from optimizer.program.statement import Statement
 

@@ -17,7 +17,7 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.program.reference.boost import Boost
-from optimizer.program.reference.modelling import ScaledData, ScaledSolution
+from optimizer.program.scaled_program import ScaledData, ScaledSolution
 
 # loaded with the first program: it takes as long as all else that is imported for an answer
 if TYPE_CHECKING:

@@ -15,7 +15,8 @@ from optimizer.program.multipliers import (
     resting_multipliers,
     supporting_multipliers,
 )
-from optimizer.program.reference.modelling import CompiledPrograms, ScaledData, ScaledSolution
+from optimizer.program.reference.modelling import CompiledPrograms
+from optimizer.program.scaled_program import ScaledData, ScaledSolution
 from optimizer.program.scaling import Scaling, cancelling, natural_reach, scale
 from optimizer.program.solution import CONE_PROGRAM, NEGLIGIBLE, Solution, evaluated
 from optimizer.program.statement import Statement
