@@ -1,16 +1,24 @@
 """Settings of the service, from ``COUNTERWEIGHT_*`` environment variables."""
 
+import difflib
 import os
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
-from pydantic import AliasChoices, BeforeValidator, Field, StringConstraints
+from pydantic import AliasChoices, BeforeValidator, Field, StringConstraints, ValidationError
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 from schemas.reciprocating import MAX_ROWS_TOGETHER
 from schemas.rotor import MAX_WEBS
 from schemas.sweep import MAX_DESIGNS
 from schemas.throws import MAX_THROWS
+
+_PREFIX = "COUNTERWEIGHT_"
+#: variables of clients, of the workbench and of the deployment files, which the service does not read
+_OF_OTHERS = {f"{_PREFIX}{name}" for name in (
+    "CPUS", "DASK_WORKERS", "FOLDER", "IMAGE", "KEY", "MACHINE", "MEMORY", "PUBLISH", "SHAFT", "URL",
+)}  # fmt: skip
 
 
 def _data_dir() -> Path:
@@ -159,7 +167,7 @@ class _Watching(BaseSettings):
         False, description="whether bodies, and messages of faults that may quote them, go into the log"
     )
     otlp_endpoint: str | None = Field(
-        None, description="where traces go, such as http://collector:4318; needs counterweight[telemetry]"
+        None, description="where traces go, such as http://collector:4318; needs the extra `telemetry`"
     )
 
 
@@ -199,3 +207,29 @@ class Settings(_Network, _Sizes, _Work, _Shares, _Access, _Watching, _Jobs):
     model_config = SettingsConfigDict(
         env_prefix="COUNTERWEIGHT_", env_ignore_empty=True, populate_by_name=True, frozen=True, extra="ignore"
     )
+
+
+def variable(field: str) -> str:
+    """The environment variable of a setting."""
+    return f"{_PREFIX}{field.upper()}"
+
+
+def unknown_variables(environment: Mapping[str, str]) -> Iterator[str]:
+    """A sentence for every variable with our prefix that is no setting: a misspelt one would be without effect."""
+    settings = {variable(field) for field in Settings.model_fields}
+    for name in sorted(environment):
+        if name.upper().startswith(_PREFIX) and name.upper() not in settings | _OF_OTHERS:
+            near = difflib.get_close_matches(name.upper(), settings, n=1, cutoff=0.0)[0]
+            yield f"{name}: there is no such setting; the nearest name is {near}"
+
+
+def wrong_values(error: ValidationError, options: Mapping[str, object]) -> Iterator[str]:
+    """A sentence for every setting with a wrong value, by its option or by its environment variable."""
+    for detail in error.errors():
+        place = str(detail["loc"][0]) if detail["loc"] else ""
+        field = place.removeprefix(_PREFIX).lower()
+        option = field in options or place in options
+        # the port has a second variable, without the prefix
+        other = "PORT" if field == "port" and variable(field) not in os.environ else variable(field)
+        name = f"--{field}" if option else other
+        yield f"{name}: {detail['msg']}"

@@ -16,22 +16,27 @@ def serve(
     ] = None,
 ) -> None:
     """Run the REST service until it is interrupted."""
+    import os
+
     from pydantic import ValidationError
 
     from service.app import create_app
     from service.http.server import listen, run, url
-    from service.settings import Settings
+    from service.settings import Settings, unknown_variables, wrong_values
     from service.watch import logs
 
     options = {"host": host, "port": port, "engine": engine}
     given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}
+    unknown = list(unknown_variables(os.environ))
+    if unknown:
+        fail(*unknown)
     try:
         settings = Settings(**given)
         logs.configure(settings)
         app = create_app(settings)
         socket = listen(settings)
     except ValidationError as error:
-        fail(*(f"{'.'.join(map(str, detail['loc']))}: {detail['msg']}" for detail in error.errors()))
+        fail(*wrong_values(error, given))
     except ValueError as error:
         fail(str(error))
     except OSError as error:

@@ -143,5 +143,7 @@ def test_addresses_that_cannot_be_taken() -> None:
     with socket.create_server(("127.0.0.1", 0)) as taken:
         port = str(taken.getsockname()[1])
         assert f"cannot listen on 127.0.0.1, port {port}: " in refused("--port", port)
-    assert "port: " in refused("--port", "70000")
-    assert "PORT" in refused(PORT="http")
+    assert refused("--port", "70000").startswith("--port: ")
+    assert refused(PORT="http").startswith("PORT: ")
+    # a service that is to have keys does not start without them because of a letter
+    assert "COUNTERWEIGHT_KEY_FILE: " in refused(COUNTERWEIGHT_KEY_FILE="keys.jsonl")

@@ -1,11 +1,13 @@
 """Settings from the environment."""
 
 import os
+import re
 
 import pytest
 from pydantic import ValidationError
 
-from service.settings import Settings
+from service.settings import Settings, unknown_variables, variable, wrong_values
+from tests.docs.reading import ROOT
 
 
 @pytest.fixture(autouse=True)
@@ -50,3 +52,43 @@ def test_wrong_settings_are_refused(monkeypatch: pytest.MonkeyPatch, name: str, 
     monkeypatch.setenv(name, value)
     with pytest.raises(ValidationError):
         Settings()
+
+
+@pytest.mark.parametrize(
+    ("name", "near"),
+    [
+        ("COUNTERWEIGHT_KEY_FILE", "COUNTERWEIGHT_KEYS_FILE"),
+        ("COUNTERWEIGHT_KEYSFILE", "COUNTERWEIGHT_KEYS_FILE"),
+        ("counterweight_allow_without_key", "COUNTERWEIGHT_ALLOW_WITHOUT_KEYS"),
+        ("COUNTERWEIGHT_MAX_BODY", "COUNTERWEIGHT_MAX_BODY_BYTES"),
+        ("COUNTERWEIGHT_", "COUNTERWEIGHT_"),
+    ],
+)
+def test_an_unknown_variable_is_named_with_the_nearest(name: str, near: str) -> None:
+    (message,) = unknown_variables({name: "1", "PATH": "/bin", "COUNTERWEIGHT_HOST": "::1"})
+    assert message.startswith(f"{name}: ")
+    assert near in message.partition(": ")[2]
+
+
+def test_all_settings_and_the_variables_of_clients_are_known() -> None:
+    """Independent: those that documents, examples and deployment files name."""
+    folders = ("docs", "deploy", "examples")
+    texts = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.suffix != ".png"]
+    pattern = re.compile(r"\bCOUNTERWEIGHT_[A-Z_]*[A-Z]\b")
+    named = {name for path in texts if path.is_file() for name in pattern.findall(path.read_text("utf-8", "ignore"))}
+    assert len(named) > 50
+    assert list(unknown_variables(dict.fromkeys(named, "1"))) == []
+    assert {variable(field) for field in Settings.model_fields} <= named
+
+
+def test_a_wrong_value_names_its_variable_or_option(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COUNTERWEIGHT_LOG_LEVEL", "loud")
+    monkeypatch.setenv("PORT", "http")
+    with pytest.raises(ValidationError) as refused:
+        Settings(lease_s=0)
+    names = {message.partition(":")[0] for message in wrong_values(refused.value, {"lease_s": 0})}
+    assert names == {"COUNTERWEIGHT_LOG_LEVEL", "PORT", "--lease_s"}
+    monkeypatch.setenv("COUNTERWEIGHT_PORT", "0.5")
+    with pytest.raises(ValidationError) as refused:
+        Settings(lease_s=1)
+    assert "COUNTERWEIGHT_PORT" in {message.partition(":")[0] for message in wrong_values(refused.value, {})}
