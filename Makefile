@@ -113,7 +113,7 @@ sbom: build/runtime/made
 
 # fails on a licence that is not in the list
 licences: build/runtime/made
-	$(bin)/pip-licenses --python build/runtime/bin/python --with-system --with-urls --ignore-packages counterweight \
+	$(bin)/pip-licenses --python build/runtime/bin/python --with-system --with-urls --ignore-packages counterweight-optimizer \
 	    --allow-only "$$(grep -v '^#' deploy/licences.txt | paste -sd ';')"
 
 # the hash of every package was compared when build/runtime was made; needs no network but for the known faults
@@ -127,6 +127,8 @@ clean:
 	@echo "installing $$(grep -c == requirements.txt) packages into .venv"
 	test -x $(bin)/python || $(PYTHON) -m venv .venv
 	$(bin)/pip --disable-pip-version-check install --require-hashes --requirement requirements.txt
+	# an older checkout was installed by a name that is not ours
+	$(pip) uninstall --yes counterweight 2> /dev/null
 	$(pip) install --no-deps --no-build-isolation --editable .
 	touch $@
 

@@ -1,6 +1,6 @@
 """Error against time, method by method, with the frontier: a picture for the command line and the documents.
 
-matplotlib is needed by nothing else in the package: it comes with ``counterweight[pictures]``.
+matplotlib is needed by nothing else in the package: it comes with the extra ``pictures``.
 """
 
 from collections.abc import Callable
@@ -19,7 +19,7 @@ class NoMatplotlib(RuntimeError):
     """A picture was asked for, and there is nothing to draw it with."""
 
     def __init__(self) -> None:
-        super().__init__("a picture needs matplotlib: install counterweight[pictures]")
+        super().__init__("a picture needs the extra `pictures`: pip install '.[pictures]' beside pyproject.toml")
 
 
 def artist() -> Callable[[str, AccuracyAnswer], str]:

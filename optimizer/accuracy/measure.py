@@ -26,13 +26,14 @@ from optimizer.program.statement import Statement
 from optimizer.scene import Prepared
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference, Status
 from schemas.reciprocating import ReciprocatingMachine
+from schemas.version import package_version
 
 _LOG = logging.getLogger(__name__)
 #: gap asked of the reference
 _SHARPEST = 1e-9
 #: relative rounding of objectives and bounds of some hundred terms; nothing below it is told apart
 _ROUNDING = 1e-13
-_PACKAGES = ("counterweight", "numpy", "numba", "scipy", "clarabel", "cvxpy")
+_PACKAGES = ("numpy", "numba", "scipy", "clarabel", "cvxpy")
 
 
 def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
@@ -198,6 +199,10 @@ def _size(request: AccuracyRequest, statement: Statement) -> ProgramSize:
 
 def _environment() -> Environment:
     return Environment(
-        versions={"python": platform.python_version(), **{name: version(name) for name in _PACKAGES}},
+        versions={
+            "python": platform.python_version(),
+            "counterweight": package_version(),
+            **{name: version(name) for name in _PACKAGES},
+        },
         cpus=os.cpu_count() or 1,
     )

@@ -11,12 +11,13 @@ import numpy as np
 import pyarrow as pa
 
 from schemas.sweep import SweepRequest
+from schemas.version import package_version
 
 #: keys of the table's metadata
 REQUEST, VERSIONS, SEED = b"counterweight.request", b"counterweight.versions", b"counterweight.seed"
 
 _TYPES = {"integer": pa.int64(), "number": pa.float64(), "text": pa.string()}
-_PACKAGES = ("counterweight", "numpy", "scipy", "cvxpy", "clarabel", "pyarrow")
+_PACKAGES = ("numpy", "scipy", "cvxpy", "clarabel", "pyarrow")
 
 
 def result_schema(request: SweepRequest, request_json: bytes) -> pa.Schema:
@@ -44,7 +45,7 @@ def result_table(columns: Mapping[str, Any], schema: pa.Schema) -> pa.Table:
 @cache
 def versions() -> dict[str, str]:
     """Versions of what computes the rows."""
-    found = {"python": platform.python_version()}
+    found = {"python": platform.python_version(), "counterweight": package_version()}
     for package in _PACKAGES:
         try:
             found[package] = version(package)

@@ -42,7 +42,12 @@ class Database:
         try:
             where = URL.create("sqlite", database=str(url)) if isinstance(url, Path) else make_url(url)
             self._engine = _engine(where, busy_s)
-        except (ArgumentError, NoSuchModuleError, ModuleNotFoundError) as error:
+        except ModuleNotFoundError as error:
+            if error.name != "psycopg":
+                raise ValueError(f"not a database: {error}") from None
+            message = "PostgreSQL needs an extra: pip install '.[postgres]' beside pyproject.toml"
+            raise ValueError(message) from None
+        except (ArgumentError, NoSuchModuleError) as error:
             raise ValueError(f"not a database: {error}") from None
         # a reader never waits for a writer; a writer takes the lock at once, as an upgrade ignores the busy timeout
         self._writer = self._engine.execution_options(immediate=True)

@@ -90,7 +90,7 @@ def engine(name: str, workers: int, niceness: int = NICENESS) -> Engine:
         try:
             import distributed  # noqa: F401
         except ModuleNotFoundError:
-            raise ValueError("the engine dask needs the extra `dask`: pip install counterweight[dask]") from None
+            raise ValueError("the engine dask needs an extra: pip install '.[dask]' beside pyproject.toml") from None
         return Engine(lambda: Dask(address))
     raise ValueError(f"there is no engine {name!r}: take processes or dask:tcp://host:port")
 

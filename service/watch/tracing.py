@@ -12,7 +12,7 @@ class NoTelemetry(ValueError):
     """Traces were asked for, and there is nothing to send them with."""
 
     def __init__(self) -> None:
-        super().__init__("traces need OpenTelemetry: install counterweight[telemetry]")
+        super().__init__("traces need the extra `telemetry`: pip install '.[telemetry]' beside pyproject.toml")
 
 
 class Span(Protocol):

@@ -157,6 +157,6 @@ def test_without_matplotlib_a_picture_is_refused_at_once(monkeypatch: pytest.Mon
     monkeypatch.setattr(builtins, "__import__", without)
     result = run("-", "--picture", str(tmp_path / "p.svg"), given=request())
     assert result.exit_code == 2
-    assert "counterweight[pictures]" in result.stderr
+    assert "'.[pictures]'" in result.stderr
     assert not (tmp_path / "p.svg").exists()
     assert run("-", "--json", given=request(objective={"force_ceiling_N": 1.0})).exit_code == 1

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from schemas.version import DISTRIBUTION
 from tests.deploy.files import DEPLOY, instructions, module
 from tests.deploy.test_requirements import locked
 
@@ -82,7 +83,7 @@ def test_packages_that_go_are_ones_of_the_image() -> None:
 @pytest.mark.parametrize("name", [name for name in UNUSED if "/" not in name])
 def test_packages_that_go_are_not_needed_by_what_the_project_names(name: str) -> None:
     """Packages of `dependencies` stay; those that go are what they bring along."""
-    needed = {line.split(">")[0].split("[")[0].lower() for line in distribution("counterweight").requires or []}
+    needed = {line.split(">")[0].split("[")[0].lower() for line in distribution(DISTRIBUTION).requires or []}
     assert name not in needed
 
 

@@ -148,3 +148,23 @@ def test_the_mathematics_names_files_that_are_there() -> None:
     for name in re.findall(r"`([\w/]+\.py)`", document("docs/mathematics.md")):
         places = [ROOT, ROOT / "optimizer"]
         assert any((place / name).exists() for place in places) or ("/" not in name and name in known), name
+
+
+#: of a text, what it tells to install from a package index: up to the end of the line, of a string or of code
+_INSTALLED = re.compile(r"pip3? +(?:--\S+ +\S+ +)?install +([^\n`\"]*)")
+
+
+def test_nothing_is_installed_by_a_name_that_is_not_ours() -> None:
+    """The name `counterweight` belongs to another project on the public index."""
+    suffixes = {".py", ".md", ".sh", ".yaml", ".html", ".js", ".toml", ".service", ""}
+    folders = ("schemas", "optimizer", "service", "docs", "deploy", "examples")
+    files = [path for folder in folders for path in (ROOT / folder).rglob("*") if path.suffix in suffixes]
+    texts = {
+        path: path.read_text("utf-8") for path in [*files, ROOT / "README.md", ROOT / "Makefile"] if path.is_file()
+    }
+    told = [(path, line) for path, text in texts.items() for line in _INSTALLED.findall(text)]
+    assert len(told) > 5
+    for path, line in told:
+        assert not re.search(r"(^|[ '\"])counterweight([ '\"\[=<>~!]|$)", line), (path, line)
+    # nor is an extra named by it
+    assert [path for path, text in texts.items() if re.search(r"\bcounterweight\[[a-z]", text)] == []

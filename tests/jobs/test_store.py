@@ -1,5 +1,6 @@
 """The store on SQLite and on a real PostgreSQL: every expected value is analytic."""
 
+import sys
 from concurrent.futures import ThreadPoolExecutor
 
 import pytest
@@ -221,6 +222,12 @@ def test_ids_that_there_are_not(any_house: House, id: str) -> None:  # noqa: A00
     any_house.submit()
     with pytest.raises(UnknownJob):
         any_house.store.get(id)
+
+
+def test_what_postgresql_needs_is_named_where_it_is_not_installed(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "psycopg", None)
+    with pytest.raises(ValueError, match=r"pip install '\.\[postgres\]'"):
+        Database("postgresql://host/name")
 
 
 @pytest.mark.parametrize("url", ["nonsense", "nosuch://host/name", ""])

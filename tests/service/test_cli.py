@@ -14,6 +14,7 @@ from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.version import DISTRIBUTION
 from service.cli import app
 from service.documents.examples import catalogue, directory, load, names
 
@@ -251,4 +252,4 @@ def test_help_does_not_load_the_optimiser() -> None:
 def test_version(client: TestClient) -> None:
     shown = run("--version")
     assert (shown.exit_code, shown.stdout) == (0, f"{version('counterweight')}\n")
-    assert client.get("/v1/version").json() == {"version": version("counterweight")}
+    assert client.get("/v1/version").json() == {"version": version(DISTRIBUTION)}

@@ -9,13 +9,14 @@ from typing import Any
 from optimizer.effects.registry import EFFECTS
 from schemas.answers import EffectUse
 from schemas.report import ReportRequest
+from schemas.version import package_version
 from service.report.blocks import Chapter, Listing, Paragraph, table
 
 #: characters of a line of the listing
 _LINE = 130
 #: fields that are the document's own, and no part of the optimisation
 _DOCUMENTS = ("document", "versions")
-_PACKAGES = ("counterweight", "numpy", "scipy", "clarabel", "cvxpy")
+_PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
 
 
 def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
@@ -39,7 +40,7 @@ def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
 
 def versions() -> dict[str, str]:
     """Versions of the package and of what it computes with."""
-    return {name: version(name) for name in _PACKAGES}
+    return {"counterweight": package_version(), **{name: version(name) for name in _PACKAGES}}
 
 
 def body(request: ReportRequest) -> dict[str, Any]:
