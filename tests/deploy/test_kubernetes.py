@@ -9,6 +9,7 @@ from service.app import create_app
 from service.settings import Settings
 from service.workers.turns import ABOVE
 from tests.deploy.files import instructions, manifests, settings_variables
+from tests.docs.reading import ROOT
 
 ALL = manifests()
 POD: Mapping[str, Any] = ALL["Deployment"]["spec"]["template"]["spec"]
@@ -133,4 +134,17 @@ def test_the_network_lets_in_http_and_out_what_is_needed() -> None:
     policy = ALL["NetworkPolicy"]["spec"]
     assert [port["port"] for rule in policy["ingress"] for port in rule["ports"]] == ["http"]
     assert all(rule.get("to") for rule in policy["egress"])
-    assert {port["port"] for rule in policy["egress"] for port in rule["ports"]} == {53, 5432, 8786}
+    assert {port["port"] for rule in policy["egress"] for port in rule["ports"]} == {53, 5432, 8786, 4317, 4318}
+
+
+@pytest.mark.parametrize(
+    ("port", "label"),
+    [(5432, {"counterweight-database": "true"}), (4318, {"counterweight-telemetry": "true"})],
+)
+def test_the_database_and_the_collector_may_be_in_a_namespace_of_their_own(port: int, label: dict[str, str]) -> None:
+    rules = [
+        rule for rule in ALL["NetworkPolicy"]["spec"]["egress"] if port in {each["port"] for each in rule["ports"]}
+    ]
+    places = [place.get("namespaceSelector", {}).get("matchLabels") for rule in rules for place in rule["to"]]
+    assert label in places
+    assert " ".join(f"{name}={value}" for name, value in label.items()) in (ROOT / "docs/operation.md").read_text()

@@ -1,5 +1,6 @@
 """SIGKILL of the service and of workers, two services on one database, and an orderly end."""
 
+import json
 import socket
 import time
 from contextlib import suppress
@@ -10,8 +11,10 @@ import pytest
 
 from optimizer.sweep import run_chunk
 from schemas.sweep import SweepRequest
+from schemas.version import package_version
 from tests.jobs.kills import kill
 from tests.jobs.process import service
+from tests.jobs.serving import VERSION
 from tests.jobs.sweeps import analyses
 from tests.processes import children
 
@@ -54,7 +57,14 @@ def test_two_services_share_one_sweep(tmp_path: Path, database: str, request: py
     if database == "postgresql":
         more["database_url"] = request.getfixturevalue("postgres_url")
     settings = {**more, "sweep_workers": "1"}
-    with service(tmp_path, delay_s=0.1, **settings) as one, service(tmp_path, delay_s=0.1, **settings) as two:
+    # as in an upgrade: of two versions, the second of which goes on alone
+    later = {VERSION: "99.0.0"}
+    with (
+        service(tmp_path, delay_s=0.1, **settings) as one,
+        service(tmp_path, delay_s=0.1, more=later, **settings) as two,
+    ):
+        versions = [json.loads(each.send("GET", "/v1/version")[2])["version"] for each in (one, two)]
+        assert versions == [package_version(), "99.0.0"]
         _, headers, _ = one.send("POST", "/v1/sweeps", SWEEP)
         path = headers["location"]
         # either knows of it, and one of them is killed on the way
