@@ -54,11 +54,12 @@ def asked(model: type[Question], file: str, given: Mapping[str, object] | None =
 
 def _cells(file: str) -> "tuple[Any, Callable[[FieldProblem], str]]":
     """The request in a workbook."""
-    from service.workbook.files import UnreadableWorkbook, workbook_sheets
-    from service.workbook.sheets import Misplaced, read
+    from service.workbook.census import UnreadableWorkbook
+    from service.workbook.files import workbook_sheets
+    from service.workbook.sheets import REQUEST, Misplaced, read
 
     try:
-        found = read(workbook_sheets(_read(file)))
+        found = read(workbook_sheets(_read(file), names=REQUEST))
     except OSError as error:
         fail(f"cannot read {file}: {error.strerror}")
     except UnreadableWorkbook as error:

@@ -7,7 +7,7 @@ from optimizer.errors import NotComputable
 from schemas.base import FieldProblem
 from service.validation import InvalidRequest
 from service.workbook.files import workbook_sheets
-from service.workbook.sheets import Misplaced, Read, read
+from service.workbook.sheets import REQUEST, Misplaced, Read, read
 
 #: unpacked; a machine of a hundred webs takes a twentieth of it
 _MOST_BYTES = 4_000_000
@@ -21,7 +21,7 @@ def read_workbook(content: bytes) -> Read:
     UnreadableWorkbook, InvalidRequest
     """
     try:
-        return read(workbook_sheets(content, _MOST_BYTES))
+        return read(workbook_sheets(content, _MOST_BYTES, REQUEST))
     except Misplaced as error:
         raise InvalidRequest(FieldProblem((), line) for line in error.lines) from None
 

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from openpyxl.utils import get_column_letter
+from pydantic_core import from_json
 
 from schemas.base import FieldProblem
 from schemas.rules import Path
@@ -29,6 +30,8 @@ _THROW = "throw"
 _TABLES = (_THROWS, _ROWS, "webs", "bearings", "unbalances")
 #: sheets of an answer, which say nothing of the machine
 ANSWER, COUNTERWEIGHTS = "answer", "counterweights"
+#: sheets of a request
+REQUEST = (FIELDS, *_TABLES)
 _JSON = ("[", "{", '"')
 
 
@@ -118,7 +121,7 @@ def read(sheets: Sheets) -> Read:
         elif name in _TABLES:
             reader.table(name, lines)
         elif name not in (ANSWER, COUNTERWEIGHTS):
-            reader.wrong.append(f"{name}: no sheet of a machine; these are {', '.join((FIELDS, *_TABLES))}")
+            reader.wrong.append(f"{name}: no sheet of a machine; these are {', '.join(REQUEST)}")
     return reader.found()
 
 
@@ -209,7 +212,8 @@ class _Reader:
 def _value(name: str, value: Cell) -> Any:
     """What a cell says."""
     if isinstance(value, str) and (value == "null" or value.startswith(_JSON)):
-        return json.loads(value)
+        # of bounded depth
+        return from_json(value)
     if name == "name" and isinstance(value, int | float) and not isinstance(value, bool):
         # a spreadsheet makes a number of a name such as 1
         return f"{value:.15g}"
