@@ -74,6 +74,23 @@ def test_a_lease_that_is_not_renewed_is_free_again(any_house: House) -> None:
     assert any_house.store.get(mine.job).done == 1
 
 
+def test_nobody_keeps_the_lease_of_another(any_house: House) -> None:
+    now = 1000.0
+    leases = Leases(any_house.database, clock=lambda: now)
+    any_house.submit(total=1, chunk_rows=1)
+    chunk = leases.claim("a", LEASE_S)
+    assert chunk is not None
+    now += LEASE_S - 1
+    # one that has been cut off still believes in its lease, or a liar names the chunk
+    leases.renew("b", [chunk], LEASE_S)
+    now += 2
+    assert leases.claim("c", LEASE_S) == chunk
+    # what was given to c is not a's any more
+    leases.renew("a", [chunk], 10 * LEASE_S)
+    now += LEASE_S + 1
+    assert leases.claim("d", LEASE_S) == chunk
+
+
 def test_what_is_released_is_free_at_once(any_house: House) -> None:
     any_house.submit(total=3, chunk_rows=1)
     assert len(claim_all(any_house.leases, "a")) == 3

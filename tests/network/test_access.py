@@ -78,9 +78,14 @@ PLACES = ["", "/results", "/events", "/metadata"]
 
 
 @pytest.mark.parametrize("name", [None, "nonsense", "cw_0123456789ab_" + "x" * 43, "expired", "ü", ""])
-def test_without_a_right_key_everything_looks_the_same(ask: Any, job: str, name: str | None) -> None:
+def test_without_a_right_key_everything_looks_the_same(
+    ask: Any, made: tuple[Path, dict[str, str]], job: str, name: str | None
+) -> None:
+    # the key itself where there is one of this name: one that has expired is as wrong as any other
+    key = None if name is None else made[1].get(name, name).encode()
+
     def told(path: str, method: str = "GET") -> tuple[Any, ...]:
-        answer = ask(None, method, path, headers={} if name is None else {"X-API-Key": name.encode()})
+        answer = ask(None, method, path, headers={} if key is None else {"X-API-Key": key})
         body = answer.json()
         assert body.pop("instance") in (path, path.replace("%2f", "/"))
         headers = {k: v for k, v in answer.headers.items() if k not in ("x-request-id", "content-length")}
@@ -93,6 +98,16 @@ def test_without_a_right_key_everything_looks_the_same(ask: Any, job: str, name:
         assert told("/nothing") == real
     assert told(job, "DELETE") == told(f"/v1/sweeps/{NOBODYS[0]}", "DELETE")
     assert ask("alice", "GET", job).status_code == 200
+
+
+def test_a_key_is_right_until_it_expires(monkeypatch: pytest.MonkeyPatch, made: tuple[Path, dict[str, str]]) -> None:
+    known, key = keys.Keys(made[0]), made[1]["expired"]
+    monkeypatch.setattr("service.guard.keys.time.time", lambda: 0.5)
+    caller = known.caller(key)
+    assert caller is not None
+    assert caller.owner == "alice"
+    monkeypatch.setattr("service.guard.keys.time.time", lambda: 1.5)
+    assert known.caller(key) is None
 
 
 @pytest.mark.parametrize("name", ["bob", "reader"])

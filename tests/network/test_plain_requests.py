@@ -54,6 +54,19 @@ def test_what_is_plain_is_read_as_h11_reads_it(first: bytes, lines: list[bytes],
     assert head.keep_alive == (other.their_state is h11.DONE)
 
 
+@pytest.mark.parametrize("name", [b"Host", b"host", b"Content-Length", b"Connection"])
+def test_what_may_be_said_once_is_not_plain_twice(name: bytes) -> None:
+    """RFC 9112 3.2 and 6.3: a second Host is refused, and a second length; h11 does so."""
+    value = {b"content-length": b"0", b"connection": b"close"}.get(name.lower(), b"a")
+    head = b"GET / HTTP/1.1\r\nHost: a\r\n"
+    once = head if name.lower() == b"host" else head + name + b": " + value + b"\r\n"
+    assert plain_head(once + b"\r\n") is not None
+    assert plain_head(once + name + b": " + value + b"\r\n\r\n") is None
+    reader = Heads()
+    assert reader.plain(once + b"\r\n") is not None
+    assert reader.plain(once + name + b": b\r\n\r\n") is None
+
+
 def test_what_clients_send_is_plain() -> None:
     head = b"POST /v1/optimize HTTP/1.1\r\nHost: localhost:8000\r\nUser-Agent: a/1.0 (b; c)\r\nContent-Length: 2\r\n"
     assert plain_head(head + b"Accept: */*\r\n\r\n{}") is not None
