@@ -62,6 +62,8 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
     protocol = connections(settings, app.state.rounds)
     config = uvicorn.Config(
         app,
+        # named, as uvicorn takes any uvloop that it sees: its transports have no bound on what is read at a time
+        loop="asyncio",
         http=protocol,
         ws="none",
         root_path=settings.root_path,
