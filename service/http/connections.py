@@ -15,6 +15,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 from service.guard.addresses import client_network
 from service.guard.refusals import TooManyConnections
 from service.http.errors import PROBLEM_JSON, Fault, fault, problem
+from service.http.framing import Framing, TwoLengths
 from service.http.idleness import Idleness
 from service.http.joined import Joined
 from service.http.leaving import CLIENT, Client
@@ -49,6 +50,7 @@ class Connection(H11Protocol):
 
     def __init__(self, *args: Any, **kwargs: Any) -> None:
         super().__init__(*args, **kwargs)
+        self.conn = Framing(h11.SERVER)
         self._headers_timer: asyncio.TimerHandle | None = None
         self._write_timer: asyncio.TimerHandle | None = None
         self._unread = 0
@@ -285,7 +287,7 @@ class Connection(H11Protocol):
         too_large = isinstance(error, h11.RemoteProtocolError) and error.error_status_hint == _TOO_LARGE
         # a coding that nobody knows is no fault of the service, so it is not 501
         status, title = (_TOO_LARGE, "Headers too large") if too_large else (400, "Unreadable request")
-        self._refuse(Fault(status, title, msg))
+        self._refuse(Fault(status, title, str(error) if isinstance(error, TwoLengths) else msg))
 
     def _refuse(self, fault: Fault) -> None:
         if self.cycle is not None and not self.cycle.response_complete:

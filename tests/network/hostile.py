@@ -214,6 +214,7 @@ def _no_http() -> Iterator[Raw]:
         b"Content-Length: -1\r\n\r\n{}",
         b"Content-Length: 2\r\nContent-Length: 3\r\n\r\n{}",
         b"Transfer-Encoding: gzip, chunked\r\n\r\n{}",
+        b"Content-Length: 2\r\nTransfer-Encoding: chunked\r\n\r\n2\r\n{}\r\n0\r\n\r\n",
         b"Transfer-Encoding: chunked\r\n\r\nzz\r\n{}",
         b"Transfer-Encoding: chunked\r\n\r\n-1\r\n{}\r\n0\r\n\r\n",
         b"Transfer-Encoding: chunked\r\n\r\n" + b"f" * 400 + b"\r\n{}",

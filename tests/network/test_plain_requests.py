@@ -197,6 +197,23 @@ def test_an_answer_that_is_none_ends_the_connection(path: str, caplog: pytest.Lo
     assert "Exception in ASGI application" in caplog.text
 
 
+@pytest.mark.parametrize("before", [b"", asked("/before", b"hello", connection="keep-alive")])
+@pytest.mark.parametrize("length", ["0", "5", "999"])
+def test_a_request_with_two_lengths_is_the_last_of_its_connection(before: bytes, length: str) -> None:
+    """RFC 9112, 6.1: what comes after it is a request to one reader, and a body to another."""
+    head = f"POST /both HTTP/1.1\r\nHost: a\r\nContent-Length: {length}\r\nTransfer-Encoding: chunked\r\n\r\n"
+    both = head.encode() + b"0\r\n\r\n"
+    smuggled = asked("/after", connection="keep-alive")
+    for pieces in ((before + both + smuggled,), (before, both, smuggled), (before + head.encode(), b"0\r\n\r\n")):
+        said = heard(*pieces, headers_timeout_s=2)
+        assert (b"x-path: /before" in said) == bool(before)
+        refusal = said[said.index(b"HTTP/1.1 400 ") :]
+        assert b"\r\nconnection: close\r\n" in refusal.lower()
+        assert b"Transfer-Encoding, not both" in refusal
+        assert b"x-path: /both" not in said
+        assert b"x-path: /after" not in said
+
+
 def test_a_client_that_says_nothing_more_is_let_go() -> None:
     """The time for the next head begins with its first byte, as it does with h11."""
     said = heard(asked("/a", connection="keep-alive"), b"GET /", headers_timeout_s=1)
