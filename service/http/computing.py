@@ -101,8 +101,8 @@ class Computing:
         body = await self._body(request)
 
         def accept() -> Response:
-            question = self.checked(asked_for.asks, body).model_dump_json().encode()
-            return accepted(request, *desk_of(request).later(asked_for.name, question, idempotency_key(request)))
+            question, key = self.checked(asked_for.asks, body).model_dump_json().encode(), idempotency_key(request)
+            return accepted(request, *desk_of(request).later(asked_for.name, question, key, body))
 
         # a job is asked for and answered in JSON; other forms are answered at once, as RFC 7240 allows
         if asked_for.later and prefers_later(request) and not workbook and form is asked_for.forms[0]:

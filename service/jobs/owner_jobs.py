@@ -1,6 +1,5 @@
 """The jobs of whoever asks: taken in, looked up, ended, read."""
 
-import json
 import time
 from collections.abc import Callable, Collection, Iterator
 from contextlib import suppress
@@ -15,15 +14,17 @@ import pyarrow as pa
 from optimizer.sweep.plan import plan
 from optimizer.sweep.table import REQUEST
 from schemas.sweep import SweepLinks, SweepRequest, SweepState
+from service.computations import given_bytes
 from service.jobs import results
 from service.jobs.coordinator import Coordinator
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.files import Damaged, FilesUnavailable, JobFiles
+from service.jobs.fingerprints import fingerprint
 from service.jobs.job import Job, Order, Record
 from service.jobs.leases import Leases
 from service.jobs.retention import Retention
 from service.jobs.rows import UnknownJob
-from service.jobs.store import Store, digest
+from service.jobs.store import Store
 
 #: the rate is that of the last so many seconds
 _RATE_S = 60.0
@@ -85,8 +86,12 @@ class OwnerJobs:
 
     # ---- from requests to jobs
 
-    def sweep(self, asked: SweepRequest, key: str | None = None) -> tuple[Job, bool]:
+    def sweep(self, asked: SweepRequest, key: str | None = None, sent: bytes | None = None) -> tuple[Job, bool]:
         """A new sweep, or the one that the key has started before; on disk when this returns.
+
+        Parameters
+        ----------
+        sent : the body that asks for it; without one, what the request says that is no default.
 
         Returns
         -------
@@ -104,7 +109,7 @@ class OwnerJobs:
             Order(
                 kind="sweep",
                 request=request,
-                fingerprint=digest("sweep", json.loads(request)),
+                fingerprint=fingerprint("sweep", given_bytes(asked) if sent is None else sent),
                 total=found.total,
                 chunk_rows=found.chunk_rows,
                 columns=found.schema.with_metadata(about).serialize().to_pybytes(),
@@ -116,10 +121,10 @@ class OwnerJobs:
             )
         )
 
-    def later(self, kind: str, body: bytes, key: str | None = None) -> tuple[Job, bool]:
+    def later(self, kind: str, request: bytes, key: str | None, sent: bytes) -> tuple[Job, bool]:
         """A job that computes one answer; otherwise as :meth:`sweep`."""
-        fingerprint = digest(kind, json.loads(body.decode("utf-8-sig")))
-        return self._submit(Order(kind, body, fingerprint, expected_bytes=len(body), owner=self._owner, key=key))
+        its = fingerprint(kind, sent)
+        return self._submit(Order(kind, request, its, expected_bytes=len(request), owner=self._owner, key=key))
 
     def _submit(self, order: Order) -> tuple[Job, bool]:
         found = self._parts.store.submit(order)

@@ -1,7 +1,5 @@
 """What is known about jobs, and what clients change of it. Every method is one transaction."""
 
-import hashlib
-import json
 import time
 import uuid
 from collections.abc import Callable, Collection, Sequence
@@ -11,6 +9,7 @@ from sqlalchemy.exc import IntegrityError
 
 from service.jobs import rows
 from service.jobs.database import Database
+from service.jobs.fingerprints import same
 from service.jobs.job import ACTIVE, REMOVED, Job, Order, Record, State, job_from
 from service.jobs.rows import JOB, Limits
 from service.jobs.tables import chunks, jobs
@@ -26,12 +25,6 @@ class TooManyJobs(Exception):
 
 class QuotaExceeded(Exception):
     """The job would take more room on disk than its owner has left."""
-
-
-def digest(kind: str, body: object) -> str:
-    """What makes two requests the same: kind and JSON value, not white space or the order of fields."""
-    text = json.dumps([kind, body], sort_keys=True, separators=(",", ":"))
-    return hashlib.sha256(text.encode()).hexdigest()
 
 
 class Store:
@@ -74,8 +67,8 @@ class Store:
                 known = _by_key(connection, order)
             if known is None:
                 raise
-        found, its_fingerprint = known
-        if its_fingerprint != order.fingerprint:
+        found, its_fingerprint, its_request = known
+        if not same(order, its_fingerprint, its_request):
             raise KeyReused("This Idempotency-Key came with another request before; take a new key.")
         return found, False
 
@@ -255,9 +248,10 @@ class Store:
             return rows.get(connection, job)
 
 
-def _by_key(connection: Connection, order: Order) -> tuple[Job, str] | None:
+def _by_key(connection: Connection, order: Order) -> tuple[Job, str, bytes] | None:
+    """The job that has the key of an order, its fingerprint and its request."""
     if order.key is None:
         return None
-    same = and_(func.coalesce(jobs.c.owner, "") == (order.owner or ""), jobs.c.idempotency_key == order.key)
-    row = connection.execute(select(*JOB, jobs.c.digest).where(same)).mappings().first()
-    return None if row is None else (job_from(row), row["digest"])
+    its = and_(func.coalesce(jobs.c.owner, "") == (order.owner or ""), jobs.c.idempotency_key == order.key)
+    row = connection.execute(select(*JOB, jobs.c.digest, jobs.c.request).where(its)).mappings().first()
+    return None if row is None else (job_from(row), row["digest"], bytes(row["request"]))

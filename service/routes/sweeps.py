@@ -72,7 +72,7 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
         asked = computing.checked(SweepRequest, body)
         if asked.dry_run:
             return Response(plan(asked).estimate_for(workers).model_dump_json(), 200, _NO_STORE, "application/json")
-        return accepted(request, *desk.sweep(asked, key))
+        return accepted(request, *desk.sweep(asked, key, body))
 
     return await threads_of(request).run(holding(request).who, work)
 

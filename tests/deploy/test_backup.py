@@ -8,8 +8,9 @@ from contextlib import closing
 from pathlib import Path
 
 from service.jobs.database import Database
+from service.jobs.fingerprints import fingerprint
 from service.jobs.job import Order
-from service.jobs.store import Store, digest
+from service.jobs.store import Store
 from tests.deploy.files import ROOT
 
 
@@ -19,7 +20,7 @@ def test_the_copy_holds_what_was_written_last(tmp_path: Path) -> None:
     assert found is not None
     database = Database(tmp_path / "jobs.sqlite")
     store = Store(database)
-    job, _ = store.submit(Order("sweep", b"{}", digest("sweep", {}), 3, 2))
+    job, _ = store.submit(Order("sweep", b"{}", fingerprint("sweep", b"{}"), 3, 2))
     with database.read():
         # in use: what was submitted is in the write-ahead log still, and a plain copy of the file would miss it
         command = found[1].replace("/data/", f"{tmp_path}/")

@@ -15,6 +15,7 @@ from service.jobs.coordinator import Coordinator
 from service.jobs.database import Database
 from service.jobs.engines import Engine
 from service.jobs.files import JobFiles
+from service.jobs.fingerprints import fingerprint
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.job import Job, Order, Record
 from service.jobs.leases import Leases
@@ -22,7 +23,7 @@ from service.jobs.pace import Pace
 from service.jobs.piece import Run
 from service.jobs.retention import Retention
 from service.jobs.rows import Limits
-from service.jobs.store import Store, digest
+from service.jobs.store import Store
 from tests.jobs import synthetic
 
 QUICK = Pace(poll_s=0.05, lease_s=2.0, tidy_s=0.2, longest_pause_s=0.5)
@@ -42,7 +43,7 @@ class House:
         request = json.dumps(asked).encode()
         columns = synthetic.SCHEMA.serialize().to_pybytes()
         job, new = self.store.submit(
-            Order("synthetic", request, digest("synthetic", asked), total, chunk_rows, columns, owner=owner)
+            Order("synthetic", request, fingerprint("synthetic", request), total, chunk_rows, columns, owner=owner)
         )
         assert new
         return job.id
