@@ -124,3 +124,77 @@ def test_a_stranger_may_not_frame_it(page: Page, sites: tuple[str, str, str]) ->
         page.goto(f"{stranger}/?service={url}")
     assert page.locator("#send").is_disabled()
     assert not [one for one in page.frames if one.url.startswith(url)]
+
+
+#: messages that a portal may send by mistake: what can be cloned for another window is far more than JSON
+_ODD = """
+() => {
+  const throws = [{position_m: 0, crank_radius_m: 0.08, crank_angle_deg: 0, rotating_mass_kg: 6,
+    rows: [{axis_deg: 90, reciprocating_mass_kg: 5}]}];
+  const machine = {kind: "reciprocating", speed_rpm: 980, throws,
+    webs: [{position_m: 0.1, counterweight_radius_m: 0.12, max_mass_kg: 8}]};
+  const cycle = {...machine};
+  cycle.webs = [cycle];
+  const request = {machine};
+  request.objective = request;
+  let deep = {};
+  for (let level = 0; level < 500; level += 1) deep = {deep};
+  const machines = [cycle, {...machine, speed_rpm: 980n}, 7n, {...machine, webs: deep}, {...machine, speed_rpm: NaN},
+    {...machine, webs: [{...machine.webs[0], max_mass_kg: Infinity}]},
+    new Map([["kind", "reciprocating"]]), new Date(0), new Date(NaN), /x/, [], "machine", 7, true, new Uint8Array(3),
+    {}, {throws: 7}, {throws: [null]}, {throws: [[]]}, {...machine, throws: {}}, {...machine, webs: 7},
+    {...machine, webs: [null]}, {...machine, bearings: 7}, {...machine, bearings: [null, 1]}, {kind: {}},
+    {kind: "scroll", anti_rotation: 7}, {...machine, kind: "scroll"}, {...machine, flywheel: [], name: {}},
+    {...machine, throws: [{...throws[0], rows: 7}]}, {...machine, throws: [{...throws[0], rows: [7, null]}]},
+    {...machine, cylinder: null}, ...[{toString: 1}, {valueOf: {}, toString: null}].flatMap((text) => [
+      {...machine, speed_rpm: text}, {...machine, name: text}, {...machine, kind: text},
+      {...machine, catalogue: [text]},
+      {...machine, webs: [{...machine.webs[0], name: text, max_mass_kg: text, hole_angles_deg: [text]}]},
+      {...machine, throws: [{...throws[0], name: text, rows: [{...throws[0].rows[0], name: text, axis_deg: text}]}]},
+      {...machine, bearings: [{name: text, position_m: text}]}])];
+  const requests = [request, {machine: null}, {machine: 7}, {machine: []}, {machine, outputs: 7}, {machine, angles: 7},
+    {machine, objective: [1n]}, {machine, scenarios: {}}, {machine, accuracy: "high"}];
+  return [...machines.map((given) => ({type: "machine", machine: given})),
+    ...requests.map((given) => ({type: "machine", request: given})), {type: "machine"},
+    {type: "picture"}, {type: "picture", name: {toString: 1}}, {type: "picture", name: "\\ud800"},
+    {type: "picture", name: 7n}];
+}
+"""
+#: sends one after the other, and says what the first answer to each was
+_ANSWERS = (
+    f"async () => {{ const wrong = ({_ODD})();"
+    + """
+  const frame = document.getElementById("service");
+  const origin = new URL(frame.src).origin;
+  const answers = [];
+  for (const [number, odd] of wrong.entries()) {
+    const id = {number: BigInt(number)};
+    answers.push(await new Promise((resolve) => {
+      const late = setTimeout(() => resolve(`${number}: nothing`), 120_000);
+      addEventListener("message", function heard({data}) {
+        if (data?.id?.number !== id.number) return;
+        removeEventListener("message", heard);
+        clearTimeout(late);
+        resolve(`${data.type.replace("counterweight.", "")} ${data.title} ${data.message}`);
+      });
+      frame.contentWindow.postMessage({...odd, type: `counterweight.${odd.type}`, id}, origin);
+    }));
+  }
+  return answers;
+}
+"""
+)
+
+
+def test_a_message_that_is_no_machine_is_answered_and_the_next_one_is_heard(
+    page: Page, sites: tuple[str, str, str]
+) -> None:
+    url, known, _ = sites
+    troubles: list[str] = []
+    page.on("pageerror", lambda error: troubles.append(str(error)))
+    _open(page, known, url)
+    answers = page.evaluate(_ANSWERS)
+    assert [answer for answer in answers if not answer.startswith("error ")] == []
+    assert troubles == []
+    page.click("#send")
+    page.wait_for_function("document.getElementById('verdict').textContent.startsWith('optimal')")

@@ -18,13 +18,23 @@ function framer() {
   return origin ?? (document.referrer ? new URL(document.referrer).origin : null);
 }
 
+// What a message holds, as JSON: one that refers to itself, or holds what JSON has no word for, can neither be sent nor
+// be kept, and a page that once had it would never be rid of it.
+function plain(given) {
+  const text = JSON.stringify(given, (name, value) => {
+    if (typeof value === "number" && !Number.isFinite(value)) throw new TypeError(`${name} is ${value}`);
+    return value;
+  });
+  return text === undefined ? null : JSON.parse(text);
+}
+
 export class Embedding {
   #host = parent === self ? null : framer();
   // what the next answer is the answer to; null once the user has changed something
   #id = null;
   #height = 0;
 
-  /** @param {{ take: (given: any) => void, request: () => any }} page */
+  /** @param {{ take: (given: any) => Promise<void>, request: () => any }} page */
   constructor(page) {
     if (parent === self) return;
     document.documentElement.dataset.framed = "";
@@ -55,21 +65,24 @@ export class Embedding {
 
   #heard(said, page) {
     const id = said.id ?? null;
-    if (said.type === `${PREFIX}machine`) {
-      const given = said.request ?? (said.machine && { machine: said.machine });
-      if (given === null || typeof given !== "object" || Array.isArray(given)) {
-        this.failed({ title: "No machine", message: "The message holds neither a request nor a machine." }, id);
-        return;
-      }
+    if (said.type === `${PREFIX}machine`) this.#machine(said, page, id);
+    else if (said.type === `${PREFIX}picture`) this.#picture(said.name, page.request(), id);
+  }
+
+  async #machine(said, page, id) {
+    try {
+      const given = plain(said.request ?? (said.machine && { machine: said.machine }));
+      if (given === null || typeof given !== "object" || Array.isArray(given)) throw new TypeError("it holds neither a request nor a machine");
       this.#id = id;
-      page.take(given);
-    } else if (said.type === `${PREFIX}picture`) {
-      this.#picture(String(said.name), page.request(), id);
+      await page.take(given);
+    } catch (error) {
+      this.failed({ title: "No machine", message: `The message cannot be taken: ${error.message}.` }, id);
     }
   }
 
   async #picture(name, request, id) {
     try {
+      if (typeof name !== "string") throw new Error("The name of a picture is a text.");
       if (request === null) throw new Error("There is no machine yet.");
       const found = await ask("POST", `v1/pictures/${encodeURIComponent(name)}`, { body: request });
       this.say("picture", { name, svg: await found.text() }, id);

@@ -24,4 +24,10 @@ export const label = (name) => name.replace(SUFFIX, "").replaceAll("_", " ");
 
 export const singular = (name) => label(name).replace(/s$/, "");
 
-export const nameOf = (thing, index) => thing?.name ?? String(index + 1);
+// a value of a request, which may be anything, as a text: not every object can be one by itself
+export const written = (value) => {
+  if (value === null || value === undefined) return "";
+  return typeof value === "object" ? JSON.stringify(value) : String(value);
+};
+
+export const nameOf = (thing, index) => written(thing?.name ?? index + 1);

@@ -1,13 +1,11 @@
 // Inputs for single values: numbers with their unit, choices, texts, lists of numbers.
 
 import { h } from "../dom.js";
-import { label } from "../format.js";
+import { label, written } from "../format.js";
 import { meant, read } from "../quantity.js";
 
 let last = 0;
 const freshId = () => `field-${(last += 1)}`;
-
-const shown = (value) => (value === null || value === undefined ? "" : String(value));
 
 // Label, input, unit, hint and a place for the error. `change` gets the new value, undefined where there is none.
 export function field(name, pointer, description, value, required, change) {
@@ -45,10 +43,10 @@ function make(description, value, required, change) {
   if (kind === "numbers") return numbers(value, change);
   const long = kind === "text" && description.longest > 200;
   const mandatory = required && !description.nullable;
-  const placeholder = mandatory ? undefined : shown(description.fallback) || meaning(description);
+  const placeholder = mandatory ? undefined : written(description.fallback) || meaning(description);
   const given = () => (kind === "text" ? input.value : read(input.value, description.unit));
   const input = h(long ? "textarea" : "input", {
-    value: shown(value), placeholder, autocomplete: "off", spellcheck: "false",
+    value: written(value), placeholder, autocomplete: "off", spellcheck: "false",
     ...(long ? { rows: 3 } : { type: "text" }),
     // a letter may follow a number here: its unit
     ...(kind === "number" && !description.text ? { inputmode: "decimal" } : {}),
@@ -66,7 +64,7 @@ function choice(description, value, _required, change) {
   const select = h("select", { change: () => change(select.value || undefined) },
     nullable ? h("option", { value: "" }, meaning(description)) : null,
     options.map((option) => h("option", { value: option }, label(String(option)))));
-  select.value = value ?? fallback ?? (nullable ? "" : options[0]);
+  select.value = written(value ?? fallback ?? (nullable ? "" : options[0]));
   return select;
 }
 
@@ -81,7 +79,7 @@ const parts = (text) => (/[;\t]/.test(text) ? text.split(/[;\t]/).map((part) => 
 
 function numbers(value, change) {
   const input = h("input", {
-    type: "text", value: Array.isArray(value) ? value.join(", ") : shown(value), placeholder: "none", autocomplete: "off",
+    type: "text", value: Array.isArray(value) ? value.map(written).join(", ") : written(value), placeholder: "none", autocomplete: "off",
     input: () => change(input.value.trim() ? parts(input.value.trim()).map((part) => read(part)) : undefined),
   });
   return input;

@@ -1,7 +1,7 @@
 // A table to type into: one row each for throws, rows of cylinders, or webs.
 
 import { h } from "../dom.js";
-import { label, nameOf } from "../format.js";
+import { label, nameOf, written } from "../format.js";
 import { get, join } from "../pointer.js";
 import { meant, quantity, read } from "../quantity.js";
 import { columnsOf, tableAt } from "./columns.js";
@@ -59,7 +59,7 @@ export class Grid {
       ? h("select", { ...attributes, change: () => this.typed(at, column, input.value) }, h("option", { value: "" }, "–"), column.options.map((one) => h("option", {}, one)))
       : h("input", { ...attributes, type: "text", autocomplete: "off", spellcheck: "false", class: column.kind, placeholder: placeholder(column),
         input: () => this.typed(at, column, input.value) });
-    input.value = value === null || value === undefined ? "" : String(value);
+    input.value = written(value);
     return h("td", { class: `field cell is-${column.kind}`, dataset: { pointer: at, head: `${column.head}${column.unit ? `, ${column.unit}` : ""}` } }, input, h("p", { class: "error", id: `error-${at}` }));
   }
 
