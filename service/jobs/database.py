@@ -11,6 +11,7 @@ from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, NoSuchModu
 from sqlalchemy.exc import TimeoutError as PoolTimeout
 
 from service.jobs.schema import prepare
+from service.private import close, make_file, make_folder
 
 
 class DatabaseUnavailable(Exception):
@@ -52,6 +53,7 @@ class Database:
         # a reader never waits for a writer; a writer takes the lock at once, as an upgrade ignores the busy timeout
         self._writer = self._engine.execution_options(immediate=True)
         self._folder = url.parent if isinstance(url, Path) else None
+        self._file = _file(where)
         self._made = False
 
     @contextmanager
@@ -93,7 +95,9 @@ class Database:
     def _make_tables(self) -> None:
         if not self._made:
             if self._folder is not None:
-                self._folder.mkdir(parents=True, exist_ok=True)
+                make_folder(self._folder)
+            if self._file is not None:
+                _make(self._file)
             with self._writer.begin() as connection:
                 if connection.dialect.name == "postgresql":
                     # two services that start together: CREATE TABLE IF NOT EXISTS alone is not safe against itself
@@ -126,6 +130,19 @@ def _knows_other_tables(error: DBAPIError) -> bool:
     """Whether a statement made no sense to the database, which is neither locked nor away."""
     code = getattr(error.orig, "sqlite_errorcode", None)
     return isinstance(error, ProgrammingError) or code == sqlite3.SQLITE_ERROR
+
+
+def _file(url: URL) -> Path | None:
+    """The file of a database; None if it is none, or not named by a path."""
+    name = url.database if url.get_backend_name() == "sqlite" else None
+    return None if name is None or name == ":memory:" or name.startswith("file:") else Path(name)
+
+
+def _make(file: Path) -> None:
+    """Make the file of a database, which nobody else may read; what SQLite puts beside it gets the same rights."""
+    make_file(file)
+    for end in ("-wal", "-shm"):
+        close(file.with_name(file.name + end))
 
 
 def _engine(url: URL, busy_s: float) -> Engine:

@@ -19,9 +19,11 @@ from service.jobs.retention import Retention
 from service.jobs.rows import Limits
 from service.jobs.schema import WrongSchema
 from service.jobs.store import Store
+from service.private import close, close_unless_shared
 from service.settings import Settings
 
 _DAY_S = 86_400.0
+_RESULTS = "results"
 
 
 class Desk:
@@ -41,10 +43,13 @@ class Desk:
         where: str | Path = settings.database_url or settings.data_dir / "jobs.sqlite"
         # no file is made before it is needed; another service may make it
         self._begun: Callable[[], bool] = lambda: not isinstance(where, Path) or where.exists()
+        # of an earlier version, or made by hand: what is in it is nobody else's
+        close(settings.data_dir / _RESULTS)
+        close_unless_shared(settings.data_dir, {_RESULTS})
         self._database = Database(where, settings.database_busy_s)
         limits = _limits(settings)
         store, leases = Store(self._database, limits), Leases(self._database, limits)
-        retention, files = Retention(self._database), JobFiles(settings.data_dir / "results")
+        retention, files = Retention(self._database), JobFiles(settings.data_dir / _RESULTS)
         coordinator = Coordinator(
             store,
             leases,

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import BinaryIO
 
 from service.jobs.job import Record
+from service.private import FILE, make_folder
 from service.replacing import HALF, replaced, synchronise
 
 _FLAG = "stop"
@@ -131,14 +132,14 @@ class JobFiles:
 
     def _write(self, path: Path, content: bytes) -> None:
         _make(path.parent)
-        with replaced(path) as file:
+        with replaced(path, FILE) as file:
             file.write(content)
 
     def stop(self, job: str) -> None:
         """Tell the workers of a job to stop."""
         # without the flag they stop at the end of their chunks
         with suppress(OSError):
-            self.flag(job).parent.mkdir(parents=True, exist_ok=True)
+            _make(self.folder(job))
             self.flag(job).touch()
 
     def go(self, job: str) -> None:
@@ -213,5 +214,5 @@ def _rows_of(name: str) -> str:
 def _make(folder: Path) -> None:
     if not folder.exists():
         _make(folder.parent)
-        folder.mkdir(exist_ok=True)
+        make_folder(folder)
         synchronise(folder.parent)

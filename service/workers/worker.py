@@ -23,6 +23,7 @@ from typing import BinaryIO
 from optimizer.errors import NotComputable
 from service.coding import SMALL_BYTES, Coding, coded
 from service.faults import kept
+from service.private import make_folder
 from service.validation import InvalidRequest, UnreadableBody, check, read_json
 from service.workers.messages import say
 from service.workers.task import Task
@@ -141,7 +142,7 @@ def _send(connection: socket.socket, outcome: Outcome, folder: Path | None) -> N
         return
     try:
         if folder is not None:
-            folder.mkdir(parents=True, exist_ok=True)
+            make_folder(folder)
         with TemporaryFile(dir=folder) as file:
             file.write(outcome.content)
             file.seek(0)

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import stat
 import time
 from collections.abc import Iterator
 from pathlib import Path
@@ -185,13 +186,15 @@ def test_a_task_whose_caller_is_gone_is_ended(pool: Pool) -> None:
 
 
 def test_a_large_answer_comes_in_a_file_that_is_gone_when_it_is_read(pool: Pool, tmp_path: Path) -> None:
-    pool.folder = tmp_path
+    pool.folder = tmp_path / "data"
     large, small = run(pool, task(tasks.large), task(tasks.quick))
     assert isinstance(large, Answer)
     assert isinstance(small, Answer)
     assert large.file is not None
     assert small.file is None
-    assert list(tmp_path.iterdir()) == []
+    assert list(pool.folder.iterdir()) == []
+    # nor does anybody else look into it
+    assert stat.S_IMODE(pool.folder.stat().st_mode) == 0o700
     with large.file as file:
         content = file.read()
     assert (len(content), content.count(b"x")) == (large.size, 5_000_000)
