@@ -13,7 +13,7 @@ import pyarrow.parquet as pq
 from service.computations import XLSX
 from service.jobs.outbox import Outbox
 from service.jobs.worksheet import worksheet
-from service.plain import FORMULA
+from service.plain import FORMULA, SECOND_CELL, TEXT_CELL
 
 Name = Literal["ndjson", "csv", "parquet", "arrow", "xlsx"]
 Batches = Iterable[pa.RecordBatch]
@@ -98,7 +98,8 @@ def _cells(column: pa.Array) -> pa.Array:
 
 
 def _harmless(texts: pa.Array) -> pa.Array:
-    return pc.if_else(pc.match_substring_regex(texts, FORMULA), pc.binary_join_element_wise("'", texts, ""), texts)
+    quoted = pc.replace_substring_regex(texts, SECOND_CELL, TEXT_CELL)
+    return pc.if_else(pc.match_substring_regex(texts, FORMULA), pc.binary_join_element_wise("'", quoted, ""), quoted)
 
 
 def _ndjson(schema: pa.Schema, batches: Batches) -> Iterator[bytes]:

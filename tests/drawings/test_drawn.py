@@ -80,7 +80,31 @@ def test_a_counterweight_without_a_plate_is_in_the_bill_and_said_not_to_be_drawn
 
 
 @pytest.mark.parametrize(
-    ("text", "cell"), [("=1", "'=1"), ("\t1", "'\t1"), ("@x", "'@x"), ("1a", "1a"), ("a=b", "a=b")]
+    ("text", "cell"),
+    [
+        ("=1", "'=1"),
+        ("\t1", "'\t1"),
+        ("@x", "'@x"),
+        ("1a", "1a"),
+        ("a=b", "a=b"),
+        ("", ""),
+        (" a", " a"),
+        (" =1", "' =1"),
+        ("\u3000-1", "'\u3000-1"),
+        ("\ufeff+1", "'\ufeff+1"),
+        ("\u200b\xa0@x", "'\u200b\xa0@x"),
+        ("\uff1d1", "'\uff1d1"),
+        ("\uff0b1", "'\uff0b1"),
+        ("\uff0d1", "'\uff0d1"),
+        ("\uff20x", "'\uff20x"),
+        ("\u22121", "'\u22121"),
+        ("\n1", "'\n1"),
+        ("a;=1", "a;'=1"),
+        ('a;" =1;+2', "a;\" '=1;'+2"),
+        ("=1;-2", "'=1;'-2"),
+        ("a; b-c", "a; b-c"),
+        ("a,=1", "a,=1"),
+    ],
 )
 def test_what_a_spreadsheet_would_run_is_text(text: str, cell: str) -> None:
     assert inert(text) == cell

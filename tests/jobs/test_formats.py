@@ -14,6 +14,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from service.jobs.formats import ARROW_FILE, FORMATS, _groups
+from service.plain import inert
 
 SCHEMA = pa.schema(
     [
@@ -64,11 +65,31 @@ def test_nothing_in_csv_is_a_formula_and_numbers_stay_numbers() -> None:
         ["optimal", "'=1+1"],
         ["", '\'+"quoted"\n'],
         ["'@x", "'\t1"],
-        ["'-x", "'\r=1"],
+        ["'-x", "'\r'=1"],
         ["a,b", "é = 1"],
     ]
     numbers = [float(row[1]) if row[1] else None for row in rows]
     assert numbers == [row["force_peak_N"] for row in ROWS]
+
+
+#: what a text is made of that wants to be a formula: signs in several widths, blanks that show and that do not
+_TEXTS = st.text(st.sampled_from("=+-@\uff1d\uff0b\uff0d\uff20 \t\r\n\xa0\u3000\ufeff\u200b\";,'a1"), max_size=8)
+_SIGNS = tuple("=+-@\uff1d\uff0b\uff0d\uff20")
+
+
+@given(st.lists(st.tuples(_TEXTS, _TEXTS), min_size=1, max_size=3))
+def test_no_cell_of_csv_is_a_formula_whatever_the_separator_is_taken_for(rows: list[tuple[str, str]]) -> None:
+    """Independent: a reader of CSV that knows nothing of it."""
+    names = ["first", "second"]
+    whole = pa.table([pa.array(column, pa.string()) for column in zip(*rows, strict=True)], names)
+    written = encoded("csv", whole).decode()
+    for separator in ",;\t":
+        for line in csv.reader(io.StringIO(written, newline=""), delimiter=separator):
+            for cell in line:
+                assert not cell.strip(" \t\r\n\xa0\u3000\ufeff\u200b").startswith(_SIGNS), (separator, cell)
+    # the bill of material says the same
+    found = [tuple(line) for line in csv.reader(io.StringIO(written, newline=""))]
+    assert found[1:] == [tuple(map(inert, row)) for row in rows]
 
 
 @given(st.lists(st.floats(allow_nan=False, allow_infinity=False), min_size=1))
