@@ -115,8 +115,11 @@ def fail_fields(
 
 
 def fail(*lines: str) -> NoReturn:
+    from service.plain import plain
+
     for line in lines:
-        typer.echo(line, err=True)
+        # it may quote the file, whose texts are no commands to the terminal
+        typer.echo(plain(line).replace("\r", "\ufffd"), err=True)
     raise typer.Exit(BAD_INPUT)
 
 
