@@ -68,7 +68,7 @@ class Store:
             if known is None:
                 raise
         found, its_fingerprint, its_request = known
-        if not same(order, its_fingerprint, its_request):
+        if found.kind != order.kind or not same(order, its_fingerprint, its_request):
             raise KeyReused("This Idempotency-Key came with another request before; take a new key.")
         return found, False
 

@@ -17,6 +17,9 @@ from starlette.testclient import TestClient
 from schemas.pareto import ParetoRequest
 from schemas.sweep import SweepRequest
 from service.jobs.fingerprints import fingerprint
+from service.jobs.job import Order
+from service.jobs.store import KeyReused
+from tests.jobs.house import House
 from tests.jobs.routes import ready
 from tests.jobs.sweeps import MACHINE, optimisations
 
@@ -82,6 +85,14 @@ def test_a_fingerprint_of_an_earlier_version_is_no_other_request(
     again, other = post(client, path, body), post(client, path, changed(body))
     assert (again.status_code, again.headers["location"]) == (202, first.headers["location"])
     assert (other.status_code, other.json()["title"]) == (409, "Key reused")
+
+
+def test_a_key_of_an_earlier_version_is_that_of_its_kind(house: House) -> None:
+    body = json.dumps({"machine": MACHINE}).encode()
+    house.store.submit(Order("optimize", body, "0" * 64, key="k"))
+    asked = ParetoRequest.model_validate_json(body).model_dump_json().encode()
+    with pytest.raises(KeyReused):
+        house.store.submit(Order("pareto", asked, fingerprint("pareto", body), key="k"))
 
 
 def changed(body: dict[str, Any]) -> dict[str, Any]:
