@@ -113,7 +113,7 @@ def _prices(
     return priced(
         machine,
         quantity,
-        (*of_limits(machine, prices), *of_ceilings(objective, prices, scene.omega_squared)),
+        (*of_limits(machine, prices), *of_ceilings(objective, prices.ceiling, scene.omega_squared)),
         fitted,
         touched,
         scene.omega_squared,

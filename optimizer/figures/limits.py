@@ -124,9 +124,14 @@ def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
             yield Priced(limit_name, None, float(limit.price(machine, prices)), float(limit.size(machine)), limit.unit)
 
 
-def of_ceilings(objective: Objective, prices: ShadowPrices, omega_squared: float) -> Iterator[Priced]:
-    """What every ceiling of the first order costs that is given."""
-    for (each, allowed), price in zip(given_ceilings(objective), prices.ceiling.tolist(), strict=True):
+def of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> Iterator[Priced]:
+    """What every ceiling of the first order costs that is given.
+
+    Parameters
+    ----------
+    prices : (M,) of the M ceilings of the first order alone, whatever else a program limits.
+    """
+    for (each, allowed), price in zip(given_ceilings(objective), prices.tolist(), strict=True):
         # an objective over omega^2 per ceiling over omega^2
         yield Priced(each.limit, None, price / omega_squared, allowed, per(each.unit))
 

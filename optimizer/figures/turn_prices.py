@@ -47,7 +47,9 @@ def prices_over_turn(
     (case,) = asked.cases
     usable, _ = normalised(proof.statement, proof.multipliers)
     prices = sensitivity.shadow_prices(proof.statement, u, usable)
-    exact = of_ceilings(request.objective, prices, case.omega_squared) if asked.program.ceilings else ()
+    # the ceilings of the first order come first, and cuts of what is limited over the turn behind them
+    first_order = prices.ceiling[: len(asked.program.ceilings)]
+    exact = of_ceilings(request.objective, first_order, case.omega_squared) if first_order.size else ()
     return shadow_prices(
         request.machine,
         _quantity(request),

@@ -82,3 +82,39 @@ def test_a_full_web_has_a_price_of_bearing_load() -> None:
     assert higher is not None
     assert lower is not None
     assert price.value == pytest.approx((lower.objective - higher.objective) / 0.002 / 2.0, rel=1e-3)
+
+
+_BESIDE = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
+
+
+@pytest.mark.parametrize("beside", _BESIDE)
+@pytest.mark.parametrize(
+    ("field", "limit"), [("force_ceiling_N", "force_ceiling"), ("moment_ceiling_x_Nm", "moment_ceiling_x")]
+)
+def test_a_ceiling_of_the_first_order_has_its_price_beside_one_over_the_turn(
+    field: str, limit: str, beside: str
+) -> None:
+    """Independent: central differences of certified optima; a ceiling far away (analytic) costs nothing."""
+    sizes = {"diameter_m": 0.05, "length_m": 0.04}
+    bearings = [{"name": n, "position_m": z, **sizes} for n, z in (("A", -0.1), ("B", 0.2), ("C", 0.5))]
+    # bearings are weighed, and the ceiling is just above the least that the peak comes to by itself
+    alone = {"moment_weight": 0.0} if field.startswith("force") else {"force_weight": 0.0, "moment_weight": 1.0}
+    residual = _answer(alone).residual
+    assert residual is not None
+    assert residual.after is not None
+    after = residual.after
+    cap = 1.05 * (after.force.peak_N if field.startswith("force") else after.moment.peak_x_Nm)
+    goal = {"force_weight": 0.0, "moment_weight": 0.0, "bearing_weight": 2.0, beside: 1e9}
+
+    def found(by: float) -> OptimizeAnswer:
+        return _answer(goal | {field: cap * (1.0 + by)}, bearings=bearings)
+
+    told, higher, lower = (found(by) for by in (0.0, 1e-3, -1e-3))
+    assert told.active_limits == (limit,)
+    (price,) = told.shadow_prices
+    assert price.limit == limit
+    assert higher.certificate is not None
+    assert lower.certificate is not None
+    fall = (lower.certificate.objective - higher.certificate.objective) / (2e-3 * cap)
+    assert price.value > 0.0
+    assert price.value == pytest.approx(fall / 2.0, rel=1e-3)
