@@ -92,7 +92,8 @@ def exhaust(
 
     terms = statement.norms.constant + lever @ rest
     pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
-    if not np.isfinite(incumbent.level) or pairs.count <= _FEW:
+    # without coordinates all pairs are in one place, and none is nearer than another
+    if not np.isfinite(incumbent.level) or pairs.count <= _FEW or not lever.shape[-1]:
         return pairs.count <= most_pairs and pairs.all(clock)
     pairs.nearest(clock)
     return pairs.near(most_pairs, clock)
@@ -113,7 +114,8 @@ def sums_of(
         bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
         bits = bits if options.limits_parts else np.zeros_like(bits)
         longer = _Sums(
-            (sums.z[:, None] + effect[k, some]).reshape(-1, effect.shape[-1]),
+            # of no coordinates, where nothing changes the objective, no number of rows follows
+            (sums.z[:, None] + effect[k, some]).reshape(count, effect.shape[-1]),
             (sums.mass[:, None] + options.mass[k, some]).ravel(),
             (sums.square[:, None] + options.webs[k] * np.abs(options.unbalance[k, some]) ** 2).ravel(),
             (sums.fitted[:, None] + fitted).ravel(),

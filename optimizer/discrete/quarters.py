@@ -61,7 +61,8 @@ def quarters(incumbent: Incumbent, enough: Callable[[], bool], clock: Clock) -> 
     """Make the set better, by options near to those that are there."""
     options, chance = incumbent.options, np.random.default_rng(_SEED)
     few = np.sum(np.sum(options.exists, axis=-1) > 1) < _FEWEST
-    if few or incumbent.coordinates[0].shape[-1] >= _MANY:
+    # where there are no coordinates no set is better than another
+    if few or not 0 < incumbent.coordinates[0].shape[-1] < _MANY:
         return
     left = _PATIENCE
     while left > 0 and incumbent.chosen is not None and not enough() and not clock.spent():

@@ -118,6 +118,23 @@ def test_whole_masses_make_ties(method: str) -> None:
     assert sorted(options.of(options.mass, found.chosen)) == [1.0, 1.0, 2.0, 2.0]
 
 
+@pytest.mark.parametrize(("fitted", "parts"), [(None, None), (2, 1)])
+@pytest.mark.parametrize("webs", [1, 5])
+def test_webs_that_change_nothing_stay_empty(webs: int, fitted: int | None, parts: int | None, method: str) -> None:
+    """Analytic: where no web changes the objective all sets are equal, and nothing is the lightest."""
+    moment = Response("moment", "N m", Phasors(np.asarray(3.0 + 1j), np.asarray(2j)), np.zeros(webs))
+    ones = np.ones(webs)
+    limits = Limits(ones, 4.0 * ones, ones > 0, ones + 0j, 0.0 * ones, ones, np.asarray(np.inf))
+    problem = statement(combined([weighted_peak(moment, 1.0)], "sum"), [], limits)
+    options = options_of(problem, [1.0, 2.0, 4.0], [0.0, 120.0, 240.0], fitted, parts)
+    found = found_of(problem, options)
+    assert found.kept
+    assert not np.any(found.chosen)
+    assert found.lower_bound == pytest.approx(float(problem.objective(np.zeros(webs, complex))), rel=1e-12)
+    if method == "halves":
+        check(problem, options, method)
+
+
 def test_a_search_that_is_out_of_time_says_so() -> None:
     problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=12)
     most = float(np.max(problem.limits.max_mass))
