@@ -75,10 +75,11 @@ def stocked(web: Place) -> bool:
 
 
 def catalogue(asked: Place, place: Place) -> Claims:
-    """Masses, holes and counts that there are; steps are not covered."""
+    """Masses, holes and counts that there are; steps are not covered. What is fixed is no choice, and not counted."""
     general = asked / "catalogue"
     used: list[Number] = []
-    for web, one in zip(asked / "webs", place):
+    chosen = [(web, one) for web, one in zip(asked / "webs", place) if not web / "fixed"]
+    for web, one in chosen:
         mass, angle = (one / "mass_kg").number(), (one / "angle_deg").double()
         if mass.high <= 0:
             continue
@@ -91,7 +92,7 @@ def catalogue(asked: Place, place: Place) -> Claims:
         yield "catalogue", one / "angle_deg", real(Fraction(SAME) - min(away)) if away else None, ONE
         if all(abs(mass - other).low > (mass * real(SAME)).high for other in used):
             used.append(mass)
-    fitted = sum((one / "mass_kg").double() > 0 for one in place)
+    fitted = sum((one / "mass_kg").double() > 0 for _, one in chosen)
     for most, count in ((asked / "max_counterweights", fitted), (general / "max_part_numbers", len(used))):
         if most:
             yield "catalogue", most, most.number() - real(count), ONE

@@ -46,6 +46,19 @@ def test_what_is_falsified_is_caught(case: tuple[dict[str, Any], dict[str, Any]]
         assert broken(tighter, answer), name
 
 
+@pytest.mark.parametrize("most", [None, 0, 1])
+def test_what_is_fixed_is_no_choice_from_a_catalogue(most: int | None) -> None:
+    """Analytic: a weight that was there before is of no catalogue, and none of the counterweights that are counted."""
+    body = json.loads(json.dumps(SINGLE["sum"]))
+    machine = body["machine"]
+    machine["webs"][0]["fixed"] = {"mass_kg": 0.123, "angle_deg": 170.0}
+    machine["catalogue"] = {"masses_kg": [1.0, 2.0], "angle_step_deg": 30.0, "max_part_numbers": 1}
+    machine["max_counterweights"] = most
+    answer = json.loads(optimize(OptimizeRequest.model_validate(body)).model_dump_json())
+    assert answer["counterweights"][0]["mass_kg"] == 0.123
+    assert not broken(body, answer)
+
+
 def test_multipliers_that_are_too_long_prove_no_more() -> None:
     """Analytic: |y| <= lambda is made to hold, so a bound never rises by longer multipliers."""
     body = SINGLE["sum"]
