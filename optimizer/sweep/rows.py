@@ -1,5 +1,6 @@
 """From numbers of designs to columns of the result: axes, validity, mechanics, program, outputs."""
 
+import logging
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any
 
@@ -22,6 +23,7 @@ from schemas.rules import Path, Rule, all_rules
 from schemas.sweep import SweepRequest, pointer
 from schemas.variation import with_fields
 
+_LOG = logging.getLogger(__name__)
 Designs = NDArray[np.int64]
 #: rows times angles that are worked on at once, which bounds the memory
 _AT_ONCE = 400_000
@@ -37,6 +39,8 @@ class Rows:
             for column in (*request.all_columns, *request.chosen_columns)
         }
         self.columns["index"] = np.arange(start, stop, dtype=np.int64)
+        self._labels = {"index", *(pointer(target.path) for target in request.targets)}
+        self._faults: dict[str, tuple[list[int], Exception]] = {}
 
     def put(self, designs: Designs, found: dict[str, Any]) -> None:
         """Columns of some designs; those that the result does not have are left out."""
@@ -49,11 +53,34 @@ class Rows:
         self.columns["status"][designs] = "invalid"
         self.columns["message"][designs] = f"{pointer(rule.path)}: {rule.message}"
 
+    def fail(self, design: int, error: Exception) -> None:
+        """A design that computing broke down for: what of it was computed before is not told."""
+        for name, column in self.columns.items():
+            if name not in self._labels:
+                column[design] = np.nan if column.dtype == float else None
+        self.columns["status"][design] = "failed"
+        said = f"{type(error).__name__}: {error}"
+        self.columns["message"][design] = f"internal fault: {said}"
+        self._faults.setdefault(said, ([], error))[0].append(int(self.columns["index"][design]))
+
+    def tell_faults(self) -> None:
+        """Log what designs broke down for, once for all that say the same."""
+        for said, (designs, error) in self._faults.items():
+            _LOG.error(
+                "%d design(s) of a sweep broke down, %d first: %s", len(designs), designs[0], said, exc_info=error
+            )
+
 
 def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[str, Any]:
     """Every column of the designs start..stop-1, by name.
 
-    A design that is no valid request is a row that says which field is wrong; it ends nothing.
+    A design that is no valid request is a row that says which field is wrong; it ends nothing. Nor does one that
+    computing breaks down for, by whatever exception: its row says so, and the exception is logged.
+
+    Raises
+    ------
+    MemoryError
+        as fewer rows at a time may fit.
     """
     values = axis_values(request, start, stop)
     table = Rows(request, start, stop)
@@ -61,7 +88,8 @@ def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[s
     ranges = (rule for target, column in zip(request.targets, values, strict=True) for rule in target.rules(column))
     inside = _refuse(table, np.arange(stop - start), ranges)
     for designs in _same_nulls(values, inside):
-        _fill(table, Group(request, values), designs, solver)
+        _fill_or_fail(table, Group(request, values), designs, solver)
+    table.tell_faults()
     return table.columns
 
 
@@ -98,6 +126,20 @@ class Group:
         return {
             design: one for design, one in alone if isinstance(one, OptimizeRequest) and one.objective.over_the_turn
         }
+
+
+def _fill_or_fail(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    """Rows of some designs; where computing breaks down, of halves of them, until the designs at fault are alone."""
+    try:
+        _fill(table, group, designs, solver)
+    except MemoryError:
+        raise
+    except Exception as error:
+        if designs.size == 1:
+            table.fail(int(designs[0]), error)
+            return
+        for half in np.array_split(designs, 2):
+            _fill_or_fail(table, group, half, solver)
 
 
 def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
