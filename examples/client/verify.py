@@ -33,7 +33,7 @@ from verify_numbers import (
     total,
 )
 from verify_program import CEILINGS, Statement, phasors
-from verify_weights import catalogue, counterweights, heavy_enough, stocked
+from verify_weights import catalogue, counterweights, heavy_enough, stocked, usual_gap
 
 CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
 MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
@@ -150,7 +150,8 @@ def optimum(request: Place, answer: Place) -> Claims:
         yield from lightest(statement, proof, multipliers, most, after, mass)
         yield from light(statement, proof, dict.fromkeys(rows, size), mass, status == "optimal")
     if status == "optimal":
-        room = (request / "accuracy" / "relative_gap").number(1e-3 if chosen else 1e-6, least=0) * size + noise - gap
+        wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+        room = wide * size + noise - gap
         yield "status", lowest, room if proof / "yardstick" else None, size
 
 

@@ -32,7 +32,7 @@ from verify_numbers import (
     total,
 )
 from verify_program import CEILINGS, Statement, support
-from verify_weights import counterweights
+from verify_weights import counterweights, usual_gap
 
 #: fields of an objective that look at the whole turn and are known here
 FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
@@ -252,7 +252,8 @@ def over_turn(request: Place, answer: Place) -> Claims:
     if least and status == "optimal":
         yield "status", least, light * real(MASS_GAP) + SPECK * mass - (mass - least.number()), light
     if status == "optimal":
-        room = (request / "accuracy" / "relative_gap").number(1e-3 if chosen else 1e-6, least=0) * size + noise - gap
+        wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+        room = wide * size + noise - gap
         yield "status", lowest, room if proof / "yardstick" else None, size
 
 

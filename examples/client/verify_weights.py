@@ -74,6 +74,13 @@ def stocked(web: Place) -> bool:
     return bool(web / "catalogue_masses_kg") or bool(web / "hole_angles_deg")
 
 
+def usual_gap(asked: Place) -> float:
+    """The gap that a machine is asked for where none is said: wide where counterweights are chosen, or a least is."""
+    places = (asked, *(web for web in asked / "webs"))
+    names = ("catalogue", "max_counterweights", "catalogue_masses_kg", "hole_angles_deg", "min_fitted_mass_kg")
+    return 1e-3 if any(place / name for place in places for name in names) else 1e-6
+
+
 def catalogue(asked: Place, place: Place) -> Claims:
     """Masses, holes and counts that there are; steps are not covered. What is fixed is no choice, and not counted."""
     general = asked / "catalogue"

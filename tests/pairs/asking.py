@@ -1,0 +1,195 @@
+"""Ask for a combination of features, and judge what comes back."""
+
+import json
+import time
+import traceback
+from collections.abc import Iterator, Sequence
+from copy import deepcopy
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from optimizer.errors import NotComputable
+from optimizer.formulate import weights
+from optimizer.optimize import optimize
+from optimizer.program.verdict import CONTRADICTED
+from schemas.answers import OptimizeAnswer
+from schemas.requests import OptimizeRequest
+from service.validation import InvalidRequest, check
+from service.verification import checker
+from tests.pairs.features import FEATURES, NoPlace, Subject
+from tests.pairs.machines import BASES, Request
+
+#: relative, of the yardstick: what rounding may make of a bound
+_ROUNDING = 1e-9
+#: relative: what a mass may exceed its limit by, as the verdict has it
+_OVER = 1e-9
+#: relative: what a peak may exceed its ceiling by, as the verdict has it
+_KEPT = 1e-7
+#: seconds of a search, where a request says nothing
+TIME_LIMIT_S = 0.5
+
+Kind = Literal["answered", "refused", "no place", "fault"]
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What a combination came to.
+
+    message : of a refusal the first field, of a fault what is wrong.
+    cpu_s : of the answer alone; the time of this thread.
+    """
+
+    base: str
+    features: tuple[str, ...]
+    kind: Kind
+    message: str = ""
+    status: str = ""
+    cpu_s: float = 0.0
+
+    @property
+    def name(self) -> str:
+        return f"{self.base}: {' + '.join(self.features)}"
+
+
+def body_of(base: str, features: Sequence[str], time_limit_s: float = TIME_LIMIT_S) -> Request | None:
+    """A request with features in their order; None where the machine has no place for one."""
+    body = deepcopy(BASES[base])
+    subject = Subject(base, body)
+    try:
+        for name in features:
+            FEATURES[name](subject)
+    except NoPlace:
+        return None
+    body.setdefault("accuracy", {}).setdefault("time_limit_s", time_limit_s)
+    return body
+
+
+def ask(base: str, features: Sequence[str], time_limit_s: float = TIME_LIMIT_S) -> Outcome:
+    """The answer of a combination, judged."""
+    names = tuple(features)
+    body = body_of(base, features, time_limit_s)
+    if body is None:
+        return Outcome(base, names, "no place")
+    begun = time.thread_time()
+    try:
+        request = check(OptimizeRequest, body)
+        answer = optimize(request)
+        text = answer.model_dump_json()
+    except (InvalidRequest, NotComputable) as refusal:
+        first = next(iter(refusal.problems), None)
+        if first is None or not first.path or not first.message:
+            return Outcome(base, names, "fault", "refused without a field")
+        return Outcome(base, names, "refused", "/".join(map(str, first.path)))
+    except Exception as error:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        where = f"{frame.filename.rpartition('/')[2]}:{frame.lineno} {frame.name}"
+        return Outcome(base, names, "fault", f"{type(error).__name__}: {error} ({where})")
+    spent = time.thread_time() - begun
+    wrong = [*_unlike_numbers(text), *_wrong(request, answer), *_broken_claims(body, text)]
+    kind: Kind = "fault" if wrong else "answered"
+    return Outcome(base, names, kind, "; ".join(wrong), answer.status, spent)
+
+
+def _unlike_numbers(text: str) -> Iterator[str]:
+    if "NaN" in text or "Infinity" in text:
+        yield "the answer holds no finite number"
+
+
+def _broken_claims(body: Request, text: str) -> Iterator[str]:
+    """What the checker, which shares no code with what computed the answer, proves to be wrong."""
+    found = checker()
+    for claim in found.verify(body, json.loads(text), found.PLACES)["claims"]:
+        if claim["verdict"] == "broken":
+            yield f"{claim['claim']} is broken by {claim['margin']}"
+
+
+def _wrong(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
+    """What an answer claims that cannot be."""
+    if answer.status == "infeasible":
+        yield from _wrong_infeasibility(answer)
+        return
+    proof = answer.certificate
+    if proof is None:
+        yield "no certificate"
+        return
+    size = proof.yardstick or 1.0
+    if proof.lower_bound is not None and proof.lower_bound > proof.objective + _ROUNDING * size:
+        yield f"bound {proof.lower_bound} above {proof.objective}"
+    if answer.status == "optimal":
+        if proof.relative_gap is None or proof.relative_gap > request.accuracy.relative_gap:
+            yield f"optimal with a gap of {proof.relative_gap}"
+    elif answer.status_reason == CONTRADICTED:
+        yield answer.status_reason
+    yield from _wrong_masses(request, answer)
+    yield from _wrong_objective(request, answer, proof.objective, size)
+    yield from _wrong_ceilings(request, answer)
+
+
+def _wrong_infeasibility(answer: OptimizeAnswer) -> Iterator[str]:
+    why = answer.infeasibility
+    if why is None:
+        yield "infeasible without a reason"
+    elif not why.conflict:
+        yield "infeasible without a conflict"
+
+
+def _wrong_masses(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
+    """Counterweights outside of their limits."""
+    webs = {web.name: web for web in request.machine.webs}
+    for each in answer.counterweights:
+        web = webs[each.web]
+        if web.fixed is not None:
+            continue
+        most = web.max_mass_kg
+        if most is not None and each.mass_kg > most * (1.0 + _OVER):
+            yield f"{each.web} is heavier than its limit: {each.mass_kg} kg"
+        if each.mass_kg == 0.0:
+            continue
+        least = web.min_fitted_mass_kg
+        if least is not None and each.mass_kg < least * (1.0 - _OVER):
+            yield f"{each.web} is lighter than its limit: {each.mass_kg} kg"
+        if web.sector is not None:
+            off = abs((each.angle_deg - web.sector.centre_deg + 180.0) % 360.0 - 180.0)
+            if off > web.sector.half_angle_deg + 1e-7:
+                yield f"{each.web} is outside of its sector: {each.angle_deg} deg"
+    machine, total = request.machine, answer.total_mass_kg or 0.0
+    if machine.max_total_mass_kg is not None and total > machine.max_total_mass_kg * (1.0 + _OVER) + 1e-12:
+        yield f"the total mass is over its limit: {total} kg"
+    some = sum(1 for each in answer.counterweights if each.mass_kg > 0 and webs[each.web].fixed is None)
+    if machine.max_counterweights is not None and some > machine.max_counterweights:
+        yield f"{some} counterweights are more than {machine.max_counterweights}"
+
+
+def _wrong_objective(request: OptimizeRequest, answer: OptimizeAnswer, objective: float, size: float) -> Iterator[str]:
+    """The objective of the first order is what its peaks come to."""
+    goal = request.objective
+    plain = goal.direction_weights.x == goal.direction_weights.y == 1.0
+    if goal.over_the_turn or request.robust or not plain or answer.residual is None or answer.residual.after is None:
+        return
+    after, wanted = answer.residual.after, weights(request.machine, goal)
+    peaks = np.array([wanted["force"] * after.force.peak_N, wanted["moment"] * after.moment.peak_Nm])
+    value = float(np.max(peaks) if goal.combine == "max" else np.sum(peaks))
+    if abs(value - objective) > _ROUNDING * size:
+        yield f"the objective is {objective}, and its peaks come to {value}"
+
+
+def _wrong_ceilings(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[str]:
+    """An optimum keeps the ceilings of the first order."""
+    goal, residual = request.objective, answer.residual
+    if answer.status != "optimal" or residual is None or residual.after is None or goal.orders == "all":
+        return
+    after = residual.after
+    kept = (
+        ("force_ceiling_N", after.force.peak_N, residual.before.force.peak_N),
+        ("moment_ceiling_Nm", after.moment.peak_Nm, residual.before.moment.peak_Nm),
+        ("force_ceiling_x_N", after.force.peak_x_N, residual.before.force.peak_N),
+        ("force_ceiling_y_N", after.force.peak_y_N, residual.before.force.peak_N),
+        ("moment_ceiling_x_Nm", after.moment.peak_x_Nm, residual.before.moment.peak_Nm),
+        ("moment_ceiling_y_Nm", after.moment.peak_y_Nm, residual.before.moment.peak_Nm),
+    )
+    for field, peak, before in kept:
+        allowed = getattr(goal, field)
+        if allowed is not None and peak > allowed + _KEPT * max(before, allowed):
+            yield f"{field} is not kept: {peak} > {allowed}"

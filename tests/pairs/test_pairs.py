@@ -1,0 +1,79 @@
+"""Any two features of a request go together or are refused by a field: property, of every pair.
+
+A legal request is answered: without an exception, with a bound that is not above the value, a status that is honest,
+counterweights within their limits, figures that agree, and no claim that the independent checker proves to be wrong.
+"""
+
+import pytest
+
+from tests.pairs.asking import Outcome, ask
+from tests.pairs.combinations import Combination, all_pairs, random_triples, some_pairs
+from tests.pairs.features import FEATURES
+from tests.pairs.machines import BASES
+from tests.pairs.ways import pareto_fault, sweep_fault
+
+#: CPU seconds of a warm answer, the time limit of its search being a sixth of it
+_MOST_CPU_S = 3.0
+_TRIPLES = 2_000
+_BLOCKS = 12
+
+
+def _faults(outcomes: list[Outcome]) -> list[str]:
+    return [f"{each.name} | {each.message}" for each in outcomes if each.kind == "fault"]
+
+
+def _short(combination: Combination) -> str:
+    base, features = combination
+    return f"{base}: {' + '.join(features)}"
+
+
+@pytest.mark.parametrize("base", BASES)
+def test_every_feature_is_legal_somewhere(base: str) -> None:
+    outcomes = [ask(base, [name]) for name in FEATURES]
+    assert not _faults(outcomes)
+    answered = {each.features[0] for each in outcomes if each.kind == "answered"}
+    alone = {
+        "twin": {"roll weight", "bearings without sizes", "outputs of gas"},
+        "vee": {"roll weight", "bearings without sizes", "outputs of gas"},
+    }
+    if base in alone:
+        assert set(FEATURES) - answered == alone[base]
+    else:
+        assert len(answered) > len(FEATURES) // 2
+
+
+def test_some_pairs() -> None:
+    outcomes = [ask(base, pair) for base, pair in some_pairs()]
+    assert not _faults(outcomes)
+    assert sum(each.kind == "answered" for each in outcomes) >= 120
+
+
+@pytest.mark.parametrize("combination", some_pairs()[::9], ids=_short)
+def test_some_pairs_in_rows_and_fronts(combination: Combination) -> None:
+    """A row is the answer to its design alone, and a front is computed or refused by a field."""
+    assert sweep_fault(*combination) is None
+    assert pareto_fault(*combination) is None
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("block", range(_BLOCKS))
+def test_all_pairs(block: int) -> None:
+    outcomes = [ask(base, pair) for n, (base, pair) in enumerate(all_pairs()) if n % _BLOCKS == block]
+    assert not _faults(outcomes)
+    assert not _slow(outcomes)
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("block", range(_BLOCKS))
+def test_random_triples(block: int) -> None:
+    some = [each for n, each in enumerate(random_triples(_TRIPLES)) if n % _BLOCKS == block]
+    outcomes = [ask(base, triple) for base, triple in some]
+    assert not _faults(outcomes)
+    assert not _slow(outcomes)
+
+
+def _slow(outcomes: list[Outcome]) -> list[str]:
+    """What takes too long twice: once a kernel may be loaded, or an import made."""
+    slow = [each for each in outcomes if each.cpu_s > _MOST_CPU_S]
+    again = [ask(each.base, each.features) for each in slow]
+    return [f"{each.name} took {each.cpu_s:.1f} s" for each in again if each.cpu_s > _MOST_CPU_S]
