@@ -6,7 +6,6 @@ import numpy as np
 
 from optimizer.arrays import Complex, Real
 from optimizer.balance_shafts import chosen, posed
-from optimizer.effects.registry import run
 from optimizer.figures import sensitivity
 from optimizer.figures.counterweights import masses_and_angles, unbalance
 from optimizer.figures.limits import touched_by_mass
@@ -125,14 +124,8 @@ def told(
 
 
 def whole_turn_of(scene: Prepared) -> WholeTurn:
-    """The forces of the rows, if no output has asked for them either."""
-    if "whole_turn" not in scene.results:
-        needs = ("whole_turn",)
-        angle = np.zeros(1)
-        found = run(scene.machine, scene.layout, needs, scene.request.fidelity, angle)["whole_turn"]
-        assert isinstance(found, WholeTurn)
-        return found
-    turn: WholeTurn = scene.results["whole_turn"]
+    """The forces of the rows over the turn."""
+    turn: WholeTurn = scene.simulated.result("whole_turn", "objective")
     return turn
 
 

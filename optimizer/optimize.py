@@ -9,7 +9,7 @@ from optimizer.outputs import fields as answered
 from optimizer.outputs import prepare
 from optimizer.own_solver import own_solver
 from optimizer.program.reference.solver import Solver
-from optimizer.required import missing
+from optimizer.required import effects_of_objective, missing
 from optimizer.scene import Prepared
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.solve import solve
@@ -37,7 +37,8 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     if lacking:
         raise MissingInput(lacking)
     always = _always(request)
-    scene = prepare(request, always)
+    # of scenarios every one is a machine of its own, simulated for itself
+    scene = prepare(request, always, () if request.scenarios else effects_of_objective(request))
     solving = time.perf_counter()
     best = solve(request, scene, solver or own_solver())
     reporting = time.perf_counter()

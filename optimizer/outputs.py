@@ -52,12 +52,13 @@ OUTPUTS: dict[str, Output] = {
 MAX_SAMPLES = 200_000
 
 
-def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
+def prepare(request: Scene, always: tuple[str, ...] = (), objective: tuple[str, ...] = ()) -> Prepared:
     """Simulate what the outputs of a request call for.
 
     Parameters
     ----------
     always : outputs that are needed whether they were asked for or not.
+    objective : effects that the objective needs, which the machine gives.
 
     Raises
     ------
@@ -66,7 +67,10 @@ def prepare(request: Scene, always: tuple[str, ...] = ()) -> Prepared:
     """
     outputs = dict.fromkeys((*always, *request.outputs))
     require_inputs(request.machine, tuple(outputs), request.angles.count)
-    return simulated(request, {name: OUTPUTS[name].needs for name in outputs}, request.angles.count)
+    needs = {name: OUTPUTS[name].needs for name in outputs}
+    if objective:
+        needs["objective"] = objective
+    return simulated(request, needs, request.angles.count)
 
 
 def fields(

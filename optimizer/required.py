@@ -9,13 +9,18 @@ from schemas.base import FieldProblem
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 
-#: effects that force and moment of all orders need
+#: effects that an objective over the whole turn needs
 _TURN = ("whole_turn",)
 #: why the bending of a shaft without bearings cannot be told
 _FREE = (
     "a free shaft bends in a known way only where its loads balance at every angle, which those of pistons never do:"
     " give the bearings that carry them"
 )
+
+
+def effects_of_objective(request: OptimizeRequest) -> tuple[str, ...]:
+    """Effects that the objective needs of a machine, beyond the first order."""
+    return _TURN if request.objective.over_the_turn else ()
 
 
 def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:

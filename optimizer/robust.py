@@ -23,7 +23,7 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.outputs import prepare
 from optimizer.program.cut import EXACT, Scatter
 from optimizer.program.cuts import Found, Unkept, over_turn
-from optimizer.required import missing
+from optimizer.required import effects_of_objective, missing
 from optimizer.response import Phasors, Response
 from optimizer.scene import Prepared
 from schemas.base import FieldProblem
@@ -128,6 +128,9 @@ class Robust:
         self.scatter = scatter_of(tolerances)
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
         self.machines = list(_scenarios(request, share)) or [Machine(request, scene, None, 1.0, share)]
+        for machine in self.machines:
+            if machine.scene is not scene:
+                scene.simulated.join(machine.scene.simulated, "scenarios")
         self._measures = list(dict.fromkeys(_measures(request)))
         self._until = time.thread_time() + request.accuracy.time_limit_s
         #: signs of the changes of masses that are known of every machine
@@ -182,7 +185,7 @@ def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:
         if lacking:
             place = ("scenarios", i, "changes")
             raise MissingInput(FieldProblem(place, f"{pointer(path)}: {message}") for path, message in lacking)
-        scene = prepare(made, ("residual",))
+        scene = prepare(made, ("residual",), effects_of_objective(made))
         yield Machine(made, scene, scenario.name, scenario.weight, share)
 
 

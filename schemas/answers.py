@@ -119,7 +119,11 @@ class EffectUse(Model):
     """Whether an effect was simulated, for which outputs, and how long it took."""
 
     simulated: bool = Field(description="whether the effect was simulated", examples=[True])
-    needed_by: tuple[str, ...] = Field(description="outputs that asked for it", examples=[["residual"]])
+    needed_by: tuple[str, ...] = Field(
+        description="outputs that asked for it; `objective` where goals go beyond the first order, `scenarios` where"
+        " their machines were simulated",
+        examples=[["residual"]],
+    )
     time_ms: Milliseconds = Field(description="time it took; 0 where it was not simulated", examples=[0.1])
 
 

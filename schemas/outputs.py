@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Annotated, Literal, NamedTuple
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
-from schemas.base import Model, NotEmpty
+from schemas.base import Model
 from schemas.dynamics import (
     Flywheel,
     Gas,
@@ -188,7 +188,10 @@ if TYPE_CHECKING:
 else:
     #: the residual and the balance rate, which every optimisation answers, and the fields above
     OutputName = Literal["residual", "balance_rate", *OutputFields.model_fields]
-OutputNames = Annotated[tuple[OutputName, ...], Field(max_length=32), NotEmpty()]
+#: none is the residual, as where nothing is said
+OutputNames = Annotated[
+    tuple[OutputName, ...], Field(max_length=32), AfterValidator(lambda names: names or ("residual",))
+]
 
 Kind = Literal["integer", "number", "text"]
 

@@ -86,18 +86,56 @@ def inputs_of(needs: Sequence[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(each for name in effects_of(needs) for each in EFFECTS[name].inputs))
 
 
-@dataclass(frozen=True)
+@dataclass
 class Simulated:
-    """Results of the effects that the outputs name, and the use made of every effect."""
+    """Results of effects and the use made of every effect; what is called for later is simulated then, once."""
 
-    results: Mapping[str, Any]
-    uses: Mapping[str, EffectUse]
+    machine: Machine
+    layout: Layout
+    fidelity: Fidelity
+    results: dict[str, Any]
+    #: of every effect that ran
+    times_ms: dict[str, float]
+    needed_by: dict[str, tuple[str, ...]]
 
     @cached_property
     def first_order(self) -> Wrench:
         """First-order force and moment without counterweights, over omega^2."""
         rotating: Wrench = self.results["rotating_inertia"]
         return rotating.plus(self.results["reciprocating_inertia"])
+
+    def result(self, name: str, purpose: str) -> Any:
+        """Result of an effect that no sampled angle changes, for an output or another purpose."""
+        if name not in self.results:
+            results, times = _run(self.machine, self.layout, (name,), self.fidelity, np.zeros(1))
+            self.results |= results
+            self._add(times)
+        self._need(closure(self.machine, (name,)), purpose)
+        return self.results[name]
+
+    def join(self, other: "Simulated", purpose: str) -> None:
+        """Count the effects of another machine, such as that of a scenario, among those that ran."""
+        self._add(other.times_ms)
+        self._need([*other.times_ms], purpose)
+
+    @property
+    def uses(self) -> dict[str, EffectUse]:
+        """Every effect: whether it was simulated, for what, and how long it took."""
+        return {
+            name: EffectUse(simulated=True, needed_by=self.needed_by[name], time_ms=self.times_ms[name])
+            if name in self.times_ms
+            else _UNUSED
+            for name in EFFECTS
+        }
+
+    def _add(self, times: Mapping[str, float]) -> None:
+        for name, time_ms in times.items():
+            self.times_ms[name] = self.times_ms.get(name, 0.0) + time_ms
+
+    def _need(self, names: Sequence[str], purpose: str) -> None:
+        for name in names:
+            others = self.needed_by.get(name, ())
+            self.needed_by[name] = others if purpose in others else (*others, purpose)
 
 
 def simulate(
@@ -108,24 +146,15 @@ def simulate(
     Parameters
     ----------
     layout : of the machine; its leading axes (...) are those of all results.
-    asked : outputs by name, with the effects that each needs.
+    asked : outputs and other purposes by name, with the effects that each needs.
     angle : (T,) rad, shaft angles of the samples; needed only by sampled effects.
     """
     samples = np.zeros(0) if angle is None else angle
-    closures = {output: closure(machine, needs) for output, needs in asked.items()}
+    closures = {purpose: closure(machine, needs) for purpose, needs in asked.items()}
     wanted = [need for needs in asked.values() for need in needs]
     results, times = _run(machine, layout, wanted, fidelity, samples)
-    uses = {
-        name: EffectUse(
-            simulated=True,
-            needed_by=tuple(output for output, names in closures.items() if name in names),
-            time_ms=times[name],
-        )
-        if name in times
-        else _UNUSED
-        for name in EFFECTS
-    }
-    return Simulated(results, uses)
+    needed_by = {name: tuple(purpose for purpose, names in closures.items() if name in names) for name in times}
+    return Simulated(machine, layout, fidelity, results, times, needed_by)
 
 
 def run(machine: Machine, layout: Layout, needs: Sequence[str], fidelity: Fidelity, angle: Real) -> dict[str, Any]:

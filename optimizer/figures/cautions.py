@@ -78,7 +78,7 @@ def _plain(value: float, digits: int = 4) -> str:
 def _no_gas(told: Told) -> Iterator[Caution]:
     """Rows whose loads were wanted with gas and have none."""
     machine = told.scene.machine
-    if not isinstance(machine, ReciprocatingMachine) or not told.scene.simulated.uses["piston_force"].simulated:
+    if not isinstance(machine, ReciprocatingMachine) or "piston_force" not in told.scene.simulated.times_ms:
         return
     rows = without_gas(machine)
     if rows:

@@ -171,7 +171,6 @@ def test_signs(path: tuple[str | int, ...]) -> None:
         (("objective", "combine"), "least"),
         (("objective", "least_mass"), 1),
         (("objective", "least_mass"), "true"),
-        (("outputs",), []),
         (("outputs",), ["nothing"]),
         (("outputs",), "residual"),
         (("accuracy", "relative_gap"), 1e-13),
