@@ -67,6 +67,8 @@ def search(
 
     places = root(least, statement.limits)
     incumbent = Incumbent(statement, places, _EQUAL * asked.yardstick, solver)
+    # nothing on any web keeps every limit but ceilings
+    incumbent.offer(np.zeros((1, least.size), complex))
     sharing(incumbent, continuous, clock)
     if known:
         incumbent.offer(np.stack(known))
