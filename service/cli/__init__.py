@@ -1,9 +1,11 @@
 """The command line ``counterweight``: the service without a server, on the same JSON.
 
-Exit codes: 0 optimal or computed, 1 infeasible or inaccurate, 2 bad input. The optimiser and the server are imported by
-the commands that need them, so that ``--help`` answers at once.
+Exit codes: 0 optimal or computed, 1 infeasible or inaccurate, 2 bad input, 70 a fault of this program. The optimiser
+and the server are imported by the commands that need them, so that ``--help`` answers at once.
 """
 
+import os
+import traceback
 from typing import Annotated
 
 import typer
@@ -17,9 +19,12 @@ from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
 from service.cli.template import template
-from service.cli.terminal import put
+from service.cli.terminal import FAULT, put
 from service.cli.verify import verify
 from service.computations import COMPUTATIONS
+
+#: setting of the service; at debug a fault of the program is told with its traceback
+_LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
 
 def _version(asked: bool) -> None:
@@ -59,5 +64,15 @@ app = command_line()
 
 
 def main() -> None:
-    """Run the command line."""
-    app()
+    """Run the command line.
+
+    What nothing here expects is said in a line, and by an exit code of its own: an answer has another.
+    """
+    try:
+        app()
+    except Exception as error:
+        if os.environ.get(_LOG_LEVEL, "").lower() == "debug":
+            traceback.print_exc()
+        said = f"{type(error).__name__}: {error}".partition("\n")[0]
+        typer.echo(f"internal fault, not of the input: {said} ({_LOG_LEVEL}=debug tells where)", err=True)
+        raise SystemExit(FAULT) from None

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any, NoReturn
 
 import typer
 
-from service.cli.terminal import AsJson, File, fail, fail_fields, put, question, show
+from service.cli.terminal import FAULT, AsJson, File, fail, fail_fields, put, question, show
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -87,7 +87,8 @@ def _sweep(
         from shutil import rmtree
 
         rmtree(place)
-    raise typer.Exit(0 if set(counts) <= {"optimal", "analyzed"} else 1)
+    # a row that computing broke down for is no row that has no optimum
+    raise typer.Exit(FAULT if "failed" in counts else 0 if set(counts) <= {"optimal", "analyzed"} else 1)
 
 
 def _estimate(asked: "SweepRequest", workers: int | None, as_json: bool) -> None:

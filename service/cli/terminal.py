@@ -16,6 +16,8 @@ Question = TypeVar("Question", bound="Model")
 Answer = TypeVar("Answer")
 
 BAD_INPUT = 2
+#: exit code of a fault of the program itself, EX_SOFTWARE of sysexits.h
+FAULT = 70
 #: how the name of a workbook ends
 WORKBOOK = ".xlsx"
 _STYLES = {

@@ -154,6 +154,16 @@ def test_what_cannot_be_done(
     assert said in done.stderr
 
 
+@pytest.mark.parametrize(
+    ("counts", "code"), [({"optimal": 6}, 0), ({"optimal": 5, "infeasible": 1}, 1), ({"optimal": 5, "failed": 1}, 70)]
+)
+def test_a_row_that_broke_down_is_no_infeasible_one(
+    counts: dict[str, int], code: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(import_module("service.cli.sweep"), "_counts", lambda *_: counts)
+    assert here(written(tmp_path, optimisations()), "-o", str(tmp_path / "rows.csv")).exit_code == code
+
+
 def test_a_bad_sweep_names_the_field(tmp_path: Path) -> None:
     done = here(written(tmp_path, optimisations(axes=[{"path": "/machine/nothing", "values": [1]}])), "-o", "x.csv")
     assert done.exit_code == 2

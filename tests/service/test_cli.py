@@ -1,6 +1,7 @@
 """The command line: exit codes, tables, the exact answer of the service."""
 
 import json
+import os
 import subprocess
 import sys
 from importlib import import_module
@@ -237,6 +238,27 @@ def test_a_closed_pipe_is_said_without_a_traceback() -> None:
         said = process.stderr.read().decode()
     assert process.returncode == 2
     assert said.splitlines() == ["cannot write to standard output: Broken pipe"]
+
+
+@pytest.mark.parametrize("level", [None, "debug"])
+def test_a_fault_of_the_program_is_no_infeasible_answer(level: str | None) -> None:
+    code = (
+        "import sys, optimizer.optimize, service.cli\n"
+        "def broken(*_): raise ZeroDivisionError('as a fault\\nwould')\n"
+        "sys.modules['optimizer.optimize'].prepare = broken\n"
+        "service.cli.main()"
+    )
+    kept = {name: value for name, value in os.environ.items() if name != "COUNTERWEIGHT_LOG_LEVEL"}
+    environment = kept if level is None else {**kept, "COUNTERWEIGHT_LOG_LEVEL": level}
+    done = subprocess.run(
+        [sys.executable, "-c", code, "optimize", "-"],
+        input=load("v90-equal"), cwd=ROOT, timeout=180, capture_output=True, env=environment, check=False,
+    )  # fmt: skip
+    assert (done.returncode, done.stdout) == (70, b"")
+    *before, last = done.stderr.decode().splitlines()
+    assert last.startswith("internal fault, not of the input: ZeroDivisionError: as a fault (")
+    assert bool(before) == (level == "debug")
+    assert not before or before[0].startswith("Traceback")
 
 
 def test_help_does_not_load_the_optimiser() -> None:
