@@ -73,7 +73,8 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
-        return replace(unreachable(any_mass, scene, asked, shown, best.limits, None), status=status, reason=reason)
+        answer = unreachable(any_mass, scene, asked, shown, best.limits, None)
+        return replace(answer, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
     judged = any_mass.model_copy(update={"accuracy": request.accuracy})
     if len(stages) < len(asked.program.goals):
         return _without_ceilings(judged, robust, picked, found, in_full)
@@ -87,7 +88,7 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     certificate = certificate.model_copy(
         update={
             "continuous_lower_bound": any_lower,
-            "nodes": sum(stage.found.nodes for stage in stages),
+            "nodes": _nodes(stages),
             "method": found.method,
             "rounds": best.rounds + sum(stage.found.rounds for stage in stages),
             "cuts": found.cuts,
@@ -102,6 +103,8 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         answer,
         status=status,
         reason=reason,
+        method=found.method,
+        nodes=_nodes(stages),
         # what holds those of any mass up says nothing of what can be chosen
         fields={**answer.fields, "certificate": certificate},
     )
@@ -170,7 +173,12 @@ def _without_ceilings(request: OptimizeRequest, robust: Robust, picked: Choice, 
     nothing = {"lower_bound": None, "gap": None, "relative_gap": None, "nodes": found.nodes, "method": found.method}
     status, reason = told_status(found, answer.status, answer.reason, True)
     fields = {**answer.fields, "certificate": certificate.model_copy(update=nothing)}
-    return replace(answer, status=status, reason=reason, fields=fields)
+    return replace(answer, status=status, reason=reason, method=found.method, nodes=found.nodes, fields=fields)
+
+
+def _nodes(stages: list[_Stage]) -> int:
+    """Nodes of the trees of all goals."""
+    return sum(stage.found.nodes for stage in stages)
 
 
 def _goals(certificate: Certificate, stages: list[_Stage], omega_squared: float) -> tuple[GoalReached, ...]:

@@ -64,6 +64,8 @@ def certified_first(request: OptimizeRequest, scene: Prepared, solver: Solver) -
         None if unreachable else best.unbalance[0],
         shown.on_shafts,
         float(best.found.certify_s[0]),
+        str(best.certificate["method"][0]),
+        int(best.certificate["nodes"][0]) if "nodes" in best.certificate else 0,
         fields,
         cut,
         time.perf_counter() - began,

@@ -111,6 +111,8 @@ def told(
         u,
         shown.on_shafts,
         found.certify_s,
+        METHOD,
+        0,
         {
             **shown.fields,
             "active_limits": touched,

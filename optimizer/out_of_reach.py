@@ -11,7 +11,7 @@ from optimizer.figures.proof import implied_max_mass, named_excess
 from optimizer.formulate import RESPONSES, given_ceilings
 from optimizer.formulate import limited as limited_responses
 from optimizer.goals import Goals
-from optimizer.program.cuts import Found, Unkept, over_turn
+from optimizer.program.cuts import METHOD, Found, Unkept, over_turn
 from optimizer.program.deciding import Group, Weighed
 from optimizer.program.limits import Limits
 from optimizer.program.over_turn import Goal, OverTurn
@@ -117,7 +117,7 @@ def unreachable(
         ),
     }
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
-    return Outcome("infeasible", INFEASIBLE, None, None, None, spent, fields)
+    return Outcome("infeasible", INFEASIBLE, None, None, None, spent, METHOD, 0, fields)
 
 
 def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:

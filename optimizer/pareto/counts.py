@@ -14,7 +14,6 @@ from optimizer.errors import MissingInput
 from optimizer.figures.counterweights import counterweights, unbalance
 from optimizer.fixed import beside, fixed_masses
 from optimizer.mechanics.layout import stacked
-from optimizer.program.cuts import METHOD
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import CONTRADICTED
 from optimizer.required import missing
@@ -157,7 +156,7 @@ def _smallest_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solve
     proof, fitted = best.fields["certificate"], cast(tuple[Counterweight, ...], best.fields["counterweights"])
     if not isinstance(proof, Certificate):
         nothing = np.zeros(len(request.machine.webs))
-        return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, 0, METHOD)
+        return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, best.nodes, best.method)
     return _Best(
         np.array([each.mass_kg for each in fitted]),
         np.array([each.angle_deg for each in fitted]),
@@ -166,8 +165,8 @@ def _smallest_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solve
         np.nan if proof.relative_gap is None else proof.relative_gap,
         best.status,
         best.reason,
-        proof.nodes or 0,
-        proof.method,
+        best.nodes,
+        best.method,
     )
 
 

@@ -19,6 +19,8 @@ class Outcome:
     chosen: Complex | None  # (K + S,) kg m, without the weights that are fixed
     shafts: Complex | None  # (S,) kg m, of the balance shafts; None where there are none to show
     certify_s: float  # time spent on bounds
+    method: str  # by which that was found and proven
+    nodes: int  # of the tree behind it; 0 where there is none
     fields: dict[str, object]
     cut: Prepared | None = None  # the scene with the radii of what is cut from plates; None where nothing is
     report_s: float = 0.0  # of the time, that spent on the fields

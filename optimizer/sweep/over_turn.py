@@ -7,7 +7,6 @@ import numpy as np
 
 from optimizer.arrays import Complex
 from optimizer.outputs import prepare
-from optimizer.program.cuts import METHOD
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.solve import solve
@@ -46,7 +45,7 @@ def _row(request: OptimizeRequest, best: Outcome, multipliers: bool) -> dict[str
     row: dict[str, str | float | None] = {
         "status": best.status,
         "message": "" if best.status == "optimal" else best.reason,
-        "method": certificate.method if isinstance(certificate, Certificate) else METHOD,
+        "method": best.method,
         "total_mass_kg": _or_nan(total),
     }
     for name in CERTIFICATE:

@@ -7,6 +7,7 @@ from typing import Any
 import pyarrow as pa
 
 from optimizer.analyze import analyze
+from optimizer.discrete.search import EXHAUSTED, TREE
 from optimizer.errors import NotComputable
 from optimizer.optimize import optimize
 from optimizer.program import cuts
@@ -124,7 +125,11 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
         yield "status", answer.status
         if answer.certificate is None:
             by_program = CONE_PROGRAM if request.base.machine.webs else CLOSED_FORM
-            yield "method", cuts.METHOD if request.base.objective.over_the_turn else by_program
+            usual = cuts.METHOD if request.base.objective.over_the_turn else by_program
+            # the reason of what is chosen says what proved that there is nothing
+            by_search = {"all were compared.": EXHAUSTED, "a tree of bounds over all of them proves it.": TREE}
+            of_choices = (name for ending, name in by_search.items() if answer.status_reason.endswith(ending))
+            yield "method", next(of_choices, usual)
         else:
             yield from _certificate_figures(answer.certificate)
         for one in answer.counterweights:

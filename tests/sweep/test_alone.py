@@ -5,8 +5,13 @@ from typing import Any
 
 import pytest
 
+from optimizer.discrete.search import EXHAUSTED, TREE
+from optimizer.optimize import optimize
+from optimizer.pareto.pareto import pareto
 from optimizer.sweep import plan
+from schemas.pareto import ParetoRequest
 from schemas.proof import DesignMultipliers
+from schemas.requests import OptimizeRequest
 from schemas.sweep.alone import MAX_SEARCHED
 from service.validation import InvalidRequest
 from tests.sweep.single import assert_row_is_the_single_answer, example, sweep, table
@@ -55,6 +60,34 @@ def test_catalogues_with_ceilings_out_of_reach_and_wrong_counts() -> None:
     seen, rows = answers(twin(), {"path": "/machine/catalogue/angle_step_deg", "values": [30, 31]})
     assert seen == ["optimal", "invalid"]
     assert "/machine/catalogue/angle_step_deg" in rows[1]["message"]
+
+
+@pytest.mark.parametrize("over_the_turn", [False, True])
+def test_what_proves_that_no_choice_keeps_the_ceilings_is_told(over_the_turn: bool) -> None:
+    """Property: the method of a row, and of a point of a front, is that of the search whose proof it is."""
+    base = twin(catalogue={"masses_kg": [7.5, 16], "angle_step_deg": 60})
+    any_mass = [{**web, "catalogue_masses_kg": None, "hole_angles_deg": None} for web in base["machine"]["webs"]]
+    free = {name: value for name, value in base["machine"].items() if name not in ("catalogue", "max_counterweights")}
+    bearings = [{"name": name, "position_m": z} for name, z in (("A", -1.0), ("B", 1.0))]
+    free |= {"webs": any_mass, "bearings": bearings}
+    base["machine"]["bearings"] = bearings
+    goal: dict[str, Any] = {"bending_weight": 1.0} if over_the_turn else {}
+    # between what any masses reach and what the few of the catalogue do
+    least = optimize(OptimizeRequest.model_validate({"machine": free, "objective": {"moment_weight": 0}}))
+    assert least.residual is not None
+    assert least.residual.after is not None
+    cap = least.residual.after.force.peak_N + 1e-3 * least.residual.before.force.peak_N
+    base["objective"] = goal | {"force_ceiling_N": cap}
+    base["machine"]["max_counterweights"] = 1
+    seen, rows = answers(base, {"path": "/machine/max_counterweights", "values": [1]})
+    assert seen == ["infeasible"]
+    assert rows[0]["method"] in (EXHAUSTED, TREE)
+    front = pareto(ParetoRequest.model_validate({**base, "points": 2, "counts": {"of": "weights"}}))
+    assert front.counts is not None
+    none = front.counts[0].points[0]
+    assert none.status == "infeasible"
+    assert none.method in (EXHAUSTED, TREE)
+    assert (none.nodes == 0) == (none.method == EXHAUSTED)
 
 
 def test_least_masses_and_what_holds_none() -> None:
