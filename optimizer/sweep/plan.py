@@ -1,5 +1,6 @@
 """What a sweep is before it runs: how many designs, in which pieces, with which columns."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pyarrow as pa
@@ -11,6 +12,7 @@ from optimizer.required import missing
 from optimizer.sweep.table import result_schema
 from optimizer.sweep.work import curves_over_turn, work_per_design, worked_out_alone
 from schemas.base import FieldProblem
+from schemas.objective import OVER_THE_TURN
 from schemas.requests import OptimizeRequest
 from schemas.rules import Path
 from schemas.sweep import Column, SweepColumn, SweepEstimate, SweepRequest
@@ -125,7 +127,7 @@ def plan(request: SweepRequest) -> Plan:
 
 def _require_inputs(request: SweepRequest) -> None:
     """Refuse what no design can give: a field that is null in the base and that no axis fills."""
-    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets})
+    filled = with_fields(request.base, {target.path: 1.0 for target in request.targets} | dict(_nothing_asked(request)))
     problems: dict[Path, FieldProblem] = {}
     for path, message in missing_inputs(filled.machine, filled.outputs):
         problems.setdefault(path, FieldProblem(("base", *path), message))
@@ -134,6 +136,18 @@ def _require_inputs(request: SweepRequest) -> None:
             problems.setdefault(path, FieldProblem(("base", *path), message))
     if problems:
         raise MissingInput(problems.values())
+
+
+def _nothing_asked(request: SweepRequest) -> Iterator[tuple[Path, float | None]]:
+    """Fields that look at the whole turn, where an axis holds the value by which they ask for nothing."""
+    # crank orders have targets without axes, and vary no objective
+    for axis, target in zip(request.axes, request.targets, strict=False):
+        if target.path[0] != "objective" or target.path[1] not in OVER_THE_TURN:
+            continue
+        ends = () if request.design == "latin_hypercube" else (axis.start, axis.stop)
+        nothing = OVER_THE_TURN[str(target.path[1])]
+        if any(target.number(value) == nothing for value in (ends if axis.values is None else axis.values)):
+            yield target.path, nothing
 
 
 def block_rows(request: SweepRequest) -> int:

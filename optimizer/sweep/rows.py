@@ -100,6 +100,8 @@ class Group:
         self._base, self._targets, self._values = request.base, request.targets, values
         self.multipliers, self.always, self.one_by_one = request.multipliers, request.always, request.one_by_one
         self.wanted = request.wanted
+        #: designs without the outputs that all hold: they do not ask for them, and their machines lack what these need
+        self.bare = set[int]()
         self._over_the_turn = bool(request.over_the_turn)
 
     def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
@@ -153,9 +155,8 @@ def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
         if lacking is not None:
             table.refuse(np.array([design]), Rule(True, *lacking))
             designs = designs[designs != design]
-    if designs.size:
-        request = group.of(designs)
-        designs = _refuse(table, designs, input_rules(request.machine, (*group.always, *request.outputs)))
+    of_shaft = {design for design, alone in turning.items() if alone.objective.of_the_shaft}
+    designs = _with_inputs(table, group, designs, of_shaft)
     if not designs.size:
         return
     request = group.of(designs)
@@ -185,8 +186,9 @@ def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver
             continue
         turning = alone.objective.over_the_turn
         lacking = next(missing(alone), None) if turning else None
-        needs = input_rules(alone.machine, (*group.always, *alone.outputs))
-        if not _refuse(table, at, [*([Rule(True, *lacking)] if lacking else []), *needs]).size:
+        if not _refuse(table, at, [Rule(True, *lacking)] if lacking else []).size:
+            continue
+        if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
             continue
         try:
             columns, unbalance = (
@@ -217,23 +219,55 @@ def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solve
         _fill_outputs(table, group, alike, unbalance)
 
 
+def _with_inputs(table: Rows, group: Group, designs: Designs, of_shaft: set[int]) -> Designs:
+    """The designs whose machines give what their outputs need; the others say what is missing.
+
+    Parameters
+    ----------
+    of_shaft : designs whose objectives ask for what all rows hold.
+    """
+    if designs.size:
+        request = group.of(designs)
+        designs = _refuse(table, designs, input_rules(request.machine, request.outputs))
+    if not (designs.size and group.always):
+        return designs
+    rules = list(input_rules(group.of(designs).machine, group.always))
+    lacking = np.any([np.broadcast_to(rule.broken, designs.shape) for rule in rules], axis=0) if rules else False
+    bare = lacking & ~np.isin(designs, list(of_shaft))
+    group.bare.update(designs[bare].tolist())
+    return np.sort(np.concatenate([designs[bare], _refuse(table, designs, rules, ~bare)]))
+
+
 def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Complex) -> None:
-    """Columns of the outputs, in blocks that fit into memory."""
+    """Columns of the outputs."""
+    bare = np.isin(designs, list(group.bare))
+    for some, always in ((bare, ()), (~bare, group.always)):
+        if np.any(some):
+            _fill_columns(table, group, designs[some], unbalance[some], always)
+
+
+def _fill_columns(table: Rows, group: Group, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:
+    """The same of some designs, in blocks that fit into memory."""
     # without counterweights there is nothing with them
     none = table.columns["status"][designs] == "infeasible"
     fitted = np.where(none[:, None], np.nan, unbalance)
-    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), group.always, group.wanted), 1))
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), always, group.wanted), 1))
     for first in range(0, designs.size, size):
         block = designs[first : first + size]
         part = group.of(block)
-        always = ("residual", *group.always) if isinstance(part, OptimizeRequest) else ()
+        held = ("residual", *always) if isinstance(part, OptimizeRequest) else ()
         part = on_webs(part) if isinstance(part, AnalyzeRequest) else part
-        table.put(block, columns(part, fitted[first : first + size], always, group.wanted))
+        table.put(block, columns(part, fitted[first : first + size], held, group.wanted))
 
 
-def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule]) -> Designs:
-    """The designs that break no rule; the others say which they break first."""
-    valid = np.ones(designs.size, dtype=bool)
+def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule], among: NDArray[np.bool_] | None = None) -> Designs:
+    """The designs that break no rule; the others say which they break first.
+
+    Parameters
+    ----------
+    among : (n,) of which designs; None is all.
+    """
+    valid = np.ones(designs.size, dtype=bool) if among is None else among.copy()
     for rule in rules:
         # most hold for all designs, whatever varies
         if rule.broken is not False:

@@ -8,6 +8,7 @@ import pytest
 from optimizer.errors import MissingInput
 from optimizer.sweep import plan
 from schemas.proof import DesignMultipliers
+from tests.pairs.asking import body_of
 from tests.sweep.single import assert_row_is_the_single_answer, example, single, sweep, table
 
 MASS = "/machine/throws/0/rows/0/reciprocating_mass_kg"
@@ -84,3 +85,35 @@ def test_the_estimate_counts_with_the_cuts() -> None:
     cheap, dear = plan(sweep(opposed(), axis)).estimate, plan(sweep(opposed(bearing_weight=1.0), axis)).estimate
     assert dear.cpu_s > 100 * cheap.cpu_s
     assert dear.chunks > cheap.chunks
+
+
+@pytest.mark.parametrize(
+    ("features", "field", "values"),
+    [
+        ("no rods", "bearing_weight", [0, 1]),
+        ("no rods", "bearing_ceiling_N", [None, 1e5]),
+        ("no bearings", "bending_weight", [0, 1]),
+        ("masses of a catalogue", "bearing_weight", [0, 1]),
+    ],
+)
+def test_a_row_that_asks_nothing_of_the_shaft_needs_none_of_its_data(
+    features: str, field: str, values: list[float | None]
+) -> None:
+    """Property: what decides is the answer to the design alone; a sweep is refused where no design can be answered."""
+    base = body_of("vee", [features] if features.startswith("no") else [features, "no rods"])
+    assert base is not None
+    request = sweep(base, {"path": f"/objective/{field}", "values": values})
+    plan(request)
+    found = table(request).to_pylist()
+    assert [assert_row_is_the_single_answer(request, row) for row in found] == ["optimal", "invalid"]
+    assert f"asked for by objective.{field}" in found[1]["message"]
+    never = sweep(base, {"path": f"/objective/{field}", "values": values[1:]})
+    with pytest.raises(MissingInput):
+        plan(never)
+
+
+def test_bearing_loads_come_along_where_there_are_bearings() -> None:
+    base = body_of("vee", [])
+    assert base is not None
+    rows = table(sweep(base, {"path": "/objective/bearing_weight", "values": [0, 1]})).to_pylist()
+    assert all(row["bearing_peak_N.A"] > 0 for row in rows)
