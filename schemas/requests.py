@@ -1,9 +1,18 @@
 """What a client asks: optimise or analyse a machine."""
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, Self, cast
 
-from pydantic import Field, Strict, model_validator
+from pydantic import (
+    Field,
+    GetJsonSchemaHandler,
+    SerializerFunctionWrapHandler,
+    Strict,
+    model_serializer,
+    model_validator,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
 
 from schemas.angles import Angles
 from schemas.base import Model
@@ -41,6 +50,34 @@ class Accuracy(Model):
         " discrete choices ends and says its gap [s]",
         examples=[5.0],
     )
+
+    def usual(self, discrete: bool) -> "Accuracy":
+        """The same with the usual gap of such a machine, where none is said."""
+        name = "relative_gap"
+        if name in self.model_fields_set:
+            return self
+        gap = DISCRETE_GAP if discrete else type(self).model_fields[name].default
+        found = self.model_copy(update={name: gap})
+        # it is still not said, and another machine has another one
+        found.model_fields_set.discard(name)
+        return found
+
+    @model_serializer(mode="wrap")
+    def _said(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Without the gap where none is said: who reads it again takes the usual one of the machine."""
+        found: dict[str, Any] = handler(self)
+        if "relative_gap" not in self.model_fields_set:
+            found.pop("relative_gap", None)
+        return found
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        # what is left out changes nothing of what the fields are
+        return super().__get_pydantic_json_schema__(_fields_alone(schema), handler)
+
+
+def _fields_alone(schema: CoreSchema) -> CoreSchema:
+    return cast(CoreSchema, {name: part for name, part in schema.items() if name != "serialization"})
 
 
 class Fidelity(Model):
@@ -172,18 +209,17 @@ class OptimizeRequest(Scene, Ruled):
             endless = web.max_mass_kg is None and web.fixed is None and web.envelope is None
             yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
 
-    @model_validator(mode="before")
-    @classmethod
-    def _discrete_gap(cls, given: Any) -> Any:
-        """What discrete choices are asked for where no gap is said, before the usual default takes its place."""
-        if not isinstance(given, dict) or not _discrete(given.get("machine")):
-            return given
-        accuracy = given.get("accuracy", {})
-        if isinstance(accuracy, Model):
-            accuracy = accuracy.model_dump(exclude_unset=True)
-        if not isinstance(accuracy, dict) or "relative_gap" in accuracy:
-            return given
-        return {**given, "accuracy": {**accuracy, "relative_gap": DISCRETE_GAP}}
+    @property
+    def with_usual_gap(self) -> Self:
+        """The same with the gap that its machine is usually asked for, where none is said."""
+        machine = self.machine
+        return self.model_copy(update={"accuracy": self.accuracy.usual(machine.discrete or machine.semicontinuous)})
+
+    @model_validator(mode="after")
+    def _usual_gap(self) -> Self:
+        # frozen for all others: nobody has seen it yet
+        self.__dict__["accuracy"] = self.with_usual_gap.accuracy
+        return self
 
     def _shaft_rules(self) -> Iterator[Rule]:
         """What does not go with balance shafts."""
@@ -199,18 +235,6 @@ class OptimizeRequest(Scene, Ruled):
                 whole = (getattr(goal, name) is not None) & (goal.orders == "first")
                 message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
                 yield Rule(whole, ("objective", name), message)
-
-
-def _discrete(machine: Any) -> bool:
-    """Whether a machine, checked or not, asks for discrete choices."""
-    if isinstance(machine, Model):
-        return bool(getattr(machine, "discrete", False) or getattr(machine, "semicontinuous", False))
-    if not isinstance(machine, dict):
-        return False
-    webs = machine.get("webs")
-    places = [machine, *(web for web in (webs if isinstance(webs, list | tuple) else ()) if isinstance(web, dict))]
-    asks = ("catalogue", "max_counterweights", "catalogue_masses_kg", "hole_angles_deg", "min_fitted_mass_kg")
-    return any(place.get(name) is not None for place in places for name in asks)
 
 
 class AnalyzeRequest(Scene, Ruled):

@@ -118,7 +118,9 @@ class Group:
         for target, column in zip(self._targets, self._values, strict=True):
             number = float(column[design])
             contents[target.path] = None if np.isnan(number) else int(number) if target.integer else number
-        return with_fields(self._base, contents)
+        alone = with_fields(self._base, contents)
+        # an axis may ask for a search, of which another gap is usual
+        return alone.with_usual_gap if isinstance(alone, OptimizeRequest) else alone
 
     def over_the_turn(self, designs: Designs) -> dict[int, OptimizeRequest]:
         """Those designs whose objective looks at the whole turn, each by itself."""

@@ -3,15 +3,18 @@
 import json
 from typing import Any
 
+import numpy as np
 import pytest
 
 from optimizer.discrete.search import EXHAUSTED, TREE
 from optimizer.optimize import optimize
 from optimizer.pareto.pareto import pareto
 from optimizer.sweep import plan
+from optimizer.sweep.rows import Group
 from schemas.pareto import ParetoRequest
 from schemas.proof import DesignMultipliers
 from schemas.requests import OptimizeRequest
+from schemas.sweep import SweepRequest
 from schemas.sweep.alone import MAX_SEARCHED
 from service.validation import InvalidRequest
 from tests.sweep.single import assert_row_is_the_single_answer, example, sweep, table
@@ -99,6 +102,26 @@ def test_least_masses_and_what_holds_none() -> None:
     assert set(seen) <= {"optimal", "inaccurate"}
     assert rows[1][f"mass_kg.{names[0]}"] == 0 or rows[1][f"mass_kg.{names[0]}"] >= 9
     assert rows[0]["lower_bound"] <= rows[1]["objective"]
+
+
+@pytest.mark.parametrize("of_base", [None, 1])
+@pytest.mark.parametrize("said", [None, 1e-5])
+def test_a_row_is_asked_for_the_gap_of_its_own_machine(of_base: int | None, said: float | None) -> None:
+    """Property: an axis that asks for a search changes the usual gap, and none that is said."""
+    base = plain()
+    base["machine"]["webs"][0]["min_fitted_mass_kg"] = of_base
+    if said is not None:
+        base["accuracy"] = {"relative_gap": said}
+    request = sweep(base, {"path": "/machine/webs/0/min_fitted_mass_kg", "values": [None, 1]})
+    # as a worker gets it
+    request = SweepRequest.model_validate_json(request.model_dump_json())
+    group = Group(request, [np.array([np.nan, 1.0])])
+    rows = [group.one(design) for design in (0, 1)]
+    # read again, as by a client who asks for the design alone
+    again = [OptimizeRequest.model_validate(json.loads(row.model_dump_json())) for row in rows]
+    expected = [said or 1e-6, said or 1e-3]
+    assert [row.accuracy.relative_gap for row in rows if isinstance(row, OptimizeRequest)] == expected
+    assert [one.accuracy.relative_gap for one in again] == expected
 
 
 @pytest.mark.parametrize("mirror", [False, True])
