@@ -68,14 +68,18 @@ def bearing_loads(
 
 
 def bending_moments(turn: WholeTurn, layout: Layout, places: Real, influence: Influence) -> tuple[TurnResponse, ...]:
-    """Bending moment at every plane of a load, a counterweight or a bearing, in rising z, N m; where it is always 0
-    there is none.
+    """Bending moment at every plane of a load, a counterweight or a bearing, in rising z, N m.
+
+    Where it is always 0 there is none, unless it is 0 in all planes: then that of the first one stands for all.
 
     Parameters as for :func:`bearing_loads`.
     """
     corners = stations(layout, places)
     moment = bending_influence(layout, places, influence, corners)
     some = np.any(np.abs(moment) > 0.0, axis=-1)
+    if not np.any(some):
+        # every load sits on a bearing of its own
+        some[..., 0] = True
     names = [f"bending:{station!r}" for station in corners[some].tolist()]
     return beside(layout, shaft_curves(turn, layout, moment[some]).responses(names, "N m"))
 

@@ -11,8 +11,9 @@ from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from schemas.answers import Certificate, OptimizeAnswer
 from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest
+from schemas.requests import AnalyzeRequest, OptimizeRequest
 from tests.optimize.whole_turn import ALONE, asked, inline_six, one_throw
+from tests.pairs.asking import body_of
 
 
 def answered(machine: dict[str, Any], **objective: Any) -> tuple[OptimizeAnswer, Certificate]:
@@ -269,3 +270,14 @@ def test_a_search_that_its_time_limit_ends_says_so(objective: dict[str, Any]) ->
     assert proof is not None
     assert proof.lower_bound is not None
     assert proof.lower_bound <= proof.objective
+
+
+@pytest.mark.parametrize("shaft", ["simple_spans", "continuous"])
+def test_a_shaft_whose_loads_sit_on_bearings_does_not_bend(shaft: str) -> None:
+    """Analytic: the only throw is in the plane of a bearing, and no web is anywhere else."""
+    body = body_of("vee", ["three bearings", "bending alone", "no webs"])
+    assert body is not None
+    answer = optimize(OptimizeRequest.model_validate({**body, "fidelity": {"shaft": shaft}}))
+    assert answer.status == "optimal"
+    assert answer.certificate is not None
+    assert (answer.certificate.objective, answer.certificate.lower_bound) == (0.0, 0.0)

@@ -18,8 +18,9 @@ from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from service.validation import InvalidRequest, check
 from service.verification import checker
-from tests.pairs.features import FEATURES, NoPlace, Subject
+from tests.pairs.features import FEATURES
 from tests.pairs.machines import BASES, Request
+from tests.pairs.subject import NoPlace, Subject
 
 #: relative, of the yardstick: what rounding may make of a bound
 _ROUNDING = 1e-9

@@ -124,7 +124,9 @@ def _figures(request: SweepRequest, answer: OptimizeAnswer | AnalyzeAnswer) -> A
     if isinstance(answer, OptimizeAnswer):
         yield "status", answer.status
         if answer.certificate is None:
-            by_program = CONE_PROGRAM if request.base.machine.webs else CLOSED_FORM
+            machine = request.base.machine
+            chosen = any(web.fixed is None for web in machine.webs) and machine.max_total_mass_kg != 0
+            by_program = CONE_PROGRAM if chosen else CLOSED_FORM
             usual = cuts.METHOD if request.base.objective.over_the_turn else by_program
             # the reason of what is chosen says what proved that there is nothing
             by_search = {"all were compared.": EXHAUSTED, "a tree of bounds over all of them proves it.": TREE}
