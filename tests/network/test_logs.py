@@ -4,16 +4,21 @@ import asyncio
 import json
 import logging
 import re
+import threading
 import time
+import urllib.error
+import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+import uvicorn
 from starlette.testclient import TestClient
 
 from service.app import create_app
 from service.documents.examples import load
+from service.http.server import listen, url
 from service.settings import Settings
 from service.watch import logs
 from tests.network.serving import Service, service
@@ -93,6 +98,45 @@ def test_a_fault_is_logged_by_where_it_is(tmp_path: Path, capsys: pytest.Capture
     finally:
         logging.getLogger().handlers[:], _ = kept
         logging.getLogger().setLevel(kept[1])
+
+
+def test_what_nobody_foresaw_is_one_line_with_the_id_of_its_request(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    settings = Settings(data_dir=tmp_path, port=0)
+    app = create_app(settings, warm=False)
+
+    def fail() -> None:
+        raise RuntimeError(SECRET)
+
+    app.add_api_route("/v1/broken", fail)
+    # before the route that answers whatever no other does
+    app.router.routes.insert(0, app.router.routes.pop())
+    kept = logging.getLogger().handlers[:], logging.getLogger().level
+    try:
+        logs.configure(settings)
+        with listen(settings) as listening:
+            server = uvicorn.Server(uvicorn.Config(app, log_config=None, access_log=False, lifespan="off"))
+            thread = threading.Thread(target=server.run, args=([listening],))
+            thread.start()
+            asked = urllib.request.Request(f"{url(listening)}/v1/broken", headers={"X-Request-ID": "mine-2"})
+            with pytest.raises(urllib.error.HTTPError) as answered:
+                urllib.request.urlopen(asked, timeout=180)
+            answered.value.close()
+            server.should_exit = True
+            thread.join(180)
+        said = capsys.readouterr().err
+    finally:
+        logging.getLogger().handlers[:], _ = kept
+        logging.getLogger().setLevel(kept[1])
+    assert (answered.value.code, answered.value.headers["X-Request-ID"]) == (500, "mine-2")
+    assert SECRET not in said
+    (fault,) = (line for line in lines(said) if line["level"] == "ERROR")
+    assert fault["request_id"] == "mine-2"
+    assert "test_logs.py" in fault["exc_info"]
+    assert fault["exc_info"].endswith("RuntimeError")
+    (request,) = requests(said, "/v1/broken")
+    assert (request["status"], request["request_id"]) == (500, "mine-2")
 
 
 def test_nobody_begins_a_line_of_text() -> None:
