@@ -9,4 +9,9 @@ if [ ! -d "$NUMBA_CACHE_DIR" ]; then
     cp -R --preserve=timestamps "$compiled/." "$fresh"
     mv "$fresh" "$NUMBA_CACHE_DIR"
 fi
+# numba keeps kernels by processor, and takes the features of this one unless it is told to take none beyond the name
+if [ -z "${NUMBA_CPU_NAME:-}" ]; then
+    NUMBA_CPU_NAME=$(processor) NUMBA_CPU_FEATURES=
+    export NUMBA_CPU_NAME NUMBA_CPU_FEATURES
+fi
 exec "$@"

@@ -83,25 +83,65 @@ def test_it_writes_to_the_volume_and_to_tmp_alone() -> None:
         assert Path(found[name]).is_relative_to(last("VOLUME")) or Path(found[name]).is_relative_to("/tmp"), name
 
 
+def _compiling() -> str:
+    (run,) = (rest for kind, rest in instructions() if kind == "RUN" and "NUMBA_CPU_NAME" in rest)
+    return run
+
+
 def test_the_kernels_of_the_build_are_those_of_the_run() -> None:
     """numba keeps kernels by processor: made for one model, they would be compiled anew on another."""
-    assert dockerfile_environment()["NUMBA_CPU_NAME"] == "generic"
-    assert [rest for kind, rest in instructions() if kind == "ENV" and "NUMBA_CPU_NAME=generic" in rest] == [
-        rest for kind, rest in instructions() if kind == "ENV"
-    ]
-    compiled = next(rest for kind, rest in instructions() if kind == "ENV")
-    folder = next(word.split("=")[1] for word in compiled.split() if word.startswith("NUMBA_CACHE_DIR"))
+    build = next(rest for kind, rest in instructions() if kind == "ENV")
+    assert 'NUMBA_CPU_FEATURES=""' in build
+    # the entrypoint chooses among the two that are there
+    assert "NUMBA_CPU_NAME" not in dockerfile_environment()
+    assert _compiling().startswith('for name in generic "$(processor)"; do export NUMBA_CPU_NAME="$name";')
+    folder = next(word.split("=")[1] for word in build.split() if word.startswith("NUMBA_CACHE_DIR"))
     assert f"${{COMPILED:-{folder}}}" in (DEPLOY / "entrypoint.sh").read_text("utf-8")
 
 
 def test_the_kernels_are_compiled_by_commands_that_there_are() -> None:
     """What they compute is copied to the builder."""
-    (run,) = (rest for kind, rest in instructions() if kind == "RUN" and rest.startswith("counterweight "))
-    for command in run.split(" && "):
-        program, name, source, *_ = command.split()
-        assert program == "counterweight"
+    commands = re.findall(r"(counterweight) (\w+) (\S+)", _compiling())
+    assert len(commands) == 2
+    for _, name, source in commands:
         assert name in get_command(app).commands  # type: ignore[attr-defined]
         assert (ROOT / source).exists()
+
+
+_V3 = "fpu sse4_2 avx avx2 bmi1 bmi2 f16c fma abm movbe xsave"
+
+
+@pytest.mark.parametrize(
+    ("flags", "name"),
+    [
+        (_V3, "x86-64-v3"),
+        (_V3.replace(" avx2", ""), "generic"),
+        (_V3.replace(" fma", " fma4"), "generic"),
+        ("", "generic"),
+    ],
+)
+def test_the_processor_is_told_by_all_its_flags(tmp_path: Path, flags: str, name: str) -> None:
+    """Published: what x86-64-v3 adds, psABI of AMD64, table 3.1."""
+    file = tmp_path / "cpuinfo"
+    file.write_text(f"processor : 0\nflags\t\t: {flags}\nprocessor : 1\nflags : {_V3}\n")
+    environment = {**os.environ, "CPUINFO": str(file)}
+    found = subprocess.run([DEPLOY / "processor.sh"], env=environment, capture_output=True, text=True, check=True)
+    assert found.stdout.strip() == name
+
+
+@pytest.mark.parametrize(("before", "after"), [("", "x86-64-v3/"), ("generic", "generic/unset")])
+def test_kernels_are_loaded_for_the_processor_unless_the_operator_names_one(
+    compiled: Path, tmp_path: Path, before: str, after: str
+) -> None:
+    tools = tmp_path / "bin"
+    tools.mkdir()
+    (tools / "processor").symlink_to(DEPLOY / "processor.sh")
+    cpu = tmp_path / "cpuinfo"
+    cpu.write_text(f"flags : {_V3}\n")
+    more = {"PATH": f"{tools}:{os.environ['PATH']}", "CPUINFO": str(cpu), "NUMBA_CPU_NAME": before}
+    told = 'echo "$NUMBA_CPU_NAME/${NUMBA_CPU_FEATURES-unset}"'
+    found = enter(compiled, tmp_path / "numba", "sh", "-c", told, **more)
+    assert (found.returncode, found.stdout.strip()) == (0, after)
 
 
 def test_the_health_check_asks_for_readiness() -> None:
@@ -119,8 +159,9 @@ def compiled(tmp_path: Path) -> Path:
     return folder
 
 
-def enter(compiled: Path, cache: Path, *command: str) -> subprocess.CompletedProcess[str]:
-    environment = {**os.environ, "COMPILED": str(compiled), "NUMBA_CACHE_DIR": str(cache)}
+def enter(compiled: Path, cache: Path, *command: str, **more: str) -> subprocess.CompletedProcess[str]:
+    given = {"COMPILED": str(compiled), "NUMBA_CACHE_DIR": str(cache), "NUMBA_CPU_NAME": "generic", **more}
+    environment = {name: value for name, value in {**os.environ, **given}.items() if name != "NUMBA_CPU_FEATURES"}
     return subprocess.run(
         [DEPLOY / "entrypoint.sh", *command], env=environment, capture_output=True, text=True, check=False
     )

@@ -100,5 +100,5 @@ def test_the_image_is_asked_for_what_is_missing_before_and_computes_after() -> N
     runs = [rest for kind, rest in instructions() if kind == "RUN"]
     (checked,) = (at for at, rest in enumerate(runs) if rest.endswith(" check"))
     (pruned,) = (at for at, rest in enumerate(runs) if "prune.py" in rest)
-    (computed,) = (at for at, rest in enumerate(runs) if rest.startswith("counterweight "))
+    (computed,) = (at for at, rest in enumerate(runs) if "counterweight optimize " in rest)
     assert checked < pruned < computed

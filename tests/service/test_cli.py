@@ -273,5 +273,6 @@ def test_help_does_not_load_the_optimiser() -> None:
 
 def test_version(client: TestClient) -> None:
     shown = run("--version")
-    assert (shown.exit_code, shown.stdout) == (0, f"{version('counterweight')}\n")
-    assert client.get("/v1/version").json() == {"version": version(DISTRIBUTION)}
+    assert (shown.exit_code, shown.stdout) == (0, f"{version(DISTRIBUTION)}\n")
+    answer = client.get("/v1/version").json()
+    assert answer == {"version": version(DISTRIBUTION), "processor": os.environ.get("NUMBA_CPU_NAME", "host")}
