@@ -75,6 +75,16 @@ def read_json(data: bytes) -> object:
         raise UnreadableJson(f"not UTF-8 at byte {error.start}") from None
     if not text.strip():
         raise UnreadableJson("there is no JSON")
+    return json_value(text)
+
+
+def json_value(text: str) -> object:
+    """The JSON value in ``text``, as :func:`read_json`.
+
+    Raises
+    ------
+    UnreadableJson
+    """
     try:
         return json.loads(text, parse_int=_integer)
     except json.JSONDecodeError as error:

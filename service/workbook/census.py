@@ -21,8 +21,8 @@ MOST_LINES = 10_000
 MOST_COLUMNS = 300
 #: of all sheets, with the empty ones before the last of each row; the largest machine has 30,000
 MOST_CELLS = 40_000
-#: of all parts; each cell is up to four
-MOST_ELEMENTS = 140_000
+#: of all parts; each cell is up to three
+MOST_ELEMENTS = 100_000
 #: of every part that is no sheet and no list of texts: styles, names, links. Spreadsheets write some hundreds
 MOST_OF_A_PART = 5_000
 MOST_PARTS = 200

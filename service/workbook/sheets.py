@@ -9,13 +9,14 @@ every other one is that text.
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 from typing import Any
 
 from openpyxl.utils import get_column_letter
-from pydantic_core import from_json
 
 from schemas.base import FieldProblem
 from schemas.rules import Path
+from service.validation import UnreadableJson, json_value
 
 Cell = str | float | int | bool | None
 #: lines of cells by sheet, the headings first
@@ -33,6 +34,13 @@ ANSWER, COUNTERWEIGHTS = "answer", "counterweights"
 #: sheets of a request
 REQUEST = (FIELDS, *_TABLES)
 _JSON = ("[", "{", '"')
+#: of the JSON of all cells together [characters]; twelve indicator diagrams take a third of it
+_MOST_JSON = 500_000
+#: of the name of a field with its dots, and the fields in it; the longest there is has a fifth of them
+_LONGEST_FIELD, _DEEPEST = 200, 16
+_LONGEST_TITLE = 31
+#: wrong cells that are named
+_MOST_NAMED = 100
 
 
 class Misplaced(ValueError):
@@ -121,7 +129,8 @@ def read(sheets: Sheets) -> Read:
         elif name in _TABLES:
             reader.table(name, lines)
         elif name not in (ANSWER, COUNTERWEIGHTS):
-            reader.wrong.append(f"{name}: no sheet of a machine; these are {', '.join(REQUEST)}")
+            names = ", ".join(REQUEST)
+            reader.wrong.append(f"{name[:_LONGEST_TITLE]}: no sheet of a machine; these are {names}")
     return reader.found()
 
 
@@ -131,6 +140,12 @@ class _Reader:
     tables: dict[str, list[tuple[int, dict[str, Any], dict[Path, str]]]] = field(default_factory=dict)
     cells: dict[Path, str] = field(default_factory=dict)
     wrong: list[str] = field(default_factory=list)
+    json_length: int = 0
+
+    def _refuse(self, line: str) -> None:
+        self.wrong.append(line)
+        if len(self.wrong) > _MOST_NAMED:
+            raise Misplaced(self.wrong)
 
     def fields(self, lines: Sequence[Sequence[Cell]]) -> None:
         """The sheet of single fields; further columns are notes."""
@@ -138,7 +153,7 @@ class _Reader:
             name, value = [*line, None, None][:2]
             place = f"{FIELDS}!B{number}"
             if name is None and value is not None:
-                self.wrong.append(f"{place}: a value without a field beside it")
+                self._refuse(f"{place}: a value without a field beside it")
             elif name is not None and value is not None:
                 self._set(self.body, self.cells, str(name), value, place)
 
@@ -152,30 +167,47 @@ class _Reader:
             item: dict[str, Any] = {}
             places: dict[Path, str] = {}
             for column, value in enumerate(line):
+                if value is None:
+                    continue
                 place = f"{sheet}!{get_column_letter(column + 1)}{number}"
                 head = heads[column] if column < len(heads) else None
-                if head is None and value is not None:
-                    self.wrong.append(f"{place}: a value without a heading")
-                elif head is not None and value is not None:
+                if head is None:
+                    self._refuse(f"{place}: a value without a heading")
+                else:
                     self._set(item, places, str(head), value, place)
             found.append((number, item, places))
 
     def _set(self, item: dict[str, Any], places: dict[Path, str], name: str, value: Cell, place: str) -> None:
-        path = tuple(name.split("."))
+        path = _path(name)
+        if path is None:
+            self._refuse(f"{place}: no field has so long a name")
+            return
         for key in path[:-1]:
             inner = item.setdefault(key, {})
             if not isinstance(inner, dict):
-                self.wrong.append(f"{place}: {name} is said beside {key} as a whole")
+                self._refuse(f"{place}: {name} is said beside {key} as a whole")
                 return
             item = inner
         if path[-1] in item:
-            self.wrong.append(f"{place}: {name} is said twice")
+            self._refuse(f"{place}: {name} is said twice")
             return
         try:
-            item[path[-1]] = _value(path[-1], value)
-        except ValueError as error:
-            self.wrong.append(f"{place}: no JSON: {error}")
+            item[path[-1]] = self._value(path[-1], value)
+        except UnreadableJson as error:
+            self._refuse(f"{place}: no JSON: {error}")
         places[path] = place
+
+    def _value(self, name: str, value: Cell) -> Any:
+        """What a cell says."""
+        if isinstance(value, str) and (value == "null" or value.startswith(_JSON)):
+            self.json_length += len(value)
+            if self.json_length > _MOST_JSON:
+                raise UnreadableJson(f"the cells up to here hold more than {_MOST_JSON} characters of it")
+            return json_value(value)
+        if name == "name" and isinstance(value, int | float) and not isinstance(value, bool):
+            # a spreadsheet makes a number of a name such as 1
+            return f"{value:.15g}"
+        return value
 
     def found(self) -> Read:
         lines: dict[Path, tuple[str, int]] = {}
@@ -193,31 +225,47 @@ class _Reader:
     def _placed(self, machine: Any, sheet: str, number: int, item: dict[str, Any]) -> Path | None:
         """Put a line where it belongs; the path from the root."""
         if not isinstance(machine, dict):
-            self.wrong.append(f"{sheet}, line {number}: the machine is said as a whole too")
+            self._refuse(f"{sheet}, line {number}: the machine is said as a whole too")
             return None
-        if sheet != _ROWS:
-            items = machine.setdefault(sheet, [])
-            items.append(item)
-            return "machine", sheet, len(items) - 1
-        throw, throws = item.pop(_THROW, None), machine.get(_THROWS, [])
+        if sheet == _ROWS:
+            return self._row_placed(machine.get(_THROWS, []), number, item)
+        items = machine.setdefault(sheet, [])
+        if not isinstance(items, list):
+            self._refuse(f"{sheet}, line {number}: the sheet {FIELDS} says {sheet} too")
+            return None
+        items.append(item)
+        return "machine", sheet, len(items) - 1
+
+    def _row_placed(self, throws: Any, number: int, item: dict[str, Any]) -> Path | None:
+        """Put a row on its throw."""
+        sheet, throw = _ROWS, item.pop(_THROW, None)
+        if not isinstance(throws, list):
+            self._refuse(f"{sheet}, line {number}: the sheet {FIELDS} says {_THROWS} too")
+            return None
         if not isinstance(throw, int | float) or throw not in range(len(throws)):
             message = f"the number of its throw, from 0 to {len(throws) - 1}" if throws else "there are no throws"
-            self.wrong.append(f"{sheet}, line {number}: {_THROW}: {message}")
+            self._refuse(f"{sheet}, line {number}: {_THROW}: {message}")
             return None
-        rows = throws[int(throw)].setdefault(_ROWS, [])
+        bearer = throws[int(throw)]
+        rows = bearer.setdefault(_ROWS, []) if isinstance(bearer, dict) else None
+        if not isinstance(rows, list):
+            self._refuse(f"{sheet}, line {number}: its throw is no object, or says {_ROWS} already")
+            return None
         rows.append(item)
         return "machine", _THROWS, int(throw), _ROWS, len(rows) - 1
 
 
-def _value(name: str, value: Cell) -> Any:
-    """What a cell says."""
-    if isinstance(value, str) and (value == "null" or value.startswith(_JSON)):
-        # of bounded depth
-        return from_json(value)
-    if name == "name" and isinstance(value, int | float) and not isinstance(value, bool):
-        # a spreadsheet makes a number of a name such as 1
-        return f"{value:.15g}"
-    return value
+@lru_cache(512)
+@lru_cache(512)
+def _split(name: str) -> tuple[str, ...]:
+    return tuple(name.split("."))
+
+
+def _path(name: str) -> tuple[str, ...] | None:
+    """The fields in a name with dots; None if it is longer than any."""
+    if len(name) > _LONGEST_FIELD or name.count(".") >= _DEEPEST:
+        return None
+    return _split(name)
 
 
 def _dotted(path: Path) -> str:

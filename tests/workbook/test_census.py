@@ -132,3 +132,11 @@ def test_the_largest_machine_is_within_the_counts() -> None:
     largest = {**BODY, "machine": {**machine, "throws": throws, "webs": webs}}
     assert read_workbook(workbook(written(largest))).body == largest
     assert census(workbook(written(largest)), 20_000_000).cells < 0.75 * MOST_CELLS
+
+
+def test_the_json_of_all_cells_together_is_bounded() -> None:
+    """One text that ten thousand cells name would be parsed ten thousand times."""
+    sheets = written(BODY)
+    sheets["machine"] += [[f"machine.note{k}", "[" + "1," * 10_000 + "1]"] for k in range(200)]
+    with pytest.raises(Misplaced, match="the cells up to here hold more than"):
+        read(workbook_sheets(workbook(sheets)))

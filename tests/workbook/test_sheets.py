@@ -70,6 +70,10 @@ def test_where_a_field_stands_or_is_missing() -> None:
         ({"machine": [["field", "value"], [None, 3]]}, "machine!B2: a value without a field beside it"),
         ({"machine": [["field", "value"], ["machine", 3]], "webs": [["name"], ["a"]]}, "webs, line 2: the machine is"),
         ({"rows": [["throw"], [0]]}, "rows, line 2: throw: there are no throws"),
+        ({"machine": [["f"], ["machine.webs", 3]], "webs": [["name"], ["a"]]}, "webs, line 2: the sheet machine says"),
+        ({"machine": [["f"], ["machine.throws", 3]], "rows": [["throw"], [0]]}, "rows, line 2: the sheet machine"),
+        ({"machine": [["f"], ["machine.throws", "[3]"]], "rows": [["throw"], [0]]}, "rows, line 2: its throw is"),
+        ({"throws": [["rows"], [3]], "rows": [["throw"], [0]]}, "rows, line 2: its throw is no object"),
         (
             {"throws": [["name"], ["a"]], "rows": [["throw"], [1]]},
             "rows, line 2: throw: the number of",
