@@ -1,8 +1,8 @@
 """Attacks on a service: what became of each.
 
 ``python -m tests.network.attacks`` sends those written by hand to a service of its own, more than 10,000 requests, and
-then others by chance up to ``--count``; it prints, for each attack, the answers, the slowest of them and the memory
-that the service took.
+then others by chance up to ``--count``, of which some are workbooks; it prints, for each attack, the answers, the
+slowest of them and the memory that the service took; at the end the answers by status and the memory after idling.
 """
 
 import argparse
@@ -25,6 +25,8 @@ _AT_ONCE = 16
 #: with a computation [s]
 _PATIENCE_S = 900
 _MEMORY_S = 0.1
+#: so long nobody asks, and so much more than at the start the service may hold then [s, MB]
+_IDLE_S, _GROWTH_MB = 20.0, 60.0
 _BATCH = 50
 #: any answer but that of a fault
 _CHANCE = Attack("by chance", lambda: iter(()), frozenset({0, *range(200, 500)}))
@@ -88,7 +90,9 @@ async def by_chance(target: Service, count: int, seed: int) -> Outcome:
     async def client(number: int) -> None:
         random = Random(f"{seed} {number}")
         for _ in range(-(-count // (_AT_ONCE * _BATCH))):
-            for sent, reply in await chance.send(target, random, _BATCH):
+            for sent, reply, seconds in await chance.send(target, random, _BATCH):
+                if reply.status >= 400:
+                    outcome.slowest_s = max(outcome.slowest_s, seconds)
                 outcome.statuses[reply.status] += 1
                 found = wrong(_CHANCE, reply)
                 if found is not None:
@@ -107,9 +111,11 @@ def main() -> int:
     parser.add_argument("--only", help="an attack, or those by chance")
     given = parser.parse_args()
     total, failures = 0, 0
+    statuses: Counter[int] = Counter()
     # however slow the machine is: what takes too long is answered 503, and that is not what is looked for
     with service(log_level="warning", request_timeout_s=_PATIENCE_S) as target:
-        print(f"before: {target.memory_mb()[0]:.0f} MB and {target.memory_mb()[1]:.0f} MB a worker")
+        before, worker = target.memory_mb()
+        print(f"before: {before:.0f} MB and {worker:.0f} MB a worker")
         print(f"{'attack':<24}{'requests':>9}{'slowest s':>11}{'service MB':>12}{'worker MB':>11}  answers")
         for attack in (*ATTACKS, _CHANCE):
             if given.only not in (None, attack.name):
@@ -130,7 +136,13 @@ def main() -> int:
             over = own > CEILING_MB[0] or worker > CEILING_MB[1]
             failures += len(outcome.wrong) + over
             total += count
+            statuses += outcome.statuses
+        time.sleep(_IDLE_S)
+        after, worker = target.memory_mb()
+        print(f"after {_IDLE_S:.0f} s without a request: {after:.0f} MB and {worker:.0f} MB a worker")
+        failures += after - before > _GROWTH_MB
         faults = target.faults()
+    print("by status:", ", ".join(f"{status}: {n}" for status, n in sorted(statuses.items())))
     print(f"{total} requests, {failures} answered wrong or over the ceiling of {CEILING_MB} MB")
     print(f"{len(faults)} faults logged", *faults, sep="\n")
     return 1 if failures or faults else 0

@@ -2,17 +2,22 @@
 
 import asyncio
 import json
+import time
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
 from random import Random
 
+from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
+from service.workbook.files import workbook
+from service.workbook.sheets import Sheets, written
 from tests.network.serving import Reply, Service, read
+from tests.workbook.bombs import BOMBS
 
 _PATHS = (
-    "/v1/optimize", "/v1/analyze", "/v1/pareto", "/v1/rating", "/v1/match", "/v1/scroll/pin-loads", "/v1/report",
-    "/v1/verify", "/v1/sweeps", "/v1/sweeps/" + "0" * 32, "/v1/sweeps/x/results", "/v1/sweeps/x/events",
+    *(one.path for one in COMPUTATIONS.values()), "/v1/match", "/v1/verify", "/v1/report", "/v1/optimize", "/v1/sweeps",
+    "/v1/sweeps/" + "0" * 32, "/v1/sweeps/x/results", "/v1/sweeps/x/events",
     "/v1/sweeps/x/resume", "/v1/examples", "/v1/examples/w60", "/v1/effects", "/v1/version", "/healthz", "/readyz",
     "/metrics", "/portal/x/main.js", "/docs/assets/favicon.png", "/", "/nothing", "*", "//", "/v1/../healthz",
 )  # fmt: skip
@@ -43,6 +48,16 @@ _HEADERS = (
 _BITS = ("null", "[]", "{}", "1e999", "NaN", '"\\ud800"', '"9 parsec"', "-0", "true", "[" * 60, '"' + "x" * 300 + '"')
 
 
+#: where workbooks are read, what may stand in a cell, and how many requests and workbooks are such
+_READERS = ("/v1/optimize", "/v1/convert", "/v1/report", "/v1/drawings", "/v1/analyze")
+_CELLS = (
+    None, True, -1, 0, 1e300, 1e-300, "null", "[" * 30_000, "[]", "{}", '{"a":' * 3_000, '"\\ud800"', "NaN", "9 parsec",
+    "9" * 5_000, "[" + "9" * 5_000 + "]", "a." * 5_000, "machine", "machine.throws", "accuracy.time_limit_s", "=1+1",
+    "x" * 32_000, '[1, "', "__class__.__init__",
+)  # fmt: skip
+_WORKBOOKS, _BROKEN = 0.15, 0.3
+
+
 @dataclass(frozen=True)
 class Sent:
     """Bytes, the number of answers that they may have, and whether the client sends nothing more after them."""
@@ -55,8 +70,14 @@ class Sent:
 def requests(random: Random) -> Iterator[Sent]:
     """Hostile requests without end."""
     texts = [json.dumps(body) for body in bodies().values()]
+    books = [written(body) for body in bodies().values()]
+    bombs = [bomb() for bomb in BOMBS.values()]
     while True:
         shape = random.random()
+        if random.random() < _WORKBOOKS:
+            content = random.choice(bombs) if shape < 0.2 else _workbook(random, random.choice(books))
+            yield Sent(_posted(random.choice(_READERS), content))
+            continue
         one = _request(random, texts)
         if shape < 0.05:
             yield Sent(one[: random.randrange(1, len(one))], ends=True)
@@ -65,6 +86,24 @@ def requests(random: Random) -> Iterator[Sent]:
             yield Sent(b"".join([one, *(_request(random, texts) for _ in range(count - 1))]), count)
         else:
             yield Sent(one)
+
+
+def _posted(path: str, content: bytes) -> bytes:
+    head = f"POST {path} HTTP/1.1\r\nHost: localhost\r\nContent-Type: {XLSX}\r\nContent-Length: {len(content)}\r\n\r\n"
+    return head.encode() + content
+
+
+def _workbook(random: Random, sheets: Sheets) -> bytes:
+    """A workbook in which some cells say something else, or of which some bytes do."""
+    changed = {name: [[*line] for line in lines] for name, lines in sheets.items()}
+    for _ in range(random.randrange(1, 4)):
+        line = random.choice(changed[random.choice(list(changed))])
+        line[random.randrange(len(line))] = random.choice(_CELLS)
+    content = bytearray(workbook(changed))
+    if random.random() < _BROKEN:
+        for _ in range(random.randrange(1, 6)):
+            content[random.randrange(len(content))] = random.randrange(256)
+    return bytes(content)
 
 
 def _request(random: Random, texts: list[str]) -> bytes:
@@ -104,15 +143,20 @@ def _chunked(random: Random, body: bytes) -> bytes:
     return (size.encode("latin-1") + b"\r\n" + body + b"\r\n" if body else b"") + last.encode()
 
 
-async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, Reply]]:
-    """Send so many by chance, one after the other, on a connection that is kept as long as the service keeps it."""
-    found: list[tuple[Sent, Reply]] = []
+async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, Reply, float]]:
+    """Send so many by chance, one after the other, on a connection that is kept as long as the service keeps it.
+
+    Returns
+    -------
+    what was sent, the answer, and how long that took [s].
+    """
+    found: list[tuple[Sent, Reply, float]] = []
     pending = requests(random)
     while len(found) < count:
         async with target.connection() as (reader, writer):
             kept = True
             while kept and len(found) < count:
-                sent = next(pending)
+                sent, begun = next(pending), time.perf_counter()
                 with suppress(ConnectionError):
                     writer.write(sent.raw)
                     if sent.ends:
@@ -122,7 +166,7 @@ async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, 
                         reply = await read(reader)
                         while reply.status == 100:
                             reply = await read(reader)
-                    found.append((sent, reply))
+                    found.append((sent, reply, time.perf_counter() - begun))
                     kept = reply.status > 0 and reply.headers.get("connection") != "close" and not sent.ends
                     if not kept:
                         break
