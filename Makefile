@@ -29,7 +29,7 @@ quick: .venv/development $(kernels)
 	$(bin)/ruff format --check .
 	$(bin)/mypy
 	$(bin)/lint-imports
-	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/figures \
+	$(bin)/pytest --quiet --numprocesses 2 --dist loadfile tests/schemas tests/effects tests/outputs \
 	    tests/service/test_computations.py tests/optimize/test_optimize.py
 
 # where PYTHONDONTWRITEBYTECODE is set, every process would read all modules from their source, a third of its start
@@ -38,8 +38,8 @@ bytecode: .venv/runtime
 
 # compiled once, in less than half a minute, not by every process that needs them;
 # numba looks for changes in the file of a kernel only, not in the files of those that it calls
-$(kernels): optimizer/compiling.py $(wildcard optimizer/kernel/*.py optimizer/*/kernel/*.py) .venv/runtime | bytecode
-	rm -f optimizer/kernel/__pycache__/*.nb[ic] optimizer/*/kernel/__pycache__/*.nb[ic]
+$(kernels): optimizer/numerics/compiling.py $(wildcard optimizer/*/kernel/*.py optimizer/*/*/kernel/*.py) .venv/runtime | bytecode
+	rm -f optimizer/*/kernel/__pycache__/*.nb[ic] optimizer/*/*/kernel/__pycache__/*.nb[ic]
 	$(bin)/python -m optimizer.compile_kernels
 	mkdir -p $(@D) && touch $@
 

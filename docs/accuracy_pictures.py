@@ -6,9 +6,9 @@ from pathlib import Path
 
 from accuracy_conclusions import on_effects, on_ladders, on_peaks
 
-from optimizer.accuracy.measure import accuracy
-from optimizer.accuracy.peaks import peaks_ladder
 from optimizer.mechanics.layout import layout
+from optimizer.studies.accuracy.measure import accuracy
+from optimizer.studies.accuracy.peaks import peaks_ladder
 from schemas.accuracy import AccuracyAnswer, AccuracyRequest
 from service.accuracy_picture import draw
 from service.documents.examples import load

@@ -14,16 +14,16 @@ from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from optimizer.accuracy.measure import accuracy
     from optimizer.analyze import analyze
-    from optimizer.catalogue import catalogue
     from optimizer.errors import MissingInput
-    from optimizer.matching.match import match
     from optimizer.optimize import optimize
-    from optimizer.pareto.pareto import pareto
+    from optimizer.outputs.descriptions import catalogue
     from optimizer.pins.answer import pin_loads
     from optimizer.rating.rate import rate
-    from optimizer.sweep.whole import sweep_table
+    from optimizer.studies.accuracy.measure import accuracy
+    from optimizer.studies.matching.match import match
+    from optimizer.studies.pareto.pareto import pareto
+    from optimizer.studies.sweep.whole import sweep_table
 
 __all__ = [
     "MissingInput",
@@ -40,15 +40,15 @@ __all__ = [
 
 _HOMES = {
     "MissingInput": "optimizer.errors",
-    "accuracy": "optimizer.accuracy.measure",
+    "accuracy": "optimizer.studies.accuracy.measure",
     "analyze": "optimizer.analyze",
-    "catalogue": "optimizer.catalogue",
-    "match": "optimizer.matching.match",
+    "catalogue": "optimizer.outputs.descriptions",
+    "match": "optimizer.studies.matching.match",
     "optimize": "optimizer.optimize",
-    "pareto": "optimizer.pareto.pareto",
+    "pareto": "optimizer.studies.pareto.pareto",
     "pin_loads": "optimizer.pins.answer",
     "rate": "optimizer.rating.rate",
-    "sweep_table": "optimizer.sweep.whole",
+    "sweep_table": "optimizer.studies.sweep.whole",
 }
 
 

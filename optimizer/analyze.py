@@ -6,12 +6,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.balance_shafts import fitted
 from optimizer.errors import refuse
-from optimizer.figures.counterweights import as_given
-from optimizer.given import on_webs
-from optimizer.outputs import fields, prepare
-from optimizer.shapes import fitted_masses, plates
+from optimizer.formulation.balance_shafts import fitted
+from optimizer.formulation.counterweights import as_given
+from optimizer.formulation.placement import on_webs
+from optimizer.mechanics.shapes import fitted_masses, plates
+from optimizer.outputs.registry import fields, prepare
 from schemas.answers import AnalyzeAnswer, Timing
 from schemas.base import FieldProblem
 from schemas.requests import AnalyzeRequest

@@ -13,7 +13,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from optimizer.linked import link_first
+from optimizer.numerics.linking import link_first
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs
 
 
@@ -27,7 +27,7 @@ def any_limits() -> None:
 
 def budgets() -> None:
     """Compile what a budget is spent by: one program, one web."""
-    from optimizer.kernel.knapsack import filled
+    from optimizer.numerics.kernel.knapsack import filled
 
     filled(np.ones((1, 1)), np.ones((1, 1)), np.ones(1))
 

@@ -3,17 +3,17 @@
 import time
 from dataclasses import replace
 
-from optimizer.certified_robust import nothing_off
 from optimizer.errors import MissingInput
-from optimizer.outputs import fields as answered
-from optimizer.outputs import prepare
-from optimizer.own_solver import own_solver
+from optimizer.formulation.simulation import Prepared
+from optimizer.outputs.registry import fields as answered
+from optimizer.outputs.registry import prepare
+from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
-from optimizer.required import effects_of_objective, missing
-from optimizer.scene import Prepared
 from optimizer.solve.outcome import Outcome
+from optimizer.solve.process_solver import own_solver
 from optimizer.solve.solve import solve
-from optimizer.turn_residual import with_turn
+from optimizer.solve.turn_residual import with_turn
+from optimizer.solve.worst_case import nothing_off
 from schemas.answers import Certificate, OptimizeAnswer, Timing
 from schemas.requests import OptimizeRequest
 

@@ -17,8 +17,8 @@ def warm_up() -> None:
     RuntimeError
         if either leaves it open: who cannot solve this solves nothing.
     """
-    from optimizer.formulate import formulate
-    from optimizer.outputs import prepare
+    from optimizer.formulation.formulate import formulate
+    from optimizer.outputs.registry import prepare
     from optimizer.program.reference.solver import Solver
     from optimizer.program.solution import CONE_PROGRAM
 
@@ -62,8 +62,8 @@ def match_parts() -> None:
     """Nine parts on as many rows: too many for all of their orders to be listed."""
     import numpy as np
 
-    from optimizer.matching.kernel.meeting import met
-    from optimizer.matching.match import match
+    from optimizer.studies.matching.kernel.meeting import met
+    from optimizer.studies.matching.match import match
     from schemas.match import MatchRequest
 
     throws = [

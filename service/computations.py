@@ -188,7 +188,7 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/pareto",
             request="schemas.pareto:ParetoRequest",
             answer="schemas.pareto:ParetoAnswer",
-            compute="optimizer.pareto.pareto:pareto",
+            compute="optimizer.studies.pareto.pareto:pareto",
             summary="The certified trade-off of peak force, peak moment and total mass",
             remark="Every point is the lightest set of counterweights that no other set beats in both peaks, with a "
             "proof.",
@@ -203,7 +203,7 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/accuracy",
             request="schemas.accuracy:AccuracyRequest",
             answer="schemas.accuracy:AccuracyAnswer",
-            compute="optimizer.accuracy.measure:accuracy",
+            compute="optimizer.studies.accuracy.measure:accuracy",
             summary="What accuracy costs in time on a machine: a ladder of methods and settings",
             remark="Times are those of this machine at this moment; errors and gaps do not depend on it.",
             help="Show what accuracy costs in time on a machine.",
@@ -244,7 +244,7 @@ COMPUTATIONS: dict[str, Computation] = {
             path="/v1/match",
             request="schemas.match:MatchRequest",
             answer="schemas.match_answer:MatchAnswer",
-            compute="optimizer.matching.match:match",
+            compute="optimizer.studies.matching.match:match",
             summary="Which weighed part goes on which row, each once, with a certificate",
             remark="Masses of parts are added to the reciprocating masses of the rows. An assignment that is not proven"
             " as closely as asked is answered with 200 too: `status` says so.",

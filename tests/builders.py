@@ -7,11 +7,11 @@ from typing import Any, TypeVar
 import numpy as np
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex, Real
-from optimizer.figures.stages import stages
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.stages import stages
 from schemas.outputs import Stage
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import ConnectingRod, Row, Throw

@@ -4,12 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.choices.catalogue_options import Stock
+from optimizer.choices.discrete.search import Known, search
 from optimizer.choices.feasible_set import Choice, Subproblem
-from optimizer.discrete.search import Known, search
-from optimizer.figures.counterweights import unbalance
+from optimizer.formulation.counterweights import unbalance
+from optimizer.numerics.arrays import Real
 from optimizer.program.statement import Statement
-from optimizer.stock import Stock
 
 
 @dataclass(frozen=True)

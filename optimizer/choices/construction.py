@@ -1,12 +1,12 @@
 """The set that a request states."""
 
 from optimizer.choices.catalogue import Catalogue
+from optimizer.choices.catalogue_options import stock
 from optimizer.choices.feasible_set import FeasibleSet
 from optimizer.choices.minimum_masses import MinimumMasses
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
-from optimizer.stock import stock
 from schemas.requests import OptimizeRequest
 
 

@@ -2,7 +2,7 @@
 
 from typing import NamedTuple, Protocol
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.statement import Statement
 
 

@@ -4,14 +4,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.choices.feasible_set import Choice, Subproblem
-from optimizer.figures.counterweights import masses_and_angles, unbalance
+from optimizer.choices.semicontinuous.search import Asked, search
+from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.numerics.arrays import Real
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
-from optimizer.semicontinuous.search import Asked, search
 from schemas.machine import Machine
 
 #: of a mass, relative: what is this near to the least is the least

@@ -7,7 +7,6 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import RODS, rod_problems
 from optimizer.effects.results import (
@@ -31,7 +30,8 @@ from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_work import RowWork
 from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
-from optimizer.pieces import ROUNDING
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.piecewise_cubics import ROUNDING
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine

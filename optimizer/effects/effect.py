@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from optimizer.arrays import Real
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Real
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.requests import Fidelity

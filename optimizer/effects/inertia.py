@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Iterator
 
-from optimizer.arrays import Real
 from optimizer.effects.effect import Context, Effect
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
+from optimizer.numerics.arrays import Real
 from schemas.base import FieldProblem
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine

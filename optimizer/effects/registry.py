@@ -8,13 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.effects.dynamics import DYNAMICS
 from optimizer.effects.effect import Context, Effect
 from optimizer.effects.inertia import INERTIA
 from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Real
 from schemas.answers import EffectUse
 from schemas.base import FieldProblem
 from schemas.machine import Machine

@@ -5,10 +5,10 @@ from functools import cached_property
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, GasForces, indicated_work, switching_angles
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Real
 
 
 @dataclass(frozen=True)

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 
 _QUADRANTS = np.array([1, 1j, -1, -1j])
 #: a degree in radians, as an exponent

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.arrays import Complex, Reals
+from optimizer.numerics.arrays import Complex, Reals
 
 #: of the permissible unbalance, what a plane between the bearings has at least and at most (ISO 21940-11)
 _LEAST, _MOST = 0.3, 0.7

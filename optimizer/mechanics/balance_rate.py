@@ -7,7 +7,7 @@ customary crank, 0 a bare one.
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
 
 #: distances that differ by less than this share of the extent are equal
 _TIE = 1e-9

@@ -9,12 +9,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, total
-from optimizer.curve import TurnResponse
 from optimizer.mechanics import inertia
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import BalanceWebs, Layout
-from optimizer.response import Phasors, Response
+from optimizer.numerics.arrays import Complex, Real, total
+from optimizer.responses.curve import TurnResponse
+from optimizer.responses.response import Phasors, Response
 
 
 def shaft_influence(shafts: BalanceWebs, ratio: int) -> Real:

@@ -23,7 +23,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 
 #: bearings nearer to each other than this share of the bearings' extent are one bearing
 _COINCIDENT = 1e-9

@@ -6,11 +6,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, switching_travels
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout, stacked
+from optimizer.numerics.arrays import Real
 from schemas.base import FieldProblem
 from schemas.cylinder import Cylinder
 from schemas.indicated import DEAD_CENTRE_DEG, TURN_DEG, IndicatedPressure, PressureTrace

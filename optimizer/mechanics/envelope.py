@@ -16,7 +16,7 @@ from typing import Protocol
 
 import numpy as np
 
-from optimizer.arrays import Real, Reals
+from optimizer.numerics.arrays import Real, Reals
 
 #: cuts of an interval into as many parts: to the last bit
 _CUTS, _PARTS = 10, 64

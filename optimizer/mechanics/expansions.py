@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.arrays import Real
 from optimizer.mechanics.row_data import RowData
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
-from optimizer.pieces import Index
+from optimizer.numerics.arrays import Real
+from optimizer.responses.piecewise_cubics import Index
 
 #: design, piece, angle and perhaps half width of places, (m,) each
 Places = tuple[NDArray[Any], ...]

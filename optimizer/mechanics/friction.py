@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.kinematics import Motion
+from optimizer.numerics.arrays import Real
 
 
 def reciprocating_friction(motion: Motion, magnitude: Real) -> Real:

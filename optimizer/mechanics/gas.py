@@ -13,10 +13,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from optimizer.arrays import Real
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import Motion, angle_at
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Real
 
 #: Gauss-Legendre quadrature on [0, 1]
 _INSIDE, _SHARES = (np.array(values) for values in (0.5 * (1.0 + leggauss(10)[0]), 0.5 * leggauss(10)[1]))

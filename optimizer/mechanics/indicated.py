@@ -10,10 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.kinematics import steep_angles
 from optimizer.mechanics.turn import mean, panels
-from optimizer.pieces import Index
+from optimizer.numerics.arrays import Real
+from optimizer.responses.piecewise_cubics import Index
 
 TURN = 2.0 * np.pi
 #: rad; breaks of the turn nearer to each other are one

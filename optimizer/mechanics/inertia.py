@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, spread, total
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.response import Phasors, Response
+from optimizer.numerics.arrays import Complex, Real, spread, total
+from optimizer.responses.response import Phasors, Response
 
 
 class Wrench(NamedTuple):

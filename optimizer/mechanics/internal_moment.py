@@ -5,10 +5,10 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.inertia import reciprocating_forces, rotating_forces
 from optimizer.mechanics.layout import Layout
-from optimizer.response import Phasors
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.response import Phasors
 
 
 def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Real
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,8 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import direction
+from optimizer.numerics.arrays import Complex, Real
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.rotor import Rotor
 from schemas.scroll_machine import ScrollMachine

@@ -6,8 +6,8 @@ from functools import cached_property
 
 import numpy as np
 
-from optimizer.arrays import Real, Reals
 from optimizer.mechanics.envelope import Envelope, opened_for
+from optimizer.numerics.arrays import Real, Reals
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import turned
 from optimizer.mechanics.kinematics import Motion
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Complex, Real
 
 
 @dataclass(frozen=True)

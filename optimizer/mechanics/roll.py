@@ -12,10 +12,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
-from optimizer.curve import TurnResponse
 from optimizer.mechanics.layout import BalanceWebs, Layout
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.curve import TurnResponse
 
 
 def roll(turn: WholeTurn, layout: Layout) -> TurnResponse:

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.indicated import Trace
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Real
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Rows

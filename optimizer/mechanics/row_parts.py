@@ -8,11 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.expansions import Expansions
 from optimizer.mechanics.row_data import RowData
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
-from optimizer.pieces import Index
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.piecewise_cubics import Index
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING, Any, Literal, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.row_data import RowData, compact
-from optimizer.pieces import Index
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.piecewise_cubics import Index
 
 if TYPE_CHECKING:
     from optimizer.mechanics.kernel.rows import Functions

@@ -12,13 +12,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, head_sides, indicated_work, log_ratio, switching_travels
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.whole_turn import TurnCurves
-from optimizer.pieces import ROUNDING, Index
+from optimizer.numerics.arrays import Real
+from optimizer.responses.piecewise_cubics import ROUNDING, Index
 
 #: halvings of an interval, between which Newton's method takes over
 _STEPS = 24

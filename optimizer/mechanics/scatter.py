@@ -10,10 +10,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
-from optimizer.response import Phasors
+from optimizer.numerics.arrays import Real
+from optimizer.responses.response import Phasors
 
 
 def row_parts(layout: Layout) -> Wrench:

@@ -13,13 +13,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
-from optimizer.curve import TurnResponse
 from optimizer.mechanics.balance_shafts import beside, with_balance_shafts
 from optimizer.mechanics.bearings import bending_moment
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.row_series import Reading
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.curve import TurnResponse
 
 #: bearing loads for unit loads: (..., B) and (..., L) m to (..., B, L)
 Influence = Callable[[Real, Real], Real]

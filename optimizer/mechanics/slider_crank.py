@@ -12,7 +12,7 @@ from operator import mul
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 
 #: up to which square of q, that is for rods of more than 1.52 crank radii, these powers of it leave out less of the
 #: hypergeometric function than rounding does

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 
 #: nodes of a panel, by the number of panels up to which they serve: many breaks make narrow panels, which need fewer
 _NODES = ((500, 12), (1500, 8))

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 
 #: m/s^2, standard acceleration of free fall
 GRAVITY = 9.80665

@@ -1,7 +1,8 @@
 """Curves over the whole turn, piece by piece between the angles at which something jumps or has a kink.
 
 A curve is a sum over the rows of one of their forces (:mod:`row_series`) times weights, and a constant: a rod force,
-the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod:`optimizer.pieces` brackets peaks with.
+the torque, the load of a bearing as the shaft sees it. Its pieces are what :mod:`optimizer.responses.piecewise_cubics`
+brackets peaks with.
 """
 
 from collections.abc import Sequence
@@ -11,7 +12,6 @@ from functools import cached_property
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.expansions import Expansions
 from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries, turns_of
 from optimizer.mechanics.kinematics import own_angle, steep_angles
@@ -20,7 +20,8 @@ from optimizer.mechanics.row_data import RowData, compact, shared
 from optimizer.mechanics.row_parts import RowParts
 from optimizer.mechanics.row_series import Reading, RowSeries, Taylor
 from optimizer.mechanics.turn import Turn, panels
-from optimizer.pieces import Index, Pieces
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.piecewise_cubics import Index, Pieces
 
 #: rad, width of pieces that no break shortens
 _WIDEST = np.deg2rad(5.0)

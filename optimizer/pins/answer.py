@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.pins.contact import Contact
 from optimizer.pins.energy import compared, pitch_energy
 from optimizer.pins.loads import PeriodicTable, at_dead_point, degrees_of_freedom, gas_torques, levers, peaks

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 
 _ITERATIONS = 80
 _EPS = float(np.finfo(float).eps)

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.oldham import Keys, Oldham, keys, pin_losses
+from optimizer.numerics.arrays import Real
 from optimizer.pins.loads import PeriodicTable, levers
 from optimizer.pins.pattern import Pattern
 from schemas.scroll import PitchEnergy

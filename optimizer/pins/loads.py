@@ -21,8 +21,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import direction
+from optimizer.numerics.arrays import Complex, Real
 
 #: pins whose places leave a line by less than this share of their span are on it; so near a dead point, in radians,
 #: the loads are of the order of 1e6 times the usual ones and mean nothing

@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.angles import direction
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.pins.contact import Contact, pin_contact
 from optimizer.pins.loads import LoadShapes, Pins, dead_points, elastic_loads, even_pin_loads, levers
 from schemas.scroll import PinLoadsRequest

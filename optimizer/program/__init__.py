@@ -1,6 +1,6 @@
 """The convex program: statement, optima, certificate, verdict. Knows nothing of machines.
 
-The way in is :func:`optimizer.program.optima.optima`; which method is tried when stands in ``cascade.py``.
+The way in is :func:`optimizer.program.methods.optima.optima`; which method is tried when stands in ``cascade.py``.
 
 Notation, used in every file of this package (docs/mathematics.md):
 

@@ -5,9 +5,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Complex, Real, Reals
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.program.norms import Norms, join
-from optimizer.response import Response
+from optimizer.responses.response import Response
 
 #: a ceiling counts as kept up to this share of its size (``Ceilings.size``)
 CEILING_TOLERANCE = 1e-9

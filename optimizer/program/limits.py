@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, plain, spread
-from optimizer.program.alike import Alike
+from optimizer.numerics.arrays import Complex, Real, plain, spread
+from optimizer.program.equal_castings import Alike
 
 #: fields with an entry for each web
 OF_WEBS = ("radius", "max_mass", "free", "centre", "half_angle_cos", "half_angle_sin")
@@ -53,7 +53,7 @@ class Limits:
         gain : (..., K) per kilogram.
         """
         # the compiler is loaded when it is first needed
-        from optimizer.kernel.knapsack import filled
+        from optimizer.numerics.kernel.knapsack import filled
 
         *leading, webs = gain.shape
         many = math.prod(leading)

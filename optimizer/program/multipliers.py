@@ -9,7 +9,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, spread
 from optimizer.program.norms import scalars
 from optimizer.program.statement import Statement

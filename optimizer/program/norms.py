@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Complex, Real, spread
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, spread
 
 
 @dataclass(frozen=True)

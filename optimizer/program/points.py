@@ -5,7 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.statement import Statement
 
 

@@ -6,12 +6,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import SMALLEST, Real, Reals, total
+from optimizer.numerics.arrays import SMALLEST, Real, Reals, total
 from optimizer.program.ceilings import limited
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms, join
 from optimizer.program.statement import PARTS, Names, Statement, Term
-from optimizer.response import Response
+from optimizer.responses.response import Response
 
 
 @dataclass(frozen=True)

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal, NamedTuple
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 
 Stage = Literal["objective", "mass"]
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers
 from optimizer.program.norms import Norms
 from optimizer.program.scaled_program import ScaledData, ScaledSolution, Shape, Stage

@@ -6,7 +6,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, mapped
+from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers
 from optimizer.program.statement import Statement

@@ -11,9 +11,9 @@ from typing import Any, Literal, NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real, mapped
+from optimizer.numerics.arrays import Complex, Real, mapped
 from optimizer.program.ceilings import Ceilings
-from optimizer.program.flat import Flat, flat
+from optimizer.program.compiled_evaluation import Flat, flat
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from optimizer.arrays import Complex
-from optimizer.figures.proof import named, physical
-from optimizer.program.cuts import Found
-from optimizer.scene import Prepared
+from optimizer.formulation.simulation import Prepared
+from optimizer.numerics.arrays import Complex
+from optimizer.program.cuts.optimum import Found
+from optimizer.solve.proof import named, physical
 from schemas.proof import BoundMultipliers
 
 

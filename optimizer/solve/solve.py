@@ -1,11 +1,11 @@
 """Certified counterweights of one request, whatever it asks for and however they may be chosen."""
 
-from optimizer.certified_choice import certified_choice
-from optimizer.certified_first import certified_first
-from optimizer.certified_robust import certified_any_mass
+from optimizer.formulation.simulation import Prepared
 from optimizer.program.reference.solver import Solver
-from optimizer.scene import Prepared
+from optimizer.solve.choice import certified_choice
+from optimizer.solve.first_order import certified_first
 from optimizer.solve.outcome import Outcome
+from optimizer.solve.worst_case import certified_any_mass
 from schemas.requests import OptimizeRequest
 
 

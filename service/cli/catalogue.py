@@ -9,7 +9,7 @@ from service.cli.terminal import AsJson, fail, put, show
 
 def effects(as_json: AsJson = False) -> None:
     """List what can be asked for, and what is simulated and read for it."""
-    from optimizer.catalogue import catalogue
+    from optimizer.outputs.descriptions import catalogue
 
     if as_json:
         put(catalogue().model_dump_json())

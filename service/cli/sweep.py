@@ -95,7 +95,7 @@ def _estimate(asked: "SweepRequest", workers: int | None, as_json: bool) -> None
     from os import cpu_count
 
     from optimizer.errors import MissingInput
-    from optimizer.sweep.plan import plan
+    from optimizer.studies.sweep.plan import plan
 
     try:
         found = plan(asked).estimate_for(workers or cpu_count() or 1)
@@ -245,7 +245,7 @@ def _counts(desk: "OwnerJobs", job: "Job", schema: "pa.Schema") -> dict[str, int
 def _best(desk: "OwnerJobs", job: "Job", asked: "SweepRequest") -> "tuple[pa.Table, str]":
     import pyarrow as pa
 
-    from optimizer.sweep.reduce import Top
+    from optimizer.studies.sweep.reduce import Top
     from schemas.sweep import TopFilter
 
     schema = desk.schema(job)

@@ -33,7 +33,7 @@ class Kind:
 def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
     import pyarrow as pa
 
-    from optimizer.sweep.chunk import blocks, run_chunk
+    from optimizer.studies.sweep.chunk import blocks, run_chunk
 
     tables = []
     for first, last in blocks(request, start, stop):
@@ -45,8 +45,8 @@ def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
 def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> Piece:
     import pyarrow as pa
 
-    from optimizer.sweep.designs import axis_values
-    from optimizer.sweep.table import result_schema
+    from optimizer.studies.sweep.designs import axis_values
+    from optimizer.studies.sweep.table import result_schema
     from schemas.sweep import SweepRequest, pointer
 
     asked = SweepRequest.model_validate_json(request)

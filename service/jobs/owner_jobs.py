@@ -11,8 +11,8 @@ from typing import BinaryIO
 
 import pyarrow as pa
 
-from optimizer.sweep.plan import plan
-from optimizer.sweep.table import REQUEST
+from optimizer.studies.sweep.plan import plan
+from optimizer.studies.sweep.table import REQUEST
 from schemas.sweep import SweepLinks, SweepRequest, SweepState
 from service.computations import given_bytes
 from service.jobs import results

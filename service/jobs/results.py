@@ -8,7 +8,7 @@ from typing import Any, BinaryIO
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from optimizer.sweep.table import REQUEST, SEED, VERSIONS
+from optimizer.studies.sweep.table import REQUEST, SEED, VERSIONS
 from service.jobs.job import Record
 
 #: of a batch as text, of a number in it, and of a text, roughly [bytes]

@@ -42,7 +42,7 @@ def select(
     import pyarrow as pa
     import pyarrow.compute as pc
 
-    from optimizer.sweep.reduce import TooManyRows, reducer
+    from optimizer.studies.sweep.reduce import TooManyRows, reducer
     from schemas.sweep import SweepRequest
     from service.jobs.kinds import table_bytes
     from service.jobs.results import rows_of

@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from optimizer.outputs import require_inputs
+from optimizer.outputs.registry import require_inputs
 from schemas.answers import OptimizeAnswer
 from schemas.base import FieldProblem
 from schemas.report import ReportRequest

@@ -1,6 +1,6 @@
 """First-order force and moment drawn: the ellipses of before and after, and the circle that none can fall below."""
 
-from optimizer.formulate import span
+from optimizer.formulation.formulate import span
 from schemas.first_order import FirstOrder, Floor
 from schemas.machine import Machine
 from service.drawings.svg import Drawing

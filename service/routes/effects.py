@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from starlette.requests import Request
 from starlette.responses import Response
 
-from optimizer.catalogue import catalogue
+from optimizer.outputs.descriptions import catalogue
 from schemas.effects import EffectCatalogue
 from service.http.kept import Kept
 from service.http.openapi import problems

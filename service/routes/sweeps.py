@@ -9,7 +9,7 @@ from fastapi import APIRouter, Depends, Query
 from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 
-from optimizer.sweep.plan import plan
+from optimizer.studies.sweep.plan import plan
 from schemas.sweep import SweepEstimate, SweepRequest, SweepState
 from service.guard.access import needs
 from service.guard.keys import still_admitted

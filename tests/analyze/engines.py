@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 
 AMBIENT = 1e5
 COMPRESSION, LAM = 12.0, 0.3

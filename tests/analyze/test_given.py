@@ -10,7 +10,7 @@ from pydantic import ValidationError
 
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
-from optimizer.sweep.whole import sweep_table
+from optimizer.studies.sweep.whole import sweep_table
 from schemas.answers import AnalyzeAnswer
 from schemas.requests import AnalyzeRequest
 from schemas.sweep import SweepRequest

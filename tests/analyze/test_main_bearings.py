@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import gas_forces, indicated_work
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.rod import shaft_loads
+from optimizer.numerics.arrays import Complex, Real
 from schemas.dynamics import BearingLoad, MainBearings
 from tests.analyze.driven import STYLES, arrays, ask, random_driven
 

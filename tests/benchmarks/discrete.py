@@ -12,21 +12,21 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from optimizer.certified import certified
-from optimizer.matching.match import match
-from optimizer.matching.problem import stated
+from optimizer.choices.catalogue_options import stock
 from optimizer.optimize import optimize
-from optimizer.outputs import prepare
-from optimizer.own_solver import own_solver
-from optimizer.searched import continuous
-from optimizer.stock import stock
-from optimizer.sweep.whole import sweep_table
+from optimizer.outputs.registry import prepare
+from optimizer.solve.certify import certified
+from optimizer.solve.process_solver import own_solver
+from optimizer.solve.search_claims import continuous
+from optimizer.studies.matching.match import match
+from optimizer.studies.matching.problem import stated
+from optimizer.studies.sweep.whole import sweep_table
 from schemas.match import MatchRequest
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
 from tests.benchmarks.cases import EXAMPLES
-from tests.discrete.scip import scip, scip_matched
-from tests.matching.cases import machine, mirrored, parts
+from tests.choices.scip import scip, scip_matched
+from tests.studies.matching.cases import machine, mirrored, parts
 
 _GAP = 1e-4
 

@@ -13,8 +13,8 @@ import psutil
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.arrays import Real
-from optimizer.sweep.designs import axis_values
+from optimizer.numerics.arrays import Real
+from optimizer.studies.sweep.designs import axis_values
 from schemas.sweep import SweepRequest
 from tests.benchmarks.sweep_case import sweep
 

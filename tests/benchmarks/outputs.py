@@ -14,7 +14,7 @@ from optimizer.analyze import analyze
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
-from optimizer.outputs import OUTPUTS
+from optimizer.outputs.registry import OUTPUTS
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import even_pin_loads
 from schemas.requests import AnalyzeRequest

@@ -8,8 +8,8 @@ import time
 from collections.abc import Mapping
 from typing import Any
 
+from optimizer.mechanics.shapes import plates
 from optimizer.optimize import optimize
-from optimizer.shapes import plates
 from schemas.requests import OptimizeRequest
 from tests.benchmarks.cases import EXAMPLES
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
-from optimizer.formulate import formulate
-from optimizer.outputs import prepare
+from optimizer.formulation.formulate import formulate
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.registry import prepare
 from optimizer.program.statement import Statement
-from optimizer.sweep.designs import axis_values
+from optimizer.studies.sweep.designs import axis_values
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
 from schemas.variation import with_fields

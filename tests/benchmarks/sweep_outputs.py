@@ -14,11 +14,11 @@ import time
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from tests.benchmarks.stopwatch import Stopwatch
 from tests.benchmarks.sweep_over_turn import every_output
-from tests.sweep.single import example
+from tests.studies.sweep.single import example
 
 _ROW = "/machine/throws/0/rows/0"
 #: what varies -> its field and its range
@@ -35,8 +35,8 @@ PARTS: dict[str, tuple[str, ...]] = {
     "what forces are made of": ("optimizer.mechanics.kernel.rows:row_functions",),
     "readings": ("optimizer.mechanics.kernel.readings:row_series",),
     "curves": ("optimizer.mechanics.kernel.curves:sums_of_rows",),
-    "effects, integrals": ("optimizer.outputs:simulated",),
-    "brackets": ("optimizer.pieces:_bracketed",),
+    "effects, integrals": ("optimizer.outputs.registry:simulated",),
+    "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
 }
 
 

@@ -15,12 +15,12 @@ from typing import Any, NamedTuple
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.outputs import OUTPUTS
+from optimizer.outputs.registry import OUTPUTS
 from schemas.sweep import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks.stopwatch import Stopwatch
 from tests.benchmarks.whole_turn import six_with_gas, sixteen
-from tests.sweep.single import example
+from tests.studies.sweep.single import example
 
 _BEARINGS: dict[str, Any] = {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1}
 _MASS = "/machine/throws/0/rows/0/reciprocating_mass_kg"
@@ -29,9 +29,9 @@ _ELSE = "axes, table, Parquet"
 _LACKING = ("loads", "pin_loads")
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "design as a request, mechanics": ("optimizer.sweep.over_turn:prepare",),
-    "counterweights, proof": ("optimizer.sweep.over_turn:solve",),
-    "columns of outputs": ("optimizer.sweep.rows:columns",),
+    "design as a request, mechanics": ("optimizer.studies.sweep.over_turn:prepare",),
+    "counterweights, proof": ("optimizer.studies.sweep.over_turn:solve",),
+    "columns of outputs": ("optimizer.studies.sweep.rows:columns",),
 }
 
 

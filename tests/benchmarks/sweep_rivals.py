@@ -13,7 +13,7 @@ import moreau
 import numpy as np
 from scipy import sparse
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
 from tests.benchmarks.sweep_case import Program
 

@@ -19,7 +19,7 @@ from pathlib import Path
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.sweep.plan import plan
+from optimizer.studies.sweep.plan import plan
 from schemas.sweep import SweepRequest
 from service.jobs import worker
 from service.jobs.desk import Desk

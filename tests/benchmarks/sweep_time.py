@@ -17,26 +17,32 @@ from tests.benchmarks.stopwatch import Stopwatch
 _STAGES = "program, both stages"
 #: part of the work -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "axes": ("optimizer.sweep.rows:axis_values",),
-    "validity": ("optimizer.sweep.rows:_refuse", "optimizer.sweep.rows:_same_nulls"),
+    "axes": ("optimizer.studies.sweep.rows:axis_values",),
+    "validity": ("optimizer.studies.sweep.rows:_refuse", "optimizer.studies.sweep.rows:_same_nulls"),
     "columns, phasors, statement": (
-        "optimizer.sweep.counterweights:layout_of",
-        "optimizer.sweep.counterweights:rotating",
-        "optimizer.sweep.counterweights:reciprocating",
-        "optimizer.certified:formulate",
+        "optimizer.studies.sweep.counterweights:layout_of",
+        "optimizer.studies.sweep.counterweights:rotating",
+        "optimizer.studies.sweep.counterweights:reciprocating",
+        "optimizer.solve.certify:formulate",
     ),
     _STAGES: ("optimizer.program.kernel.discs:solve", "optimizer.program.kernel.interior_point:solve"),
-    "scaling, choice of the point": ("optimizer.program.optima:both_stages", "optimizer.program.optima:yardstick"),
-    "certificate": ("optimizer.program.compiled:best_proof", "optimizer.program.compiled:mass_lower_bound"),
-    "reference solver": ("optimizer.program.optima:cascade",),
-    "masses, angles, residuals": (
-        "optimizer.certified:masses_and_angles",
-        "optimizer.certified:unbalance",
-        "optimizer.certified:claim",
-        "optimizer.certified:verdict",
-        "optimizer.sweep.rows:columns",
+    "scaling, choice of the point": (
+        "optimizer.program.methods.optima:both_stages",
+        "optimizer.program.methods.optima:yardstick",
     ),
-    "table, Parquet": ("optimizer.sweep.chunk:result_table", "service.jobs.kinds:_piece"),
+    "certificate": (
+        "optimizer.program.methods.compiled:best_proof",
+        "optimizer.program.methods.compiled:mass_lower_bound",
+    ),
+    "reference solver": ("optimizer.program.methods.optima:cascade",),
+    "masses, angles, residuals": (
+        "optimizer.solve.certify:masses_and_angles",
+        "optimizer.solve.certify:unbalance",
+        "optimizer.solve.certify:claim",
+        "optimizer.solve.certify:verdict",
+        "optimizer.studies.sweep.rows:columns",
+    ),
+    "table, Parquet": ("optimizer.studies.sweep.chunk:result_table", "service.jobs.kinds:_piece"),
 }
 
 

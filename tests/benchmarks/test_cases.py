@@ -11,7 +11,7 @@ from tests.benchmarks import discrete, outputs, plates, sweep_outputs, sweep_ove
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure
 from tests.benchmarks.stopwatch import Stopwatch
-from tests.matching.cases import mirrored
+from tests.studies.matching.cases import mirrored
 
 
 @pytest.mark.parametrize("build", CASES.values(), ids=CASES)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from optimizer.sweep.designs import axis_values
+from optimizer.studies.sweep.designs import axis_values
 from tests.benchmarks.hypercube import Strata, request
 
 

@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.certified_turn import certified_turn
 from optimizer.optimize import optimize
-from optimizer.outputs import prepare
+from optimizer.outputs.registry import prepare
+from optimizer.solve.whole_turn import certified_turn
 from schemas.requests import OptimizeRequest
 from tests.benchmarks.outputs import sixteen_rows
 from tests.benchmarks.stopwatch import Stopwatch
@@ -41,15 +41,15 @@ _CYLINDER = {
 _ELSE = "input, mechanics, and the making of the answer"
 #: part of an answer -> functions that do it; what they call belongs to the innermost part
 PARTS: dict[str, tuple[str, ...]] = {
-    "rounds": ("optimizer.certified_turn:over_turn",),
-    "cone programs": ("optimizer.program.cut_stage:solved",),
+    "rounds": ("optimizer.solve.whole_turn:over_turn",),
+    "cone programs": ("optimizer.program.cuts.stage:solved",),
     "series of the rows": (
         "optimizer.mechanics.kernel.rows:row_functions",
         "optimizer.mechanics.kernel.readings:row_series",
     ),
-    "brackets": ("optimizer.pieces:_bracketed",),
-    "smallest circles": ("optimizer.figures.bearings:floors", "optimizer.program.cut_samples:smallest_circle"),
-    "rest of the proofs": ("optimizer.certified_robust:certified_turn",),
+    "brackets": ("optimizer.responses.piecewise_cubics:_bracketed",),
+    "smallest circles": ("optimizer.outputs.bearings:floors", "optimizer.program.cuts.samples:smallest_circle"),
+    "rest of the proofs": ("optimizer.solve.worst_case:certified_turn",),
     "figures, warnings": ("optimizer.optimize:answered",),
 }
 

@@ -8,13 +8,14 @@ from typing import get_args
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.catalogue import catalogue
-from optimizer.matching.match import match
 from optimizer.optimize import optimize
-from optimizer.pareto.pareto import pareto
-from optimizer.program import cuts, solution
+from optimizer.outputs.descriptions import catalogue
+from optimizer.program import solution
+from optimizer.program.cuts import optimum as cuts
 from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
+from optimizer.studies.matching.match import match
+from optimizer.studies.pareto.pareto import pareto
 from schemas.match import MatchRequest
 from schemas.outputs import OutputName
 from schemas.pareto import ParetoRequest

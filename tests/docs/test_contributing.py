@@ -23,7 +23,7 @@ from math import asin, degrees
 from pathlib import Path
 
 import schemas
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
 from service.app import create_app
@@ -106,7 +106,7 @@ _LIMITED = """
 import json
 from math import pi
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.app import create_app
 from service.settings import Settings

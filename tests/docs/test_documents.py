@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from optimizer.optimize import optimize
-from optimizer.pareto.pareto import pareto
+from optimizer.studies.pareto.pareto import pareto
 from schemas.pareto import ParetoRequest
 from schemas.requests import OptimizeRequest
 from service.cli import app

@@ -10,7 +10,7 @@ from optimizer.effects import registry
 from optimizer.effects.effect import Context
 from optimizer.effects.registry import EFFECTS, closure
 from optimizer.errors import MissingInput
-from optimizer.outputs import MAX_SAMPLES, OUTPUTS
+from optimizer.outputs.registry import MAX_SAMPLES, OUTPUTS
 from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import ask
 from tests.effects.machines import EVERY, SCROLL, complete, figures, found

@@ -10,7 +10,7 @@ from optimizer.effects import registry
 from optimizer.effects.effect import Context
 from optimizer.effects.registry import EFFECTS, closure, inputs_of, simulate
 from optimizer.mechanics.layout import layout
-from optimizer.outputs import OUTPUTS
+from optimizer.outputs.registry import OUTPUTS
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.outputs import OutputName
 from schemas.reciprocating import ReciprocatingMachine

@@ -6,9 +6,10 @@ from typing import Any
 
 import pytest
 
-from optimizer import analyze, optimize, pareto
+from optimizer import analyze, optimize
 from optimizer.effects import registry
 from optimizer.effects.effect import Context, Effect
+from optimizer.studies import pareto
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import bodies
@@ -108,7 +109,7 @@ def test_no_outputs_are_the_residual() -> None:
 
 
 def test_what_is_called_for_later_is_simulated_once(ran: Counter[str]) -> None:
-    from optimizer.outputs import prepare
+    from optimizer.outputs.registry import prepare
 
     scene = prepare(OptimizeRequest.model_validate(_with()))
     ran.clear()

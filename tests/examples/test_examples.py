@@ -12,7 +12,7 @@ from optimizer.mechanics.inertia import Wrench, first_order_responses, reciproca
 from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.optimize import optimize
-from optimizer.sweep.whole import sweep_table
+from optimizer.studies.sweep.whole import sweep_table
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest

@@ -20,10 +20,10 @@ from typing import Any
 
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput, OutOfRange
-from optimizer.matching.match import match
 from optimizer.optimize import optimize
-from optimizer.pareto.pareto import pareto
-from optimizer.sweep import run_chunk
+from optimizer.studies.matching.match import match
+from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.sweep import run_chunk
 from schemas.match import MatchRequest
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest

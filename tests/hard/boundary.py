@@ -17,15 +17,15 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.formulate import formulate
-from optimizer.limits import limits
+from optimizer.formulation.formulate import formulate
+from optimizer.formulation.limits import limits
 from optimizer.optimize import optimize
-from optimizer.outputs import prepare
+from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import CEILING_TOLERANCE, Solution
 from optimizer.program.verdict import yardstick
-from optimizer.response import Response
+from optimizer.responses.response import Response
 from schemas.requests import OptimizeRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.program.cases import optimum

@@ -11,7 +11,7 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
-from optimizer.outputs import MAX_SAMPLES
+from optimizer.outputs.registry import MAX_SAMPLES
 from schemas.answers import OptimizeAnswer
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from tests.hard_turn.case import Case

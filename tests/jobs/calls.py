@@ -14,7 +14,7 @@ import pyarrow as pa
 import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from tests.jobs.process import Service
 from tests.jobs.sweeps import analyses

@@ -10,7 +10,7 @@ import tempfile
 import time
 from pathlib import Path
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from tests.jobs.process import Service, service
 from tests.jobs.sweeps import analyses

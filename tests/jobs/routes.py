@@ -9,7 +9,7 @@ from typing import Any
 import pyarrow as pa
 from starlette.testclient import TestClient
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.app import create_app
 from service.settings import Settings

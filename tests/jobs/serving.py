@@ -30,7 +30,7 @@ def serve(**given: Any) -> None:
         # before any answer has read it
         schemas.version.version = lambda _: os.environ[VERSION]
     # workers import this module as well, and need none of these
-    from optimizer.sweep import plan
+    from optimizer.studies.sweep import plan
     from service.app import create_app
     from service.http.server import listen, run, url
     from service.jobs.desk import Desk

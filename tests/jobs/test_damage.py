@@ -13,7 +13,7 @@ from threading import Event
 
 import pytest
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.jobs import selection, spool
 from service.jobs.database import Database, DatabaseUnavailable

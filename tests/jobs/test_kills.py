@@ -9,7 +9,7 @@ from pathlib import Path
 import psutil
 import pytest
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from schemas.version import package_version
 from tests.jobs.kills import kill

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from typer.testing import CliRunner, Result
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.cli import app
 from service.jobs.export import export

@@ -12,7 +12,7 @@ import pytest
 from sqlalchemy import create_engine, insert, text
 from typer.testing import CliRunner
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.sweep import SweepRequest
 from service.cli import app
 from service.jobs.database import Database, DatabaseUnavailable

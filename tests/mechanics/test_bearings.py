@@ -9,7 +9,6 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.bearings import (
     bending_moment,
     continuous_beam,
@@ -17,6 +16,7 @@ from optimizer.mechanics.bearings import (
     simple_spans,
     simple_spans_influence,
 )
+from optimizer.numerics.arrays import Complex, Real
 
 Model = Callable[[Real, Real, Complex], Complex]
 Influence = Callable[[Real, Real], Real]

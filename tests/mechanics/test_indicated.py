@@ -5,7 +5,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real
 from optimizer.mechanics.cylinders import chambers, cycle_turns, gas_problems, traces
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion
@@ -13,6 +12,7 @@ from optimizer.mechanics.layout import layout, spread
 from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
+from optimizer.numerics.arrays import Real
 from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.engines import FOUR, RADIUS, UNEVEN, cylinder, engine, trace
 

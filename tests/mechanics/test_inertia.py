@@ -8,7 +8,7 @@ import pytest
 from optimizer.mechanics.inertia import counterweights, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
-from optimizer.response import Phasors
+from optimizer.responses.response import Phasors
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.scroll_machine import CrankPins, OldhamRing, ScrollMachine
 from tests.builders import RADIUS, inline, machine, opposed, random_machine, row, stack, throw, web

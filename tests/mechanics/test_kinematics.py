@@ -4,10 +4,10 @@ import mpmath
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real
 from optimizer.mechanics.kinematics import angle_at, motion, own_angle
 from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
+from optimizer.numerics.arrays import Real
 from tests.builders import OMEGA, RADIUS, machine, random_machine, row, stack, throw
 
 THETA = np.deg2rad(np.arange(0.0, 360.0, 7.0))

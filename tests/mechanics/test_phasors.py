@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex
-from optimizer.response import Phasors
+from optimizer.numerics.arrays import Complex
+from optimizer.responses.response import Phasors
 
 GRID = np.linspace(0.0, 2.0 * np.pi, 20001)
 #: a maximum on the grid lies below the true one by at most half a step squared over two

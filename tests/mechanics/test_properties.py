@@ -8,9 +8,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex
 from optimizer.mechanics.inertia import counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import layout
+from optimizer.numerics.arrays import Complex
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.throws import Row, Throw
 from tests.builders import ANGLES, POSITIONS, force_scale, machines, moment_scale

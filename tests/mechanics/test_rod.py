@@ -4,12 +4,12 @@ import mpmath
 import numpy as np
 import pytest
 
-from optimizer.arrays import Complex, Real
 from optimizer.mechanics.friction import reciprocating_friction
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.rod import rod_forces, shaft_loads
+from optimizer.numerics.arrays import Complex, Real
 from tests.analyze.driven import STYLES, arrays, random_driven
 from tests.builders import RADIUS, machine, random_machine, row, stack, throw
 

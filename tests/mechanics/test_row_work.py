@@ -6,13 +6,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real
 from optimizer.effects.registry import run
 from optimizer.mechanics.indicated import TURN
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.row_work import RowWork
 from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles
+from optimizer.numerics.arrays import Real
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import Fidelity
 from tests.analyze.driven import STYLES, random_driven

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
-from optimizer.response import Phasors
+from optimizer.responses.response import Phasors
 from tests.builders import inline, machine, row, throw
 
 

@@ -3,8 +3,6 @@
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real
-from optimizer.curve import floor
 from optimizer.mechanics.bearings import (
     bending_moment,
     continuous_beam_influence,
@@ -17,6 +15,8 @@ from optimizer.mechanics.rod import shaft_loads
 from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
 from optimizer.mechanics.whole_turn import break_angles, whole_turn
+from optimizer.numerics.arrays import Real
+from optimizer.responses.curve import floor
 from schemas.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import arrays, random_driven
 

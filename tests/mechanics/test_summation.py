@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from optimizer.arrays import total
+from optimizer.numerics.arrays import total
 
 
 def test_cancelling_terms_are_zero() -> None:

@@ -8,7 +8,7 @@ from pydantic import ValidationError
 
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
-from optimizer.outputs import OUTPUTS
+from optimizer.outputs.registry import OUTPUTS
 from schemas.answers import AnalyzeAnswer
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest

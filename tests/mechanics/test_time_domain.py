@@ -8,10 +8,10 @@ coefficient is m k^2 p_k.
 import numpy as np
 import pytest
 
-from optimizer.arrays import Complex
 from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import layout
-from optimizer.response import Phasors
+from optimizer.numerics.arrays import Complex
+from optimizer.responses.response import Phasors
 from schemas.reciprocating import ReciprocatingMachine
 from tests.builders import force_scale, moment_scale, random_machine
 

@@ -5,8 +5,8 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real
 from optimizer.mechanics.turn import fluctuation, mean, panels
+from optimizer.numerics.arrays import Real
 
 TURN = 2.0 * np.pi
 NONE = np.zeros(0)

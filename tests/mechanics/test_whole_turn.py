@@ -12,7 +12,7 @@ from optimizer.mechanics.rod import rod_forces, shaft_loads
 from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_series import Reading, RowSeries
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn, break_angles, whole_turn
-from optimizer.pieces import Bracket
+from optimizer.responses.piecewise_cubics import Bracket
 from tests.analyze.driven import STYLES, arrays, random_driven
 
 READINGS = ("piston", "rod", "side", "tangential", "radial")

@@ -11,18 +11,18 @@ import numpy as np
 import pytest
 
 import optimizer
-from optimizer.formulate import RESPONSES, Weighable, formulate, given_ceilings, smallest_peak
+from optimizer.formulation.formulate import RESPONSES, Weighable, formulate, given_ceilings, smallest_peak
+from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from optimizer.outputs import prepare
+from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
-from optimizer.response import Phasors, Response
-from optimizer.scene import Prepared
-from optimizer.sweep.counterweights import optimal
+from optimizer.responses.response import Phasors, Response
+from optimizer.studies.sweep.counterweights import optimal
 from schemas.requests import OptimizeRequest
 from tests.program.cases import optimum
 
@@ -52,27 +52,27 @@ REQUEST = OptimizeRequest.model_validate({"machine": MACHINE})
 NAMED_IN = {
     "mechanics/inertia.py": "makes them",
     "mechanics/shaft_curves.py": "makes them, of all orders",
-    "formulate.py": "translates the fields of the contract",
-    "figures/first_order.py": "fields of the answer",
-    "figures/cautions.py": "warns of both",
-    "figures/stages.py": "figures of both",
-    "figures/stage_parts.py": "figures of both",
-    "figures/phasors.py": "fields of the answer",
-    "figures/loads.py": "on the base, of both",
-    "figures/rules_of_thumb.py": "figures of both",
-    "figures/balance_quality.py": "what turns with the shaft of both",
-    "pareto/counts.py": "fields of the answer",
-    "pareto/pareto.py": "a front is of these two: fields of its answer",
-    "pareto/measures.py": "what a front trades by the names that the contract has for it",
-    "pareto/trades.py": "fields of the answer",
+    "formulation/formulate.py": "translates the fields of the contract",
+    "outputs/first_order.py": "fields of the answer",
+    "outputs/cautions.py": "warns of both",
+    "outputs/stages.py": "figures of both",
+    "outputs/stage_parts.py": "figures of both",
+    "outputs/phasors.py": "fields of the answer",
+    "outputs/loads.py": "on the base, of both",
+    "outputs/rules_of_thumb.py": "figures of both",
+    "outputs/balance_quality.py": "what turns with the shaft of both",
+    "studies/pareto/counts.py": "fields of the answer",
+    "studies/pareto/pareto.py": "a front is of these two: fields of its answer",
+    "studies/pareto/measures.py": "what a front trades by the names that the contract has for it",
+    "studies/pareto/trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
-    "figures/dynamics.py": "of the piston",
+    "outputs/dynamics.py": "of the piston",
     # columns by their names
-    "figures/orders.py": "columns of sweeps",
-    "figures/details/first_order.py": "columns of sweeps",
+    "outputs/orders.py": "columns of sweeps",
+    "outputs/details/first_order.py": "columns of sweeps",
     "mechanics/gas.py": "of the gas",
-    "figures/details/loads.py": "of the gas",
+    "outputs/details/loads.py": "of the gas",
 }
 
 
@@ -168,7 +168,7 @@ def _backwards(layout: Layout, baseline: Wrench) -> Response:
 def test_order_and_sense_say_how_a_response_turns(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: force of the rows along their axes, and of the unbalances at -2 theta, sampled over the turn."""
     second = Weighable("second", "N", _backwards, lambda *_: 1.0, lambda _: None, "force_ceiling_N", "force_ceiling")
-    monkeypatch.setattr("optimizer.formulate.RESPONSES", {"second": second})
+    monkeypatch.setattr("optimizer.formulation.formulate.RESPONSES", {"second": second})
     throws = [
         {**each, "rows": [{**row, "connecting_rod": {"length_m": 0.4}} for row in each["rows"]]}
         for each in MACHINE["throws"]

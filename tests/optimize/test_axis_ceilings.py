@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.pareto.pareto import pareto
+from optimizer.studies.pareto.pareto import pareto
 from schemas.answers import OptimizeAnswer
 from schemas.pareto import ParetoRequest
 from tests.hard_turn import machines

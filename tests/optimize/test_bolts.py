@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.requests import OptimizeRequest
 from schemas.sweep import SweepRequest
 from tests.verification.checking import broken, optimized

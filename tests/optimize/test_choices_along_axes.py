@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.discrete import branch, search
+from optimizer.choices.discrete import branch, search
 from tests.optimize.choices import DEGREE, Loads, asked, certified, chosen, every_set, twin, two_webs
 from tests.optimize.whole_turn import ALONE
 from tests.verification.checking import optimized

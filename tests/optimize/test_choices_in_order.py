@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer import certified_choice
-from optimizer.choice_rounds import Ended, in_rounds
+from optimizer.choices.discrete import branch, search
 from optimizer.choices.feasible_set import Choice
-from optimizer.discrete import branch, search
 from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
+from optimizer.solve import choice as certified_choice
+from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
 from schemas.answers import OptimizeAnswer
 from schemas.requests import OptimizeRequest
 from tests.optimize.choices import (
@@ -26,7 +26,7 @@ from tests.optimize.choices import (
     twin,
     two_webs,
 )
-from tests.sweep.single import assert_row_is_the_single_answer, sweep, table
+from tests.studies.sweep.single import assert_row_is_the_single_answer, sweep, table
 from tests.verification.checking import optimized
 
 WEIGHTS = {"bearing_weight": 1, "force_weight": 0.5, "moment_weight": 2.0}

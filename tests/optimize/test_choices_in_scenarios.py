@@ -71,8 +71,8 @@ def test_no_set_by_hand_is_better(scenarios: list[dict[str, Any]]) -> None:
 
 def test_by_a_tree(monkeypatch: pytest.MonkeyPatch) -> None:
     """Independent: the same where halves are given no room."""
-    monkeypatch.setattr("optimizer.discrete.search._SUMS", 1)
-    monkeypatch.setattr("optimizer.discrete.branch._SETS", 20)
+    monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
+    monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
     body = asked(PAIRS, [FAST, LADEN])
     found = optimized(body)
     _, u = every_set(body)

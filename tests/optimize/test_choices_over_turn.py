@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.discrete.search import EXHAUSTED, TREE
+from optimizer.choices.discrete.search import EXHAUSTED, TREE
 from optimizer.optimize import optimize
 from schemas.requests import OptimizeRequest
 from tests.optimize.choices import (
@@ -24,7 +24,7 @@ from tests.optimize.choices import (
     two_webs,
 )
 from tests.optimize.whole_turn import ALONE
-from tests.sweep.single import assert_row_is_the_single_answer, sweep, table
+from tests.studies.sweep.single import assert_row_is_the_single_answer, sweep, table
 from tests.verification.checking import optimized
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.arrays import Complex
+from optimizer.numerics.arrays import Complex
 from optimizer.optimize import optimize
 from schemas.answers import OptimizeAnswer
 from schemas.requests import AnalyzeRequest, OptimizeRequest

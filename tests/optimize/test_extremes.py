@@ -5,14 +5,14 @@ from itertools import product
 
 import pytest
 
-from optimizer.pareto.pareto import pareto
-from optimizer.sweep import run_chunk
+from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from tests.hard.bodies import checked, drawn, strictly, tried
 from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
 from tests.hard.random_bodies import body
 from tests.hard.random_features import FEATURES
-from tests.sweep.single import sweep
+from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized
 
 

@@ -5,13 +5,13 @@ import copy
 import numpy as np
 import pytest
 
-from optimizer.pareto.pareto import pareto
-from optimizer.sweep import run_chunk
+from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from schemas.requests import OptimizeRequest
 from service.validation import InvalidRequest, check
 from tests.hard.cases.case import Body, machine, row, throw, web
-from tests.sweep.single import sweep
+from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized
 
 #: 1 rad/s, so that forces are mass-radius products

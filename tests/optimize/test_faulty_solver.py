@@ -9,7 +9,8 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
-from optimizer.program import cut_proof, cut_stage
+from optimizer.program.cuts import proof as cut_proof
+from optimizer.program.cuts import stage as cut_stage
 from optimizer.program.reference.assembled import Assembled, NoPoint, solved
 from optimizer.program.scaled_program import ScaledSolution
 from optimizer.program.verdict import CONTRADICTED

@@ -9,8 +9,8 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from optimizer.pareto.pareto import pareto
-from optimizer.sweep import run_chunk
+from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.sweep import run_chunk
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep import SweepRequest

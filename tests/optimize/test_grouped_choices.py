@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
-from optimizer.pareto.pareto import pareto
+from optimizer.studies.pareto.pareto import pareto
 from schemas.pareto import ParetoRequest
 from tests.optimize.test_mirrored_groups import PAIRS, alike, grouped
 from tests.optimize.test_web_groups import ANGLES, NAMES, RADIUS, objective
@@ -82,8 +82,8 @@ def test_a_tree_finds_what_trying_all_sets_does(
     mirror: bool, ceiling: float | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Independent: 117,649 sets, by sums over throws and webs; halves are given no room, and leaves of the tree few."""
-    monkeypatch.setattr("optimizer.discrete.search._SUMS", 1)
-    monkeypatch.setattr("optimizer.discrete.branch._SETS", 20)
+    monkeypatch.setattr("optimizer.choices.discrete.search._SUMS", 1)
+    monkeypatch.setattr("optimizer.choices.discrete.branch._SETS", 20)
     body = asked(PAIRS, mirror, [2.0, 5.0, 9.0], 22.5, objective={"force_ceiling_N": ceiling})
     found = optimized(body)
     assert found.certificate is not None

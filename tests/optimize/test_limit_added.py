@@ -6,15 +6,15 @@ One crank with a rotating mass, and one web opposite: the counterweight m R take
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real, mapped
-from optimizer.certified import Certified, certified
-from optimizer.figures.limits import Priced, of_limits
-from optimizer.limits import WEB_LIMITS, MassLimit, limits
+from optimizer.formulation.limits import WEB_LIMITS, MassLimit, limits
 from optimizer.mechanics.layout import stacked
-from optimizer.outputs import prepare
+from optimizer.numerics.arrays import Real, mapped
+from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.program.sensitivity import shadow_prices
-from optimizer.sweep.counterweights import optimal
+from optimizer.solve.certify import Certified, certified
+from optimizer.solve.prices import Priced, of_limits
+from optimizer.studies.sweep.counterweights import optimal
 from schemas.machine import Machine
 from schemas.requests import OptimizeRequest
 

@@ -8,7 +8,7 @@ import pytest
 from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
-from optimizer.pareto.pareto import pareto
+from optimizer.studies.pareto.pareto import pareto
 from schemas.answers import OptimizeAnswer
 from schemas.pareto import ParetoRequest
 from tests.optimize.test_web_groups import ANGLES, NAMES, RADIUS, body, objective, phasors, refused

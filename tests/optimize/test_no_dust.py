@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from optimizer.optimize import optimize
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from tests.hard.cases.case import Body, machine, row, throw
 from tests.optimize.whole_turn import ALONE, asked, inline_six
-from tests.sweep.single import sweep
+from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized
 
 

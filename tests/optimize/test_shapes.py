@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer import certified_shapes
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from optimizer.program.verdict import MASS_GAP, NOT_LIGHT
+from optimizer.solve import plates as certified_shapes
 from schemas.answers import OptimizeAnswer
 from schemas.report import ReportRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest

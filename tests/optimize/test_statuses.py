@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.program import compiled
 from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import PRECISIONS
+from optimizer.program.methods import compiled
 from optimizer.program.reference import solver as solve
 from optimizer.program.reference.modelling import ConeProgram
 from tests.optimize.asking import OMEGA_SQUARED, answer, single
@@ -131,7 +131,7 @@ def test_a_solver_that_lies_is_not_believed(monkeypatch: pytest.MonkeyPatch) -> 
 
 def test_where_nothing_is_unbalanced_a_gap_still_counts(monkeypatch: pytest.MonkeyPatch) -> None:
     """The yardstick is then what the counterweights could change, and the relative gap stands for the gap."""
-    whole = import_module("optimizer.certified")
+    whole = import_module("optimizer.solve.certify")
 
     opposed = [throw(-0.2, 0.0, [], rotating=10.0), throw(0.2, 180.0, [], rotating=10.0)]
     body = machine(opposed, [web("one", 0.3)])

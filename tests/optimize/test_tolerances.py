@@ -9,7 +9,7 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from optimizer.robust import scatter_of
+from optimizer.solve.uncertain_program import scatter_of
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from schemas.scenarios import Tolerances
 from tests.hard_turn.machines import twin

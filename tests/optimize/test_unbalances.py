@@ -8,9 +8,9 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from optimizer.sweep import run_chunk
+from optimizer.studies.sweep import run_chunk
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from tests.sweep.single import sweep
+from tests.studies.sweep.single import sweep
 from tests.verification.checking import broken, optimized
 
 BODY: dict[str, Any] = {

@@ -8,10 +8,11 @@ from pathlib import Path
 import pytest
 
 from optimizer.compile_kernels import any_limits, budgets
-from optimizer.kernel import knapsack, parts
-from optimizer.matching.kernel import joined, meeting, quarters
 from optimizer.mechanics.kernel import curves, readings, rows
+from optimizer.numerics.kernel import knapsack
 from optimizer.program.kernel import bounds, cancelling, discs, interior_point, outlines, settling, symmetries, values
+from optimizer.responses.kernel import parts
+from optimizer.studies.matching.kernel import joined, meeting, quarters
 from optimizer.warm_up import follow_a_turn, match_parts, plain_discs, warm_up
 
 _SOLVERS = {"numba", "cvxpy", "clarabel"}

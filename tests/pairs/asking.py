@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 
 from optimizer.errors import NotComputable
-from optimizer.formulate import weights
+from optimizer.formulation.formulate import weights
 from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answers import OptimizeAnswer

@@ -3,12 +3,12 @@
 from typing import Any
 
 from optimizer.errors import NotComputable
-from optimizer.pareto.pareto import pareto
+from optimizer.studies.pareto.pareto import pareto
 from schemas.pareto import ParetoRequest
 from schemas.sweep import SweepRequest
 from service.validation import InvalidRequest, check
 from tests.pairs.asking import ask, body_of
-from tests.sweep.single import assert_row_is_the_single_answer, table
+from tests.studies.sweep.single import assert_row_is_the_single_answer, table
 
 #: statuses that hang on a clock are compared by what they are, not by their figures
 _TIMED = "inaccurate"

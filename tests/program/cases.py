@@ -7,16 +7,16 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
-from optimizer.program.edge import Unreachable
+from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.optima import optima
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 
 SOLVER = Solver()
 DIRECTION_WEIGHTS = ((1.0, 1.0), (1.0, 0.3), (0.0, 1.0))

@@ -5,14 +5,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
-from optimizer.program.alike import Alike
+from optimizer.numerics.arrays import Complex
 from optimizer.program.ceilings import Ceilings
+from optimizer.program.equal_castings import Alike
+from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
 from optimizer.program.statement import Names, Statement, Term
-from optimizer.program.united import apart, united
 
 WEBS = 6
 

@@ -10,7 +10,7 @@ from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.scaling import natural_reach, scale
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_limits, random_point, random_statement
 
 

@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.arrays import mapped
-from optimizer.formulate import formulate
-from optimizer.outputs import prepare
+from optimizer.formulation.formulate import formulate
+from optimizer.numerics.arrays import mapped
+from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
-from optimizer.program.compiled import BothStages, both_stages
-from optimizer.program.edge import Unreachable
 from optimizer.program.kernel import discs, interior_point
 from optimizer.program.kernel.finer_numbers import EXTENDED, FIFTY_DIGITS, finest
-from optimizer.program.optima import optima
+from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
 from optimizer.program.statement import Statement
@@ -181,8 +181,8 @@ def test_what_is_not_certified_goes_to_the_whole_procedure() -> None:
 
 def test_uncertified_rows_are_solved_by_the_cone_program(monkeypatch: pytest.MonkeyPatch) -> None:
     """Whatever keeps a row from being certified, another method answers it, and no other row."""
-    from optimizer.program import optima as entry
-    from optimizer.program import single
+    from optimizer.program.methods import optima as entry
+    from optimizer.program.methods import single
 
     def doubtful(*arguments: object) -> BothStages:
         found = both_stages(*arguments)  # type: ignore[arg-type]

@@ -3,22 +3,22 @@
 import numpy as np
 import pytest
 
-from optimizer.arrays import Complex, Real
-from optimizer.certified_turn import whole_turn_of
-from optimizer.circle import smallest_circle
-from optimizer.curve import TurnResponse, floor, peaks
-from optimizer.goals import bearing_responses
-from optimizer.outputs import prepare
-from optimizer.program.brackets import Brackets
-from optimizer.program.cut import EXACT, Quantity, Scatter
-from optimizer.program.cut_samples import Samples
-from optimizer.program.deciding import deciding, spare
+from optimizer.formulation.goals import bearing_responses
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.enclosing_circle import smallest_circle
+from optimizer.outputs.registry import prepare
+from optimizer.program.cuts.brackets import Brackets
+from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
+from optimizer.program.cuts.dominance import deciding, spare
+from optimizer.program.cuts.samples import Samples
+from optimizer.responses.curve import TurnResponse, floor, peaks
+from optimizer.solve.whole_turn import whole_turn_of
 from schemas.reciprocating import ReciprocatingMachine
 from tests.benchmarks.whole_turn import six_with_gas
-from tests.curves.fourier import FourierCurves
 from tests.optimize.whole_turn import ALONE, asked
 from tests.program.test_scalars import quantity
 from tests.program.turning import bearings, largest, quantities
+from tests.responses.fourier import FourierCurves
 
 
 def bearings_with_gas() -> tuple[Quantity, ...]:

@@ -8,15 +8,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex, Real
-from optimizer.curve import floor
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
-from optimizer.program.cuts import Found, Unkept, over_turn
-from optimizer.program.over_turn import Goal, OverTurn
+from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
 from optimizer.program.solution import CEILING_ROUNDING
-from tests.curves.fourier import FourierCurves
+from optimizer.responses.curve import floor
 from tests.program.cases import random_point
 from tests.program.turning import bearings, force_and_moment, largest, quantities, wide
+from tests.responses.fourier import FourierCurves
 
 #: 0.1 degree
 ANGLES = np.deg2rad(np.arange(0.0, 360.0, 0.1))

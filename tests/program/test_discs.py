@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optimizer.program.discs import in_discs
+from optimizer.program.methods.discs import in_discs
 from optimizer.program.norms import Norms
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from optimizer.circle import smallest_circle
+from optimizer.numerics.enclosing_circle import smallest_circle
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.floors import floor_multipliers
+from optimizer.program.cuts.floors import floor_multipliers
 from tests.program.cases import random_point
 from tests.program.turning import bearings, wide
 

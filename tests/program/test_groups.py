@@ -7,13 +7,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound
-from optimizer.program.compiled import suits_kernel
-from optimizer.program.optima import optima
+from optimizer.program.methods.compiled import suits_kernel
+from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.solution import CONE_PROGRAM, Solution
 from optimizer.program.statement import Statement
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import optimum, random_limits, random_point, stacked
 
 SOLVER = Solver()

@@ -9,13 +9,13 @@ import pytest
 
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.edge import Unreachable
 from optimizer.program.limits import Limits
+from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_statement
 
 SOLVER = Solver()

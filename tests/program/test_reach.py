@@ -3,14 +3,14 @@
 import numpy as np
 import pytest
 
-from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
+from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.reach import _told, within_reach
+from optimizer.program.methods.implied_bounds import _told, within_reach
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import SOLVER
 
 #: of a web that is all but free: where a cone is held up by next to nothing

@@ -8,16 +8,16 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex
-from optimizer.program.cut import Scatter
-from optimizer.program.cuts import Found, Unkept, over_turn
-from optimizer.program.deciding import Group
+from optimizer.numerics.arrays import Complex
+from optimizer.program.cuts.cut import Scatter
+from optimizer.program.cuts.dominance import Group
+from optimizer.program.cuts.misplacement import largest_last_goals
+from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
 from optimizer.program.limits import Limits
-from optimizer.program.misplaced import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
-from optimizer.program.misplaced_turn import largest_last_goals
-from optimizer.program.over_turn import Goal, OverTurn
+from optimizer.program.misplacement import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
 from optimizer.program.rows import Row, weighted_peak
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import random_limits, random_point
 from tests.program.turning import bearings, wide
 

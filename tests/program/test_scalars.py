@@ -8,17 +8,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.optimize import linprog
 
-from optimizer.arrays import Complex, Real
-from optimizer.curve import TurnResponse
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import objective_lower_bound
-from optimizer.program.cut import EXACT, Quantity, Scatter
-from optimizer.program.cuts import Found, Unkept, over_turn
-from optimizer.program.deciding import Group, Weighed
-from optimizer.program.over_turn import Goal, OverTurn
-from optimizer.program.reach import bounded
-from tests.curves.fourier import FourierCurves
+from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
+from optimizer.program.cuts.dominance import Group, Weighed
+from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.methods.implied_bounds import bounded
+from optimizer.responses.curve import TurnResponse
 from tests.program.cases import random_limits, random_point
 from tests.program.turning import wide
+from tests.responses.fourier import FourierCurves
 
 #: 1 degree
 ANGLES = np.deg2rad(np.arange(0.0, 360.0, 1.0))

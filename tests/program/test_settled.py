@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.arrays import Complex
+from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
+from optimizer.program.methods.rounding import settled
 from optimizer.program.points import points_at
 from optimizer.program.rows import combined, statement, weighted_peak
-from optimizer.program.settled import settled
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import COMBINATIONS, optimum, random_statement, stacked
 
 

@@ -5,16 +5,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.certified import certified
-from optimizer.formulate import formulate, responses
+from optimizer.formulation.formulate import formulate, responses
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
-from optimizer.own_solver import own_solver
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
-from optimizer.program.compiled import both_stages
-from optimizer.program.slack_rows import settle_without_slack_rows
+from optimizer.program.methods.compiled import both_stages
+from optimizer.program.methods.inactive_rows import settle_without_slack_rows
 from optimizer.program.solution import INTERIOR_POINT
 from optimizer.program.verdict import yardstick
+from optimizer.solve.certify import certified
+from optimizer.solve.process_solver import own_solver
 from schemas.requests import OptimizeRequest
 from schemas.rules import Path
 from schemas.variation import with_fields

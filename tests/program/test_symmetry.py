@@ -6,13 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optimizer.arrays import Complex
-from optimizer.formulate import formulate, responses
+from optimizer.formulation.formulate import formulate, responses
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
+from optimizer.numerics.arrays import Complex
 from optimizer.optimize import optimize
+from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.statement import Statement
-from optimizer.program.symmetry import symmetric
 from schemas.objective import Objective
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import OptimizeRequest

@@ -6,12 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.program.limits import Limits
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import CONTRADICTED, NOT_LIGHT, OPTIMAL_LIGHTEST, Claim, mass_resolution, verdict
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 
 
 def _claim(mass: float = 4.0, mass_bound: float = 4.0, resolution: float = 0.0, bound: float = 10.0) -> Claim:

@@ -4,15 +4,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optimizer.curve import TurnResponse
-from optimizer.program.cut import Quantity
-from optimizer.program.deciding import Group, Weighed
+from optimizer.program.cuts.cut import Quantity
+from optimizer.program.cuts.dominance import Group, Weighed
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
 from optimizer.program.limits import Limits
-from optimizer.program.over_turn import Goal, OverTurn
 from optimizer.program.rows import Row, weighted_peak
-from optimizer.response import Phasors, Response
-from tests.curves.fourier import FourierCurves
+from optimizer.responses.curve import TurnResponse
+from optimizer.responses.response import Phasors, Response
 from tests.program.cases import random_limits
+from tests.responses.fourier import FourierCurves
 
 ORDERS = np.arange(-6.0, 7.0)
 

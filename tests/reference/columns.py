@@ -2,11 +2,11 @@
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.friction import reciprocating_friction, share_of_losses
 from optimizer.mechanics.gas import gas_forces
 from optimizer.mechanics.kinematics import Motion, motion
 from optimizer.mechanics.rod import rod_forces
+from optimizer.numerics.arrays import Real
 from tests.reference import compressor
 
 ANGLE = np.deg2rad(np.arange(0.0, 361.0, 10.0))

@@ -6,9 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.layout import Layout, Reciprocating, Rotating, Webs
+from optimizer.numerics.arrays import Real
 
 _TABLES = Path(__file__).parent / "tables"
 #: rad/s: the tables use a rounded speed, the friction does not

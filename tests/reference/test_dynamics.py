@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.arrays import Real
 from optimizer.mechanics.gas import Chambers, gas_forces, switching_angles
 from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.rod import rod_forces
 from optimizer.mechanics.turn import fluctuation, mean, panels
+from optimizer.numerics.arrays import Real
 from schemas.requests import AnalyzeRequest
 from tests.reference import compressor
 

@@ -10,7 +10,7 @@ from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic_order_2
-from optimizer.response import Phasors
+from optimizer.responses.response import Phasors
 from tests.reference.seed_figures import ATOL, RTOL, THETA, as_arrays, as_machine, checks
 
 

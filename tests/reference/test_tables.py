@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from schemas.requests import AnalyzeRequest
 from tests.reference import compressor
 from tests.reference.columns import ROTATING, ROUNDED, figures, rounding

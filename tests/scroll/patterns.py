@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from hypothesis import strategies as st
 
-from optimizer.arrays import Real
 from optimizer.mechanics.angles import direction
+from optimizer.numerics.arrays import Real
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import Pins
 from schemas.scroll import PinLoadsAnswer, PinLoadsRequest

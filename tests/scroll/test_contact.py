@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.pins.contact import Contact, _gap, _Scaled, pin_contact
 from optimizer.pins.loads import elastic_loads, levers
 from tests.scroll.patterns import TABLE, TORQUE, ask, even_pins, given_pins, loads, random_pins, seeds

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from optimizer.arrays import Real
 from optimizer.mechanics.oldham import Oldham, keys
+from optimizer.numerics.arrays import Real
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import levers
 from schemas.scroll import PinLoadsAnswer, PinLoadsRequest

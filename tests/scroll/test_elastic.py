@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.pins.loads import (
     LoadShapes,
     PeriodicTable,

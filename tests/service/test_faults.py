@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from optimizer import certified
 from optimizer.program.verdict import CONTRADICTED, Claim, claim
+from optimizer.solve import certify as certified
 from service.computations import COMPUTATIONS
 from service.documents.examples import bodies
 from service.guard.sizes import SizeLimits

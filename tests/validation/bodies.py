@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.analyze import analyze
-from optimizer.arrays import Complex
+from optimizer.numerics.arrays import Complex
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.requests import AnalyzeRequest
 from service.documents.examples import load

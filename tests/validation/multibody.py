@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 
 STEPS = 1440  # of one turn
 #: polar inertia of the shaft over that of all moving masses at their crank radii

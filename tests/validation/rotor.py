@@ -9,14 +9,14 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from optimizer.arrays import Complex
 from optimizer.mechanics.angles import direction
+from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.optima import optima
+from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import Row, statement, weighted_peak
 from optimizer.program.solution import Solution
-from optimizer.response import Phasors, Response
+from optimizer.responses.response import Phasors, Response
 from tests.validation.comparison import Comparison, Misprint
 
 _MOST = 3.402

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from optimizer.outputs import OUTPUTS
+from optimizer.outputs.registry import OUTPUTS
 from service.documents.examples import bodies as examples
 from tests.validation import bodies, pack
 from tests.validation.comparison import Comparison

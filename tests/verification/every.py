@@ -1,7 +1,7 @@
 """Every single answer and every front that the tests compute themselves goes through the independent checker.
 
 Rows of sweeps carry proofs only where a request asks for them: tests/verification/test_many.py and
-tests/sweep/test_proof.py do. What services answer is computed in processes of their own.
+tests/studies/sweep/test_proof.py do. What services answer is computed in processes of their own.
 """
 
 import importlib
@@ -12,7 +12,7 @@ from typing import Any
 
 from tests.verification.checking import broken
 
-_COMPUTED = {"optimizer.optimize": "optimize", "optimizer.pareto.pareto": "pareto"}
+_COMPUTED = {"optimizer.optimize": "optimize", "optimizer.studies.pareto.pareto": "pareto"}
 
 
 def check_every_answer() -> None:

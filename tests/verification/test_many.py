@@ -5,10 +5,10 @@ from typing import Any
 
 import pytest
 
-from optimizer.pareto.pareto import pareto
 from optimizer.program.reference.solver import Solver
-from optimizer.sweep.rows import rows
-from optimizer.sweep.table import result_schema, result_table
+from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.sweep.rows import rows
+from optimizer.studies.sweep.table import result_schema, result_table
 from schemas.pareto import ParetoRequest
 from schemas.sweep import SweepRequest
 from service.verification import checker

@@ -5,7 +5,7 @@ Shapes: N designs of C curves, R rows, P pieces.
 
 import numpy as np
 
-from optimizer.compiling import inner, kernel
+from optimizer.numerics.compiling import inner, kernel
 
 
 @kernel

@@ -5,9 +5,9 @@ Shapes: N designs, R rows, P angles of each, Q places: the angles of all designs
 
 import numpy as np
 
-from optimizer.compiling import inner, kernel
 from optimizer.mechanics.kernel.rows import COS, INERTIA, KEPT, SECANT, SIN, SIN_2, SIN_SQUARED
 from optimizer.mechanics.kernel.taylor import ALL, LANES, Series, constant, copied, product, scaled, summed
+from optimizer.numerics.compiling import inner, kernel
 
 #: what may be asked of the rows; the first column counts from 0 in the compiled code
 READINGS = (

@@ -12,8 +12,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
-from optimizer.compiling import inner, kernel
 from optimizer.mechanics.kernel.taylor import (
     ALL,
     LANES,
@@ -27,6 +25,8 @@ from optimizer.mechanics.kernel.taylor import (
     scaled,
     summed,
 )
+from optimizer.numerics.arrays import Real
+from optimizer.numerics.compiling import inner, kernel
 
 #: functions of one row; as numpy's integers, for each Python literal that is handed on is a type of its own, for which
 #: all that takes it is compiled anew. The first are what readings are made of, and after them the pressures

@@ -13,8 +13,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
-from optimizer.compiling import inner
+from optimizer.numerics.arrays import Real
+from optimizer.numerics.compiling import inner
 
 #: places side by side: what is known of them fits the cache
 LANES = 32

@@ -5,7 +5,7 @@ For objectives of one group whose influences are real and whose webs each carry 
 
 import numpy as np
 
-from optimizer.kernel.knapsack import fill
+from optimizer.numerics.kernel.knapsack import fill
 from optimizer.program.kernel.compiling import in_place
 
 _EPS = float(np.finfo(float).eps)

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import inner, inner_with_arrays, kernel
 from optimizer.program.kernel.disc_steps import (
     AIM,

@@ -14,7 +14,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import in_place, inner
 from optimizer.program.kernel.lanes import new_course, new_lanes, new_work, state_size, views
 from optimizer.program.kernel.newton import (

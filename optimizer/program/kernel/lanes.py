@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 from optimizer.program.kernel.compiling import inner
 
 

@@ -1,4 +1,4 @@
-"""What a sum of vectors comes to at worst where all are turned, compiled: :mod:`optimizer.program.misplaced`."""
+"""What a sum of vectors comes to at worst where all are turned, compiled: :mod:`optimizer.program.misplacement`."""
 
 import numpy as np
 

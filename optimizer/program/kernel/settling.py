@@ -1,4 +1,5 @@
-"""Counterweights without dust and at the limits that they touch, compiled: :mod:`optimizer.program.settled`."""
+"""Counterweights without dust and at the limits that they touch, compiled:
+:mod:`optimizer.program.methods.rounding`."""
 
 import numpy as np
 

@@ -1,10 +1,11 @@
-"""The mean of counterweights over the symmetries of their program, compiled: :mod:`optimizer.program.symmetry`."""
+"""The mean of counterweights over the symmetries of their program, compiled:
+:mod:`optimizer.program.methods.symmetry`."""
 
 from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.kernel.compiling import inner, kernel
 
 #: data that agree this closely, relative, are the same

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Real
+from optimizer.numerics.arrays import Real
 
 #: q is taken to be no smaller than this share of p: a boost beyond 100 costs more digits than it shows
 _NEAREST = 1e-4

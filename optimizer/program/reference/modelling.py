@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optimizer.arrays import Complex
+from optimizer.numerics.arrays import Complex
 from optimizer.program.scaled_program import ScaledData, ScaledSolution, Shape
 
 if TYPE_CHECKING:

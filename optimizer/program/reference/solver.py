@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.arrays import Complex
+from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import Multipliers, mass_lower_bound, objective_lower_bound, tolerance_allowance
 from optimizer.program.multipliers import (
     mass_multipliers,

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from optimizer.formulate import span
+from optimizer.formulation.formulate import span
 from schemas.catalogue import Catalogue
 from schemas.machine import Machine
 from schemas.over_turn import ForceTable, TorqueTable

@@ -1,6 +1,6 @@
 """What was asked to be small."""
 
-from optimizer.formulate import given_ceilings, weights
+from optimizer.formulation.formulate import given_ceilings, weights
 from schemas.objective import Priority
 from schemas.requests import OptimizeRequest
 from service.report.blocks import Table, facts

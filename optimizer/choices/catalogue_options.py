@@ -1,0 +1,114 @@
+"""From a machine's catalogue, holes and steps of angle to the options of its webs."""
+
+from collections.abc import Iterator
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.options import Options
+from optimizer.errors import refuse
+from optimizer.formulation.groups import alike_webs
+from optimizer.formulation.limits import largest_mass, sectors
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.crank_of_web import crank_angles
+from optimizer.numerics.arrays import Real
+from schemas.base import FieldProblem
+from schemas.catalogue import Catalogue, in_sector
+from schemas.machine import Machine
+from schemas.webs import Web
+
+#: masses that agree this closely, relative, are one part number
+_SAME = 1e-9
+
+
+class Stock(NamedTuple):
+    """The options of every slot, and what they are on its first web."""
+
+    options: Options
+    mass_kg: Real  # (K, O)
+    angle_deg: Real  # (K, O), 0 where there is nothing
+
+    def fitted(self, chosen: np.ndarray) -> tuple[Real, Real]:
+        """Masses [kg] and angles [deg] of all webs (W,) with options chosen (K,)."""
+        mass, angle = self.options.of(self.mass_kg, chosen), self.options.of(self.angle_deg, chosen)
+        alike = self.options.alike
+        return (mass, angle) if alike is None else alike.fitted(mass[alike.owner], angle[alike.owner])
+
+
+def stock(machine: Machine) -> Stock:
+    """What every web of one machine can take; webs of a group are one slot.
+
+    Raises
+    ------
+    OutOfRange
+        where steps of angle have no crank to count from, none is in the sector of a web, or webs of a group are unlike.
+    """
+    alike = alike_webs(machine)
+    catalogue = machine.catalogue or Catalogue()
+    problems: list[FieldProblem] = []
+    held: list[tuple[Real, Real]] = []
+    cranks = crank_angles(machine)
+    free, centre, half_angle = sectors(machine)
+    limit = largest_mass(machine).tolist()
+    for k in range(len(machine.webs)) if alike is None else alike.first.tolist():
+        web, most = machine.webs[k], limit[k]
+        angles, path = np.mod(np.array(web.hole_angles_deg or (), dtype=float), 360.0), ("machine", "webs", k)
+        if web.fixed is not None:
+            held.append((np.zeros(1), np.zeros(1)))
+            continue
+        if web.hole_angles_deg is None:
+            crank = cranks[k]
+            if crank is None:
+                problems.append(FieldProblem((*path, "throw"), "steps of angle count from a crank: name the throw"))
+                continue
+            steps = np.arange(round(360.0 / (catalogue.angle_step_deg or 360.0)))
+            angles = np.mod(crank + steps * (catalogue.angle_step_deg or 360.0), 360.0)
+            angles = angles[free[k] | in_sector(angles, centre[k], half_angle[k])]
+            if not angles.size:
+                problems.append(FieldProblem((*path, "sector"), "no step of the angle falls into the sector"))
+                continue
+        least = web.min_fitted_mass_kg or 0.0
+        masses = np.array([mass for mass in _masses(web, catalogue, most) if 0.0 < mass <= most and mass >= least])
+        each, at = np.meshgrid(masses, np.sort(angles), indexing="ij")
+        held.append((np.append(0.0, each), np.append(0.0, at)))
+    refuse(problems)
+    most_options = max((mass.size for mass, _ in held), default=1)
+    mass, angle = (np.array([np.pad(one[n], (0, most_options - one[n].size)) for one in held]) for n in (0, 1))
+    mass, angle = mass.reshape(len(held), most_options), angle.reshape(len(held), most_options)
+    radius = np.array([web.radius_m for web in machine.webs]).reshape(-1, 1)
+    radius = radius if alike is None else radius[alike.first]
+    options = Options(
+        unbalance=mass * radius * direction(angle),
+        mass=mass if alike is None else mass * alike.count[:, None],
+        part=_parts(mass),
+        exists=np.arange(most_options) < np.array([one.size for one, _ in held]).reshape(-1, 1),
+        most_fitted=machine.max_counterweights,
+        most_parts=catalogue.max_part_numbers,
+        alike=alike,
+    )
+    return Stock(options, mass, angle)
+
+
+def _masses(web: Web, catalogue: Catalogue, most: float) -> Iterator[float]:
+    own = web.catalogue_masses_kg if web.catalogue_masses_kg is not None else catalogue.masses_kg
+    if own is not None:
+        yield from sorted(own)
+    elif catalogue.mass_step_kg is not None:
+        # a hair more, because a quotient of decimals is no whole number
+        for n in range(1, int(most / catalogue.mass_step_kg * (1.0 + 1e-12)) + 1):
+            yield min(n * catalogue.mass_step_kg, most)
+
+
+def part_numbers(mass_kg: Real) -> int:
+    """How many different masses (K,) there are, those of nothing left out."""
+    return int(np.max(_parts(mass_kg), initial=-1)) + 1
+
+
+def _parts(mass: Real) -> np.ndarray:
+    """Part numbers (K, O) of masses: the place of each among all that differ, -1 of none."""
+    order = np.argsort(mass, axis=None, kind="stable")
+    sorted_masses = mass.ravel()[order]
+    new = np.diff(sorted_masses, prepend=0.0) > _SAME * sorted_masses
+    found = np.empty(mass.size, int)
+    found[order] = np.cumsum(new) - 1
+    return np.where(mass > 0, found.reshape(mass.shape), -1)

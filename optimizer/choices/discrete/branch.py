@@ -1,0 +1,301 @@
+"""Branch and bound: nodes are what is left of the options; the batch kernel finds the multipliers of their bounds.
+
+A node is first bounded by the multipliers of the one that it comes from, raised a little; what that does not close is
+relaxed to discs, segments and sectors about its options, which the kernel takes as limits (``relaxed.py``). Whatever it
+returns, multipliers prove (``bound.py``), and options by which the bound rises to what is known are left out.
+"""
+
+import heapq
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.bound import proven, uphill
+from optimizer.choices.discrete.clock import Clock, Pace
+from optimizer.choices.discrete.few import at_most, costs, offer_few
+from optimizer.choices.discrete.options import Incumbent, Options
+from optimizer.choices.discrete.relaxed import apart, on_first, relaxed
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers
+from optimizer.program.methods.compiled import both_stages
+from optimizer.program.statement import Statement
+
+#: nodes bounded at once, and options of all of them together
+_BATCH, _BATCH_OPTIONS = 128, 2_000_000
+#: sets up to which what is left of a node is looked at set by set
+_SETS = 20_000
+#: bytes that open nodes may hold
+_MEMORY = 200_000_000
+
+
+class Tree(NamedTuple):
+    """What a tree has proven."""
+
+    lower_bound: float  # of every set that was not offered, -inf where nothing is proven
+    nodes: int
+    full: bool  # it ended because it had grown too large
+
+
+class _Node(NamedTuple):
+    """Options left (K, O), packed into bits; the part numbers that count as used; what its parent was bounded by."""
+
+    bits: np.ndarray
+    parts: frozenset[int]
+    multipliers: Multipliers | None = None
+
+
+class _Split(NamedTuple):
+    """A node that stays open, and how it is split."""
+
+    node: _Node
+    first: np.ndarray  # (K, O) packed: what the first child keeps
+    part: int = -1  # part number that the first child goes without and that counts as used in the second one
+
+
+def branch(
+    options: Options,
+    incumbent: Incumbent,
+    at_least: float,
+    gap: float,
+    enough: Callable[[float], bool],
+    clock: Clock,
+    most_nodes: float = np.inf,
+    below: Statement | None = None,
+) -> Tree:
+    """Offer sets until no other is better by more than ``gap``, time or memory are spent, or a bound is enough.
+
+    Parameters
+    ----------
+    at_least : what the objective is known to come to.
+    gap : in units of the objective, 0 to tell all but equals apart.
+    enough : whether a bound of all sets that were not offered ends the search.
+    clock : what is left of the time.
+    most_nodes : after which it ends as well.
+    below : a program of one group that is nowhere above the incumbent's, which bounds are of; by default that one.
+    """
+    work, pace = _Work(options, incumbent, gap, below or incumbent.statement), Pace(clock)
+    root = work.settled(options.exists, frozenset())
+    if root is None:
+        return Tree(np.inf, 0, False)
+    nodes, closed, ties = 0, np.inf, 0
+    open_nodes: list[tuple[float, int, _Split]] = []
+    fresh, bounds = [root], [at_least]
+    size = max(1, min(_BATCH, _BATCH_OPTIONS // max(options.exists.size, 1)))
+    while True:
+        # bound what is new
+        for first in range(0, len(fresh), size):
+            batch = fresh[first : first + size]
+            nodes += len(batch)
+            out, splits = work.bounded(batch, bounds[first : first + size], clock)
+            closed = min(closed, out)
+            for bound, split in splits:
+                ties += 1
+                heapq.heappush(open_nodes, (bound, ties, split))
+        if fresh:
+            pace.took(len(fresh))
+        lowest = min(closed, open_nodes[0][0] if open_nodes else np.inf)
+        full = len(open_nodes) * 2 * root.bits.size > _MEMORY
+        done = not open_nodes or lowest >= incumbent.least - gap
+        if done or full or enough(lowest) or nodes >= most_nodes or clock.spent():
+            return Tree(lowest, nodes, full and not done)
+        fresh, bounds, most = [], [], pace.most(size)
+        while open_nodes and len(fresh) < most:
+            bound, _, split = heapq.heappop(open_nodes)
+            if bound >= incumbent.least - gap:
+                closed = min(closed, bound)
+                continue
+            for child in work.children(split):
+                fresh.append(child)
+                bounds.append(bound)
+
+
+@dataclass(frozen=True)
+class _Work:
+    options: Options
+    incumbent: Incumbent
+    gap: float
+    statement: Statement
+
+    @cached_property
+    def apart(self) -> tuple[Statement, Options, np.ndarray]:
+        """What the kernel takes."""
+        return apart(self.statement, self.options)
+
+    @property
+    def counted(self) -> bool:
+        """Whether counts or the budget couple what the slots may take."""
+        options = self.options
+        budget = np.isfinite(self.incumbent.statement.limits.max_total_mass)
+        return bool(budget or options.limits_fitted or options.limits_parts)
+
+    def settled(self, left: np.ndarray, parts: frozenset[int]) -> _Node | None:
+        """A node with all that counts and budget rule out taken away (K, O); None where nothing is left."""
+        options, left = self.options, left.copy()
+        budget = options.budget(self.incumbent.statement)
+        slots = np.arange(options.slots)
+        while True:
+            before = int(np.sum(left))
+            if not np.all(np.any(left, axis=-1)):
+                return None
+            if np.isfinite(budget):
+                least = np.min(np.where(left, options.mass, np.inf), axis=-1)
+                left &= options.mass <= (budget * (1.0 + 1e-12) - (np.sum(least) - least))[:, None]
+            fitted = ~left[:, 0]
+            if options.limits_fitted:
+                room = (options.most_fitted or 0) - int(np.sum(options.webs[fitted]))
+                if room < 0:
+                    return None
+                left[np.ix_(slots[~fitted & (options.webs > room)], np.arange(1, left.shape[1]))] = False
+            if options.limits_parts:
+                lone = (np.min(np.where(left, options.part, np.inf), axis=-1)) == np.max(
+                    np.where(left, options.part, -1), axis=-1
+                )
+                parts = parts | {int(options.part[k][left[k]][0]) for k in slots[fitted & lone]}
+                if len(parts) > (options.most_parts or 0):
+                    return None
+                if len(parts) == options.most_parts:
+                    left &= (options.part < 0) | np.isin(options.part, list(parts))
+            if int(np.sum(left)) == before:
+                return _Node(np.packbits(left, axis=-1), parts)
+
+    def left(self, bits: np.ndarray) -> np.ndarray:
+        """Options (..., K, O) of bits."""
+        return np.unpackbits(bits, axis=-1, count=self.options.mass.shape[1]).astype(bool)
+
+    def bounded(
+        self, nodes: list[_Node], inherited: list[float], clock: Clock
+    ) -> tuple[float, list[tuple[float, _Split]]]:
+        """What is proven of all that nodes lose here, and those that stay open with their bounds."""
+        options, statement = self.options, self.statement
+        left, bound, closed = self.left(np.array([node.bits for node in nodes])), np.array(inherited), np.inf
+        which = np.arange(len(nodes))
+
+        def kept(left: np.ndarray, multipliers: Multipliers) -> tuple[np.ndarray, np.ndarray, Real]:
+            """Nodes of ``which`` that stay open, what is left of all, and what is proven of each option."""
+            nonlocal closed
+            found, target = proven(statement, options, left, multipliers), self.incumbent.least - self.gap
+            bound[which] = np.maximum(bound[which], found.bound)
+            out = left & (np.maximum(found.forced, bound[which][:, None, None]) >= target)
+            if np.any(out):
+                closed = min(closed, float(np.min(np.maximum(found.forced, bound[which][:, None, None])[out])))
+            left = left & ~out
+            stays = np.all(np.any(left, axis=-1), axis=-1)
+            return stays, left, found.forced
+
+        if nodes[0].multipliers is not None:
+            multipliers = _side_by_side([node.multipliers for node in nodes if node.multipliers is not None])
+            multipliers = self._raised(left, multipliers)
+            stays, left, _ = kept(left, multipliers)
+            which, left = which[stays], left[stays]
+        if not which.size:
+            return closed, []
+        whole, each, slot = self.apart
+        base, program = relaxed(whole, each, left[:, slot])
+        found = both_stages(program, np.full(which.size, 1e-9), np.zeros(which.size), False)
+        near = on_first(options, np.nan_to_num(base + found.smallest))
+        self.incumbent.offer(np.argmin(np.where(left, np.abs(options.unbalance - near[..., None]), np.inf), axis=-1))
+        multipliers = self._raised(left, found.multipliers)
+        stays, left, forced = kept(left, multipliers)
+        which, left, near, multipliers = which[stays], left[stays], near[stays], multipliers.chosen(stays)
+        lowest, cost = costs(left, forced[stays])
+        few = at_most(cost, self.incumbent.least - self.gap - lowest) <= _SETS
+        for n in np.flatnonzero(few):
+            if clock.spent():
+                closed = min(closed, float(bound[which[n]]))
+                continue
+            others = offer_few(statement, self.incumbent, cost[n], self.incumbent.least - self.gap - float(lowest[n]))
+            closed = min(closed, float(lowest[n]) + others)
+        return closed, self._splits(nodes, which[~few], bound, left[~few], near[~few], multipliers.chosen(~few))
+
+    def _raised(self, left: np.ndarray, multipliers: Multipliers) -> Multipliers:
+        statement, options = self.statement, self.options
+        price = proven(statement, options, left, multipliers).price if self.counted else np.zeros(left.shape[0])
+        return uphill(statement, options, left, multipliers, price, self.incumbent.least - self.gap)
+
+    def _splits(
+        self,
+        nodes: list[_Node],
+        which: np.ndarray,
+        bound: Real,
+        left: np.ndarray,
+        near: Complex,
+        multipliers: Multipliers,
+    ) -> list[tuple[float, _Split]]:
+        """Open nodes with what their first children keep.
+
+        Parameters
+        ----------
+        left, near : (M, K, O) and (M, K) kg m, what is left of those, and their relaxed unbalances.
+        """
+        if not which.size:
+            return []
+        off = np.where(left, np.abs(self.options.unbalance - near[..., None]), np.inf)
+        first, bits = np.packbits(self._first(left, near, off), axis=-1), np.packbits(left, axis=-1)
+        found = []
+        for n, node in enumerate(which.tolist()):
+            own = _Node(bits[n], nodes[node].parts, multipliers.chosen(n))
+            by_part = self._by_part(own, left[n], off[n]) if self.options.limits_parts else None
+            found.append((float(bound[node]), by_part or _Split(own, first[n])))
+        return found
+
+    def _by_part(self, node: _Node, left: np.ndarray, off: Real) -> _Split | None:
+        """Split by whether a part number is used, where not all that are left may be."""
+        options = self.options
+        free = set(np.unique(options.part[left]).tolist()) - node.parts - {-1}
+        if len(free) + len(node.parts) <= (options.most_parts or 0):
+            return None
+        # the one that most of the relaxed unbalances are nearest to
+        wanted = options.of(options.part, np.argmin(off, axis=-1))
+        part = max(sorted(free), key=lambda one: int(np.sum(wanted == one)))
+        return _Split(node, np.packbits(left & (options.part != part), axis=-1), part)
+
+    def _first(self, left: np.ndarray, near: Complex, off: Real) -> np.ndarray:
+        """What the first children keep (M, K, O): of one slot the options up to the relaxed unbalance."""
+        options, statement = self.options, self.statement
+        norms, ceilings = statement.norms, statement.ceilings.norms
+        does = np.sum(np.abs(norms.influence), axis=-2)
+        does = does + np.sum(np.abs(ceilings.influence) / statement.ceilings.size[:, None], axis=-2)
+        does = options.together(does)
+        # where the nearest option does most harm; where none does any, the slot with most room
+        several, room = np.sum(left, axis=-1) > 1, np.max(np.where(left, off, 0.0), axis=-1)
+        k = np.argmax(np.where(several, (np.min(off, axis=-1) + 1e-6 * room) * does, -1.0), axis=-1)
+        node = np.arange(k.size)
+        some, at = left[node, k], options.unbalance[k]
+        mean = np.sum(np.where(some, at, 0.0), axis=-1) / np.sum(some, axis=-1)
+        about = np.where(some, at - mean[:, None], 0.0)
+        # along the longest axis of what is left
+        axis = np.exp(-0.5j * np.angle(np.sum(about**2, axis=-1)))
+        along = (about * axis[:, None]).real
+        here = ((near[node, k] - mean) * axis).real
+        low = np.min(np.where(some, along, np.inf), axis=-1)
+        high = np.max(np.where(some, along, -np.inf), axis=-1)
+        here = np.where((low <= here) & (here < high), here, 0.5 * (low + high))
+        first = some & (along <= here[:, None])
+        count = np.sum(first, axis=-1)
+        level = (count == 0) | (count == np.sum(some, axis=-1))
+        half = some & (np.cumsum(some, axis=-1) <= np.sum(some, axis=-1, keepdims=True) // 2)
+        kept = left.copy()
+        kept[node, k] = np.where(level[:, None], half, first)
+        return kept
+
+    def children(self, split: _Split) -> Iterator[_Node]:
+        """The two halves of a node, as far as anything is left in them."""
+        node, part = split.node, split.part
+        rest = node.bits & ~split.first
+        changed = np.any(rest, axis=-1, keepdims=True)
+        second = node.bits if part >= 0 else np.where(changed, rest, node.bits)
+        for bits, parts in ((split.first, node.parts), (second, node.parts | {part} if part >= 0 else node.parts)):
+            child = self.settled(self.left(bits), parts) if self.counted else _Node(bits, parts)
+            if child is not None:
+                yield child._replace(multipliers=node.multipliers)
+
+
+def _side_by_side(each: list[Multipliers]) -> Multipliers:
+    return Multipliers(
+        np.array([one.term for one in each]),
+        np.array([one.row for one in each]),
+        np.array([one.ceiling for one in each]),
+    )

@@ -1,0 +1,161 @@
+"""The way in: the best set of options, and what is proven of it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.branch import branch
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.exchange import neighbourhoods, start
+from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.options import EQUAL, Incumbent, Options
+from optimizer.choices.discrete.quarters import quarters
+from optimizer.numerics.arrays import Complex
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.statement import Statement
+
+EXHAUSTED = "exhaustion in halves"
+TREE = "branch and bound"
+#: sums of a half, and pairs of them, that are searched outright
+_SUMS, _PAIRS = 300_000, 3_000_000
+#: sums of a half where they have so many coordinates that what is near is hardly found any quicker than by looking
+_FEW_SUMS, _COORDINATES = 10_000, 4
+#: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
+_SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
+
+
+@dataclass(frozen=True)
+class Found:
+    """The best set that was found."""
+
+    chosen: np.ndarray  # (K,), the set; where none that keeps the ceilings was found, the one closest to them
+    kept: bool  # whether it keeps the ceilings
+    lower_bound: float  # of every set within the limits; inf where it is proven that none is
+    nodes: int  # of the tree
+    method: str
+    proven: bool  # all equals were compared as well
+    ended: str | None = None  # "time" or "size" where that ended the search before the asked gap
+
+
+class Known(NamedTuple):
+    """What is known before a search."""
+
+    sets: Sequence[Complex] = ()  # (W,) kg m each
+    below: Statement | None = None  # of few rows in one group and nowhere above the one searched; None is that one
+
+
+_NOTHING = Known()
+
+
+def search(
+    statement: Statement,
+    options: Options,
+    relaxed: Complex,
+    at_least: float,
+    relative_gap: float,
+    yardstick: float,
+    time_limit_s: float,
+    known: Known = _NOTHING,
+) -> Found:
+    """The set of options with the smallest objective; of equals the lightest.
+
+    What is found depends on the clock only where the time ends it.
+
+    Parameters
+    ----------
+    statement : one program (no leading axes), whose limits hold every option.
+    relaxed : (W,) kg m, its optimum without options.
+    at_least : lower bound of that optimum.
+    relative_gap : asked gap, in units of the yardstick; one of EQUAL or less compares all equals as well.
+    known : sets to begin with, and what a tree is of.
+    """
+    clock, half = Clock(time_limit_s), Clock(0.5 * time_limit_s)
+
+    points, below = np.stack([relaxed, *known.sets]), known.below or statement
+    if options.alike is not None:
+        points = options.alike.means(points)
+    relaxed, resolution = points[0], EQUAL * yardstick
+    incumbent = Incumbent(statement, options, resolution)
+    start(incumbent, points)
+    every = [np.flatnonzero(some) for some in options.exists]
+    if incumbent.chosen is None:
+        # first of all a set that keeps the ceilings
+        within = _within(statement, options, relaxed, every, clock, below)
+        if not within.kept:
+            return within
+        incumbent.offer(within.chosen[None])
+    if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
+        return _found(incumbent, incumbent.least, 0, EXHAUSTED, True)
+    gap = relative_gap * yardstick if relative_gap > EQUAL else -resolution
+    nodes, floor = 0, at_least
+
+    def enough() -> bool:
+        return incumbent.least - at_least <= gap
+
+    for patience, most_nodes in _SEARCHES:
+        neighbourhoods(incumbent, relaxed, patience, enough, half)
+        tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
+        nodes, at_least = nodes + tree.nodes, max(at_least, tree.lower_bound)
+        if tree.nodes == 1 and tree.lower_bound <= floor + gap:
+            # the options reach what no masses undercut, and no tree tells more
+            quarters(incumbent, enough, half)
+        bound = min(at_least, incumbent.least)
+        closed = incumbent.least - bound <= max(gap, 0.0)
+        if closed or clock.spent():
+            break
+    ended = None if closed else "size" if tree.full else "time"
+    return _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
+
+
+def _most_sums(incumbent: Incumbent) -> int:
+    return _SUMS if incumbent.coordinates[0].shape[-1] < _COORDINATES else min(_SUMS, _FEW_SUMS)
+
+
+def _found(
+    incumbent: Incumbent, bound: float, nodes: int, method: str, proven: bool, ended: str | None = None
+) -> Found:
+    if incumbent.chosen is None:
+        raise AssertionError("nothing on any slot keeps budget and counts")
+    return Found(incumbent.chosen, True, bound, nodes, method, proven, ended)
+
+
+def _within(
+    statement: Statement,
+    options: Options,
+    relaxed: Complex,
+    every: list[np.ndarray],
+    clock: Clock,
+    below: Statement,
+) -> Found:
+    """The first set that keeps the ceilings, or the proof that there is none."""
+    incumbent = Incumbent(statement.excess(), options, 0.0)
+
+    def kept() -> bool:
+        return incumbent.least <= CEILING_TOLERANCE
+
+    start(incumbent, relaxed[None])
+    neighbourhoods(incumbent, relaxed, _SEARCHES[-1][0], kept, clock)
+    bound, nodes, method, ended = -np.inf, 0, EXHAUSTED, None
+    if not kept():
+        if exhaust(options, every, incumbent, _most_sums(incumbent), _PAIRS, clock):
+            bound = incumbent.least
+        else:
+            tree = branch(
+                options,
+                incumbent,
+                -np.inf,
+                0.0,
+                lambda bound: kept() or bound > CEILING_TOLERANCE,
+                clock,
+                below=below.excess(),
+            )
+            bound, nodes, method = tree.lower_bound, tree.nodes, TREE
+            ended = "size" if tree.full else "time"
+    found = _found(incumbent, -np.inf, nodes, method, False, ended)
+    if kept():
+        return found
+    if min(bound, incumbent.least) > CEILING_TOLERANCE:
+        return replace(found, kept=False, lower_bound=np.inf, ended=None)
+    return replace(found, kept=False)

@@ -1,0 +1,169 @@
+"""Plates that are all but full, full; and plates that are all but alike, alike: what a workshop cuts the same way.
+
+The least mass spends what an optimum may be off on hundredths of a degree here and there. Plates of one kind that hold
+nearly the same are opened alike: as far as they go, or else as little as leaves an optimum. The other counterweights
+are chosen anew, and what is found is taken where it is within what is proven.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.plate_pieces import pieces, tangents
+from optimizer.mechanics.plates import Plates
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.methods.compiled import suits_kernel, unproven
+from optimizer.program.points import excess_at
+from optimizer.program.solution import CEILING_ROUNDING
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import MASS_GAP
+
+#: unbalances that differ by less than this share are nearly the same, as in ``optimizer.program.methods.rounding``
+_NEAR = 1e-4
+#: openings that are tried at once for plates that are to be alike, and how often closer ones
+_TRIED, _ROUNDS = 6, 3
+#: shares of what is certified that may be used up: of the mass, and of the objective by the choice of the others
+_OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
+#: openings that differ by less than this share are the same
+_SAME = 1e-12
+
+
+class Cut(NamedTuple):
+    """Counterweights, of which some are cut from plates."""
+
+    unbalance: Complex  # (K,) kg m
+    angle: Real  # (P,) rad, half-angles of the plates
+    mass: float  # kg, of all together
+
+
+def alike(
+    whole: Statement, plates: Plates, nodes: Real, cut: Cut, optimum: tuple[float, float], least_mass: float
+) -> Cut:
+    """The same with plates opened alike where they are no worse for it.
+
+    Parameters
+    ----------
+    whole : one program of a leading axis (1,), whose limits hold what the plates hold.
+    nodes : (n, P) half-angles between which plates are taken for webs, rad.
+    cut : within the limits.
+    optimum : proven lower bound of the objective, and largest objective of an optimum; that of ``cut`` may be larger.
+    least_mass : kg, no optimum is lighter; inf where the mass does not count.
+    """
+    if not suits_kernel(whole):
+        return cut
+    clusters = list(_clusters(plates, cut))
+    apart = [each for each in clusters if each.high - each.low > _SAME * each.high]
+    held = np.abs(cut.unbalance) == 0.0
+    if len(apart) > 1:
+        # all at once, which mostly does
+        every = held.copy()
+        every[plates.webs[np.concatenate([each.places for each in clusters])]] = True
+        found = _opened(whole, plates, nodes, cut, every, apart, optimum, least_mass)
+        if found is not None:
+            return found
+    for each in clusters if apart else ():
+        held[plates.webs[each.places]] = True
+        if each.high - each.low > _SAME * each.high:
+            cut = _opened(whole, plates, nodes, cut, held, [each], optimum, least_mass) or cut
+    return cut
+
+
+def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
+    """What unbalances (..., K) weigh (...), kg, those of plates (..., P) as they are opened."""
+    mass = np.abs(u) / whole.limits.radius[0]
+    mass[..., plates.webs] = plates.mass(angle)
+    return np.add.reduce(mass, axis=-1)
+
+
+class _Cluster(NamedTuple):
+    """Plates to be opened alike."""
+
+    places: np.ndarray  # (n,) among all
+    low: float  # rad, half-angles between which
+    high: float
+    full: bool  # as far as they go, if that may be
+
+
+def _clusters(plates: Plates, cut: Cut) -> Iterator[_Cluster]:
+    """Plates of one kind that hold nearly the same, and plates that are all but full."""
+    size = np.abs(cut.unbalance[plates.webs])
+    full = size >= plates.unbalance(plates.most) * (1.0 - _NEAR)
+    for kind in np.unique(plates.kinds):
+        places = np.flatnonzero((plates.kinds == kind) & (size > 0))
+        places = places[np.argsort(size[places], kind="stable")]
+        apart = np.flatnonzero(np.diff(size[places]) > _NEAR * size[places][1:]) + 1
+        for some in np.split(places, apart):
+            if some.size > 1 or np.any(full[some]):
+                angle, to_the_end = cut.angle[some], bool(np.any(full[some]))
+                high = plates.most[some[0]] if to_the_end else np.max(angle)
+                yield _Cluster(some, float(np.min(angle)), float(high), to_the_end)
+
+
+def _opened(
+    whole: Statement,
+    plates: Plates,
+    nodes: Real,
+    before: Cut,
+    held: np.ndarray,
+    clusters: Sequence[_Cluster],
+    optimum: tuple[float, float],
+    least_mass: float,
+) -> Cut | None:
+    """The same with the plates of each cluster opened alike, None where that is worse.
+
+    Parameters
+    ----------
+    held : (K,) bool, webs that stay as they are or are opened so; the others are chosen anew.
+    """
+    many, places = whole.chosen(np.zeros(_TRIED, int)), np.concatenate([each.places for each in clusters])
+    webs, size = plates.webs[places], [each.places.size for each in clusters]
+    low, high = (np.repeat([getattr(each, name) for each in clusters], size) for name in ("low", "high"))
+    full, u = any(each.full for each in clusters), before.unbalance
+    largest = float(np.maximum(optimum[1], whole.objective(u)[0]))
+    heaviest = max(before.mass, least_mass / (1.0 - _OF_MASS * MASS_GAP))
+    heaviest = min(heaviest, max(before.mass, float(whole.limits.max_total_mass[0])))
+    for _ in range(_ROUNDS):
+        openings = np.repeat(before.angle[None], _TRIED, axis=0)
+        openings[:, places] = np.linspace(low, high, _TRIED)
+        tried = np.repeat(u[None], _TRIED, axis=0)
+        tried[:, webs] = plates.unbalance(openings)[:, places] * (u[webs] / np.abs(u[webs]))
+        share = _OF_OBJECTIVE * (largest - optimum[0])
+        tried = _others(many, plates, nodes, held, tried, share, np.isfinite(least_mass))
+        close = many.objective(tried) <= largest + many.rounding(tried)
+        close &= excess_at(many, tried) <= np.maximum(excess_at(whole, u[None])[0], CEILING_ROUNDING)
+        opened = plates.opened(np.abs(tried[:, plates.webs]))
+        mass = total_mass(whole, plates, tried, opened)
+        light = mass <= heaviest
+        if np.any(close & light):
+            best = -1 if full and close[-1] & light[-1] else int(np.argmax(close & light))
+            return Cut(tried[best], opened[best], float(mass[best]))
+        # the lightest that is an optimum is between two of them
+        first = int(np.argmax(close))
+        if not first or not light[first - 1]:
+            break
+        low, high, full = openings[first - 1, places], openings[first, places], False
+    return None
+
+
+def _others(
+    many: Statement, plates: Plates, nodes: Real, held: np.ndarray, u: Complex, share: float, least_mass: bool
+) -> Complex:
+    """Unbalances (N, K) with those that are not held chosen anew.
+
+    Parameters
+    ----------
+    held : (K,) bool.
+    share : by which the objective may be above the smallest.
+    """
+    left, fixed = ~held & np.all(many.limits.reach > 0, axis=0), np.where(held, u, 0.0)
+    if not left.any():
+        return fixed
+    limits = many.limits
+    if np.isfinite(limits.max_total_mass).any():
+        spent = np.add.reduce(plates.mass_of(np.abs(fixed[:, plates.webs])), axis=-1)
+        limits = replace(limits, max_total_mass=limits.max_total_mass - spent)
+    laid = pieces(replace(many.about(fixed), limits=limits), plates, tangents(plates, nodes), left)
+    found, _ = unproven(laid.program, np.full(len(u), share), least_mass)
+    return fixed + laid.carried(found)

@@ -1,0 +1,109 @@
+"""A plate as webs in one plane: tangents of its convex mass, which are no heavier, and chords, which are no lighter."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.mechanics.plates import Plates
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.limits import OF_WEBS, Limits
+from optimizer.program.statement import Statement
+
+#: tangents reach no less far than chords, whatever the rounding of their pieces
+_REACHES = 1.0 + 1e-13
+#: half-angles at first, by their tangents: closer both where a plate is all but closed and where it is all but full
+_FIRST = np.arctan(np.exp(np.linspace(-4.0, 4.0, 13)))
+#: nodes are laid on both sides of one, these shares as far away as those that were there
+_NEARER = np.array([1.0, 0.125, 0.015625])
+#: nodes that are nearer than this share of the largest half-angle are one
+_SAME = 1e-9
+
+
+class Webs(NamedTuple):
+    """Radii [m] and largest masses [kg] of webs, (n, P): n in place of each plate; those without mass are none."""
+
+    radius: Real
+    mass: Real
+
+
+class Pieces(NamedTuple):
+    """A program of webs in place of plates."""
+
+    program: Statement
+    owner: np.ndarray  # (N,) web of the machine of each, in rising order
+    machine_webs: int  # K
+
+    def carried(self, u: Complex) -> Complex:
+        """What the webs of the machine carry (..., K) where these carry (..., N), kg m."""
+        first = np.flatnonzero(np.diff(self.owner, prepend=-1))
+        found = np.zeros((*u.shape[:-1], self.machine_webs), complex)
+        found[..., self.owner[first]] = np.add.reduceat(u, first, axis=-1)
+        return found
+
+
+def first_nodes(plates: Plates) -> Real:
+    """Half-angles (n, P) from 0 to the largest, for plates of which nothing is known."""
+    most = plates.most
+    return _apart(np.concatenate([np.zeros((1, most.size)), np.minimum(_FIRST[:, None], most), most[None]]))
+
+
+def closer_nodes(nodes: Real, angle: Real) -> Real:
+    """Nodes (n, P) at half-angles (P,), and on both sides up to those that were there."""
+    near = _SAME * nodes[-1]
+    low = np.maximum.reduce(np.where(nodes < angle - near, nodes, 0.0), axis=0)
+    high = np.minimum.reduce(np.where(nodes > angle + near, nodes, nodes[-1]), axis=0)
+    below = angle + _NEARER[:, None] * (low - angle)
+    above = angle + _NEARER[::-1, None] * (high - angle)
+    return _apart(np.concatenate([nodes[:1], below, angle[None], above, nodes[-1:]]))
+
+
+def _apart(nodes: Real) -> Real:
+    """The same, in rising order, none next to another: those that are one have the same half-angle."""
+    near = _SAME * nodes[-1]
+    inside = np.where((nodes[1:-1] - nodes[:-2] > near) & (nodes[-1] - nodes[1:-1] > near), nodes[1:-1], 0.0)
+    return np.concatenate([nodes[:1], np.maximum.accumulate(inside, axis=0), nodes[-1:]])
+
+
+def chords(plates: Plates, nodes: Real) -> Webs:
+    mass, unbalance = plates.mass(nodes), plates.unbalance(nodes)
+    each = mass[1:] - mass[:-1]
+    return Webs((unbalance[1:] - unbalance[:-1]) / np.where(each > 0, each, 1.0), each)
+
+
+def tangents(plates: Plates, nodes: Real) -> Webs:
+    """Webs no heavier than the plates: tangents at all nodes but the last, as far as each is the highest."""
+    unbalance, slope = plates.unbalance(nodes), 1.0 / plates.lever(nodes[:-1])
+    at = unbalance[:-1]
+    height = plates.mass(nodes[:-1]) - slope * at
+    rise, fall = slope[1:] - slope[:-1], height[:-1] - height[1:]
+    crossing = np.where(rise > 0, fall / np.where(rise > 0, rise, 1.0), at[1:])
+    ends = np.concatenate([np.zeros_like(at[:1]), np.clip(crossing, at[:-1], at[1:]), unbalance[-1:]])
+    return Webs(1.0 / slope, (ends[1:] - ends[:-1]) * slope * _REACHES)
+
+
+def pieces(whole: Statement, plates: Plates, webs: Webs, left: np.ndarray | None = None) -> Pieces:
+    """The program with some webs in place of each plate.
+
+    Parameters
+    ----------
+    left : (K,) bool, webs of which there is anything; None is all.
+    """
+    limits = whole.limits
+    count = np.ones(limits.radius.shape[-1], int) if left is None else left.astype(int)
+    is_plate = np.zeros(count.size, bool)
+    is_plate[plates.webs] = True
+    kept = (webs.mass.T > 0) & (count[plates.webs, None] > 0)
+    count[plates.webs] = np.add.reduce(kept, axis=-1)
+    owner = np.repeat(np.arange(count.size), count)
+    parts = {name: getattr(limits, name)[..., owner].copy() for name in OF_WEBS}
+    cut = is_plate[owner]
+    parts["radius"][..., cut], parts["max_mass"][..., cut] = webs.radius.T[kept], webs.mass.T[kept]
+    alike = None if limits.alike is None else limits.alike.pieces(owner)
+    program = replace(
+        whole,
+        norms=whole.norms.only(owner),
+        ceilings=whole.ceilings.only(owner),
+        limits=Limits(**parts, max_total_mass=limits.max_total_mass, alike=alike),
+    )
+    return Pieces(program, owner, count.size)

@@ -1,0 +1,115 @@
+"""The way in: the best counterweights that are heavy enough or not there, and what is proven of them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.search import TREE
+from optimizer.choices.semicontinuous.inside import Incumbent, lightened, sharing
+from optimizer.choices.semicontinuous.places import Places, root
+from optimizer.choices.semicontinuous.tree import Tree, branch
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+
+#: objectives nearer than this share of the yardstick are equal
+_EQUAL = 1e-9
+
+
+@dataclass(frozen=True)
+class Found:
+    """The best counterweights that were found."""
+
+    unbalance: Complex  # (K,) kg m; where none that keeps the ceilings was found, those closest to them
+    kept: bool  # whether they keep the ceilings
+    lower_bound: float  # of all that are within the limits; inf where it is proven that none are
+    nodes: int
+    ended: str | None = None  # "time" or "size" where that ended the search before the asked gap
+    method: str = TREE
+    proven: bool = False  # equals are not told apart
+
+
+class Asked(NamedTuple):
+    """What is asked of a search, in units of the objective."""
+
+    gap: float
+    yardstick: float
+    share: float  # by which the objective of the lightest may be above that of the best
+    time_limit_s: float
+
+
+def search(
+    statement: Statement,
+    least: Real,
+    continuous: Complex,
+    at_least: float,
+    asked: Asked,
+    solver: Solver,
+    known: Sequence[Complex] = (),
+    below: Statement | None = None,
+) -> Found:
+    """The counterweights with the smallest objective, and of those with the same webs the lightest.
+
+    Parameters
+    ----------
+    statement : one program (no leading axes), with finite limits.
+    least : (K,) kg m, the least unbalance that is fitted on every web; 0 where there is none.
+    continuous : (K,) kg m, its optimum whatever the least.
+    at_least : lower bound of that optimum.
+    known : (K,) kg m each, points to begin with.
+    below : nowhere above the statement and with no tighter ceilings, which bounds are of; by default that one.
+    """
+    clock, gap = Clock(asked.time_limit_s), asked.gap
+
+    places = root(least, statement.limits)
+    incumbent = Incumbent(statement, places, _EQUAL * asked.yardstick, solver)
+    # nothing on any web keeps every limit but ceilings
+    incumbent.offer(np.zeros((1, least.size), complex))
+    sharing(incumbent, continuous, clock)
+    if known:
+        incumbent.offer(np.stack(known))
+    if incumbent.unbalance is None:
+        within = _within(statement, places, continuous, clock, solver, below or statement)
+        if not within.kept:
+            return within
+        incumbent.offer(within.unbalance[None])
+    tree = branch(incumbent, at_least, gap, lambda bound: False, clock, below or statement)
+    bound = min(max(at_least, tree.lower_bound), incumbent.least)
+    share = min(asked.share, max(bound + gap - incumbent.least, 0.0))
+    assert incumbent.unbalance is not None  # that keeps the ceilings was offered
+    lightest = lightened(incumbent, incumbent.unbalance, share, clock)
+    closed = incumbent.least - bound <= gap
+    return Found(lightest, True, bound, tree.nodes, _ended(tree, closed))
+
+
+def _ended(tree: Tree, closed: bool) -> str | None:
+    return None if closed else "size" if tree.full else "time"
+
+
+def _within(
+    statement: Statement,
+    places: Places,
+    continuous: Complex,
+    clock: Clock,
+    solver: Solver,
+    below: Statement,
+) -> Found:
+    """The first counterweights that keep the ceilings, or the proof that there are none."""
+    incumbent = Incumbent(statement.excess(), places, 0.0, solver)
+
+    def kept() -> bool:
+        return incumbent.least <= CEILING_TOLERANCE
+
+    sharing(incumbent, continuous, clock)
+    tree = Tree(-np.inf, 0, False)
+    if not kept():
+        loose = below.excess()
+        tree = branch(incumbent, -np.inf, 0.0, lambda bound: kept() or bound > CEILING_TOLERANCE, clock, loose)
+    u = np.zeros(places.least.shape, complex) if incumbent.unbalance is None else incumbent.unbalance
+    none = min(tree.lower_bound, incumbent.least) > CEILING_TOLERANCE
+    ended = None if kept() or none else _ended(tree, False)
+    return Found(u, kept(), np.inf if none else -np.inf, tree.nodes, ended)

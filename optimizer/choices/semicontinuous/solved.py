@@ -1,0 +1,59 @@
+"""Programs of nodes, side by side in the batch kernel; where webs are alike and it does not take that, one by one."""
+
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.certificate import Multipliers, nothing_proven
+from optimizer.program.equal_castings import Alike
+from optimizer.program.equal_unknowns import apart, united
+from optimizer.program.methods.cascade import cascade
+from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.single import Asked, interior_point
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+
+#: of an objective at rest: any closer takes a cone program many attempts, and bounds are made of multipliers anyway
+_CLOSE = 1e-7
+
+
+class Solved(NamedTuple):
+    """What is found of N programs."""
+
+    unbalance: Complex  # (N, K) kg m
+    multipliers: Multipliers  # (N, ...), of their bounds
+    nowhere: np.ndarray  # (N,) bool: proven that nothing keeps their ceilings
+
+
+def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, least_mass: bool, solver: Solver) -> Solved:
+    """Optima of N programs whose webs are alike.
+
+    Parameters
+    ----------
+    share, gap : (N,) how far above the smallest objective an optimum may be, and the gap that is asked for.
+    least_mass : the lightest of the optima, in place of any.
+    """
+    nowhere = np.zeros(gap.shape, bool)
+    whole = program if alike is None else united(program, alike) if alike.plain else None
+    if whole is not None and suits_kernel(whole):
+        found = both_stages(whole, share, gap, least_mass)
+        u = found.unbalance if least_mass else found.smallest
+        return Solved(np.nan_to_num(u if alike is None else apart(u, alike)), found.multipliers, nowhere)
+    points, multipliers = np.zeros(program.limits.radius.shape, complex), nothing_proven(program)
+    for n in range(len(points)):
+        one = program.chosen(n)
+        one = replace(one, limits=replace(one.limits, alike=alike))
+        near = max(float(share[n]), _CLOSE * float(one.at_rest))
+        asked = Asked(near, max(float(gap[n]), near), least_mass)
+        answer = cascade(one, asked, solver, interior_point(one, asked))
+        if isinstance(answer, Unreachable):
+            points[n], nowhere[n] = answer.closest, answer.excess > CEILING_TOLERANCE
+            continue
+        points[n] = answer.unbalance
+        if answer.multipliers is not None:
+            multipliers.put(n, answer.multipliers)
+    return Solved(points, multipliers, nowhere)

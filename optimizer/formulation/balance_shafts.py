@@ -1,0 +1,134 @@
+"""What a request with balance shafts chooses: counterweights on the crankshaft and, behind them, those on the shafts.
+
+The program gets one machine with all these webs. It is affine in the unbalance of a shaft that turns backwards only
+beside its mirror image at the x axis (:class:`optimizer.responses.response.Response`), so there the web of such a shaft
+stands for that; over all orders nothing is mirrored (:class:`optimizer.responses.curve.TurnResponse`).
+"""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.formulation.counterweights import counterweights, places, unbalance, unbalances_of_shaft
+from optimizer.formulation.formulate import with_weights_of
+from optimizer.mechanics.fixed_weights import beside, fixed_webs
+from optimizer.mechanics.layout import stacked
+from optimizer.numerics.arrays import Complex, Real
+from schemas.counterweights import Counterweight, FittedShaft
+from schemas.machine import Machine
+from schemas.reciprocating import BalanceShaft, ReciprocatingMachine
+from schemas.requests import OptimizeRequest
+from schemas.webs import Web
+
+_TURNS = {1: "at its speed", 2: "at twice its speed"}
+
+
+def balance_shafts(machine: Machine) -> tuple[BalanceShaft, ...]:
+    """Those of a machine."""
+    return machine.balance_shafts if isinstance(machine, ReciprocatingMachine) else ()
+
+
+def posed(request: OptimizeRequest) -> OptimizeRequest:
+    """The request whose machine has the webs of its balance shafts behind its own: all that its program chooses."""
+    machine, shafts = request.machine, balance_shafts(request.machine)
+    if not shafts:
+        return request
+    mirrored = request.objective.orders == "first"
+    webs = (_mirrored(web) if mirrored and shaft.speed_ratio == -1 else web for shaft in shafts for web in shaft.webs)
+    return request.model_copy(
+        update={
+            "machine": machine.model_copy(update={"webs": (*machine.webs, *webs)}),
+            # default weights count throws and webs of the crankshaft alone
+            "objective": with_weights_of(machine, request.objective),
+        }
+    )
+
+
+def _mirrored(web: Web) -> Web:
+    sector = web.sector and web.sector.model_copy(update={"centre_deg": -web.sector.centre_deg})
+    return web.model_copy(update={"sector": sector})
+
+
+class Fitted(NamedTuple):
+    """Counterweights of the crankshaft, and unbalances of the balance shafts, as they are drawn."""
+
+    counterweights: tuple[Counterweight, ...]
+    total_mass_kg: float
+    balance_shafts: tuple[FittedShaft, ...]
+    on_crank: Complex  # (K,) kg m
+    on_shafts: Complex | None  # (S,) kg m; None without balance shafts
+
+    @property
+    def all_of_them(self) -> tuple[Counterweight, ...]:
+        """Those on the balance shafts behind those of the crankshaft."""
+        return (*self.counterweights, *(one for shaft in self.balance_shafts for one in shaft.counterweights))
+
+    @property
+    def fields(self) -> dict[str, object]:
+        """Of an answer that has them."""
+        of_shafts = float(sum(shaft.total_mass_kg for shaft in self.balance_shafts)) if self.balance_shafts else None
+        return {
+            "counterweights": self.counterweights,
+            "total_mass_kg": self.total_mass_kg,
+            "balance_shafts": self.balance_shafts,
+            "balance_shafts_mass_kg": of_shafts,
+        }
+
+
+def chosen(request: OptimizeRequest, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:
+    """What a program has chosen, shaft by shaft, beside the weights that are fixed.
+
+    Parameters
+    ----------
+    mass_kg, angle_deg : (K + S,) of the webs of :func:`posed`.
+    vectors : (K + S,) kg m, their unbalances where they are known.
+    """
+    machine, shafts = request.machine, balance_shafts(request.machine)
+    if not shafts and not fixed_webs(machine).any():
+        return fitted(machine, mass_kg, angle_deg, vectors)
+    mass_kg, angle_deg = beside(machine, mass_kg, angle_deg)
+    if not shafts:
+        return fitted(machine, mass_kg, angle_deg)
+    ratio = np.array([shaft.speed_ratio for shaft in shafts for _ in shaft.webs])
+    mirrored = (ratio == -1) & (request.objective.orders == "first")
+    own = len(machine.webs)
+    angle = angle_deg.copy()
+    angle[own:] = np.where(mirrored, np.mod(-angle[own:], 360.0), angle[own:])
+    return fitted(machine, mass_kg, np.mod(angle, 360.0))
+
+
+def fitted(machine: Machine, mass_kg: Real, angle_deg: Real, vectors: Complex | None = None) -> Fitted:
+    """Masses and angles (K + S,), as drawn, of all webs of a machine and of its balance shafts.
+
+    Parameters
+    ----------
+    vectors : (K + S,) kg m, their unbalances where they are known.
+    """
+    own, shafts = len(machine.webs), balance_shafts(machine)
+    if vectors is None:
+        vectors = unbalance(mass_kg, angle_deg, stacked([web.radius_m for web in places(machine)]))
+    found, first = [], own
+    for shaft in shafts:
+        there = slice(first, first + len(shaft.webs))
+        first = there.stop
+        on_shaft = unbalances_of_shaft(machine, shaft, mass_kg[there], angle_deg[there])
+        found.append(
+            FittedShaft(
+                name=shaft.name,
+                speed_ratio=shaft.speed_ratio,
+                gearing=_gearing(shaft, on_shaft),
+                total_mass_kg=float(np.sum(mass_kg[there])),
+                counterweights=on_shaft,
+            )
+        )
+    crank = counterweights(machine, mass_kg[:own], angle_deg[:own], vectors[:own])
+    return Fitted(crank, float(np.sum(mass_kg[:own])), tuple(found), vectors[:own], vectors[own:] if shafts else None)
+
+
+def _gearing(shaft: BalanceShaft, fitted_there: Sequence[Counterweight]) -> str:
+    """Which way a shaft turns, how fast, and how its unbalances stand when the crankshaft is as drawn."""
+    way = "with" if shaft.speed_ratio > 0 else "against"
+    there = [one for one in fitted_there if one.mass_kg > 0]
+    stand = ", ".join(f"{one.web} at {one.angle_deg:.2f} deg" for one in there) or "it carries nothing"
+    return f"Turns {way} the crankshaft {_TURNS[abs(shaft.speed_ratio)]}; at shaft angle 0 {stand}."

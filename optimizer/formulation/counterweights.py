@@ -1,0 +1,168 @@
+"""Counterweights as masses and angles."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from optimizer.formulation.limits import given_limits, sectors
+from optimizer.mechanics.angles import angle_deg, direction
+from optimizer.mechanics.crank_of_web import own_throws
+from optimizer.mechanics.fixed_weights import beside
+from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.shapes import plates
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.limits import Limits
+from schemas.counterweights import Counterweight, Shape
+from schemas.fitted import FittedCounterweight, GivenCounterweight
+from schemas.machine import Machine
+from schemas.reciprocating import BalanceShaft, ReciprocatingMachine
+from schemas.webs import Web
+
+#: of a mass, relative to it, and of an angle, relative to a turn
+_ROUNDING = 8 * float(np.finfo(float).eps)
+
+
+def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
+    """Masses [kg] and angles [deg] of unbalances [kg m] (..., K), within the limits of the webs to the last digit.
+
+    What a sum or the rounding of an angle has left outside, or next to a limit, is brought to the limit; webs that are
+    to be alike are so to the last digit.
+
+    Parameters
+    ----------
+    limits : (..., K) of the machine.
+    """
+    mass, angle = _within(machine, unbalance, limits)
+    return (mass, angle) if limits.alike is None else limits.alike.fitted(mass, angle)
+
+
+def _within(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
+    mass, angle = np.abs(unbalance) / limits.radius, angle_deg(unbalance)
+    mass = np.where(mass >= limits.max_mass * (1.0 - _ROUNDING), limits.max_mass, mass)
+    free, centre, half_angle = sectors(machine)
+    if free.all():
+        return mass, np.where(mass > 0, angle, 0.0)
+    # reduced first, without which the edge of a sector at 1e6 degrees would be rounded to 1e-10
+    centre = np.mod(centre, 360.0)
+    off = np.mod(angle - centre + 180.0, 360.0) - 180.0
+    over = np.abs(off) - half_angle
+    outside = ~free & (over > 0) & (mass > 0)
+    mass = np.where(outside, mass * np.maximum(np.cos(np.deg2rad(over)), 0.0), mass)
+    edge = np.mod(centre + np.copysign(half_angle, off), 360.0)
+    at_edge = ~free & (over > -_ROUNDING * 360.0)
+    return mass, np.where(mass > 0, np.where(at_edge, edge, angle), 0.0)
+
+
+def unbalance(mass_kg: Real, angles_deg: Real, radius: Real) -> Complex:
+    """Unbalances m R e^{ja} [kg m] of masses and angles (..., K): what every figure is evaluated from."""
+    return mass_kg * radius * direction(angles_deg)
+
+
+def as_given(machine: Machine, counterweights: Sequence[FittedCounterweight | GivenCounterweight]) -> tuple[Real, Real]:
+    """Masses (..., K) [kg] and angles (..., K) [deg] of counterweights on webs and of fixed weights;
+    0 where a web has neither.
+
+    Those on the webs of balance shafts stand behind those of the crankshaft.
+    """
+    given = {counterweight.web: counterweight for counterweight in counterweights}
+    fitted = [given.get(web.name) for web in places(machine)]
+    mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
+    angle = np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
+    return beside(machine, mass, angle)
+
+
+def places(machine: Machine) -> tuple[Web, ...]:
+    """All webs of a machine, those of its balance shafts behind those of the crankshaft."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return machine.webs
+    return (*machine.webs, *(web for shaft in machine.balance_shafts for web in shaft.webs))
+
+
+def counterweights(
+    machine: Machine, mass_kg: Real, angles_deg: Real, vectors: Complex | None = None
+) -> tuple[Counterweight, ...]:
+    """The counterweights of a machine, one for each web of its crankshaft.
+
+    Parameters
+    ----------
+    vectors : (K,) kg m, their unbalances where they are known.
+    """
+    return _placed(machine, mass_kg, angles_deg, own_throws(machine), 1.0, vectors)
+
+
+def unbalances_of_shaft(
+    machine: Machine, shaft: BalanceShaft, mass_kg: Real, angles_deg: Real
+) -> tuple[Counterweight, ...]:
+    """The unbalances of a balance shaft (S,), one for each of its webs."""
+    alone = machine.model_copy(update={"webs": shaft.webs})
+    return _placed(alone, mass_kg, angles_deg, [None] * len(shaft.webs), float(shaft.speed_ratio))
+
+
+def _placed(
+    machine: Machine,
+    mass_kg: Real,
+    angles_deg: Real,
+    own: Sequence[int | None],
+    ratio: float,
+    vectors: Complex | None = None,
+) -> tuple[Counterweight, ...]:
+    """One for each web of a machine.
+
+    Parameters
+    ----------
+    own : throw of each web.
+    ratio : turns of the webs for one of the crankshaft.
+    """
+    touched = {
+        name: limit.touched(machine, mass_kg, angles_deg).tolist() for name, (limit, _) in given_limits(machine).items()
+    }
+    if vectors is None:
+        vectors = unbalance(mass_kg, angles_deg, stacked([web.radius_m for web in machine.webs]))
+    throws = machine.throws if isinstance(machine, ReciprocatingMachine) else ()
+    shapes = _shapes(machine, mass_kg)
+    fastest = ratio * (machine.overspeed_rpm or machine.speed_rpm) * np.pi / 30.0
+    return tuple(
+        Counterweight(
+            web=web.name,
+            mass_kg=mass,
+            angle_deg=angle,
+            position_m=web.position_m,
+            radius_m=web.radius_m,
+            throw=throw,
+            # twice, because a hair below 0 comes to 360
+            angle_from_crank_deg=None
+            if throw is None or mass == 0.0
+            else (angle - throws[throw].crank_angle_deg) % 360.0 % 360.0,
+            mass_radius_kg_m=mass * web.radius_m,
+            x_kg_m=vector.real,
+            y_kg_m=vector.imag,
+            centrifugal_force_N=mass * web.radius_m * fastest**2,
+            active_limits=() if web.fixed else tuple(name for name, webs in touched.items() if webs[k]),
+            fixed=web.fixed is not None,
+            shape=shapes.get(k) if mass > 0.0 else None,
+        )
+        for k, (web, mass, angle, vector, throw) in enumerate(
+            zip(machine.webs, mass_kg.tolist(), angles_deg.tolist(), vectors.tolist(), own, strict=True)
+        )
+    )
+
+
+def _shapes(machine: Machine, mass_kg: Real) -> dict[int, Shape]:
+    """What is cut of the plates of a machine, by number of the web."""
+    cut = plates(machine)
+    if cut is None:
+        return {}
+    radius = np.array([machine.webs[k].radius_m for k in cut.webs])
+    half_angle = cut.opened(mass_kg[cut.webs] * radius)
+    figures = (np.rad2deg(half_angle), cut.chord(half_angle), cut.outer, cut.inertia(half_angle))
+    return {
+        k: Shape(
+            half_angle_deg=opening,
+            chord_height_m=None if np.isnan(chord) else chord,
+            outer_radius_m=outer,
+            inertia_kg_m2=inertia,
+        )
+        for k, opening, chord, outer, inertia in zip(
+            cut.webs.tolist(), *(each.tolist() for each in figures), strict=True
+        )
+    }

@@ -1,0 +1,324 @@
+"""From machine and objective to the program over the turn: force and moment, bearing loads, bending moments.
+
+What :mod:`optimizer.formulation.formulate` is to the first order: the only place that names the fields that ask for the
+whole turn.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from optimizer.errors import MissingInput
+from optimizer.formulation.formulate import RESPONSES, Ceiling, given_ceilings, weights
+from optimizer.formulation.formulate import limited as limited_responses
+from optimizer.formulation.limits import limits
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.roll import mirrored, roll
+from optimizer.mechanics.shaft import INFLUENCES, bearing_places
+from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
+from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.numerics.arrays import Real
+from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
+from optimizer.program.cuts.dominance import Group, Weighed
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.rows import Row, combined, weighted_peak
+from optimizer.responses.component import component
+from optimizer.responses.curve import TurnResponse
+from optimizer.responses.response import Response
+from schemas.base import FieldProblem
+from schemas.limits import CeilingField, MachineLimit
+from schemas.objective import Objective
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import Fidelity, OptimizeRequest
+
+
+@dataclass(frozen=True)
+class Case:
+    """A machine that the counterweights are to suit: the one that is given, or that of a scenario."""
+
+    request: OptimizeRequest  # with the machine of the case
+    layout: Layout
+    variants: tuple[tuple[Response, ...], ...]  # responses of the first order: as given, then with other masses
+    turn: WholeTurn | None = None  # where the objective looks at the whole turn
+    scenario: str | None = None
+    weight: float = 1.0
+    masses: float = 0.0  # share by which every reciprocating mass may be off, over the turn
+
+    @property
+    def omega_squared(self) -> float:
+        return float(self.layout.omega**2)
+
+
+@dataclass(frozen=True)
+class Limited:
+    """A ceiling on a quantity over the turn."""
+
+    field: CeilingField  # of the request
+    limit: MachineLimit  # what it is called where it is touched
+    quantity: int  # its place in the program
+    ceiling: float  # [unit of the response]
+    omega_squared: float  # of its case
+    scenario: str | None
+
+
+@dataclass(frozen=True)
+class Goals:
+    """What is asked of the whole turn, or of several cases."""
+
+    program: OverTurn  # over omega^2 of the machine as it is given
+    allowances: tuple[float, ...]  # of all goals but the last
+    limited: tuple[Limited, ...]  # as in the program
+    cases: tuple[Case, ...]
+
+
+def bearing_responses(
+    machine: ReciprocatingMachine, fidelity: Fidelity, layout: Layout, turn: WholeTurn
+) -> tuple[TurnResponse, ...]:
+    """Loads of the main bearings of one machine."""
+    names = [f"bearing:{bearing.name}" for bearing in machine.bearings]
+    return bearing_loads(turn, layout, names, bearing_places(machine), INFLUENCES[fidelity.shaft])
+
+
+def goals(
+    request: OptimizeRequest,
+    cases: Sequence[Case],
+    omega_squared: float,
+    scatter: Scatter = EXACT,
+    apart: bool = False,
+) -> Goals:
+    """The program of one request, over the turn or over several cases.
+
+    Parameters
+    ----------
+    cases : machines that the counterweights are to suit, at least one; the largest weighted objective counts.
+    omega_squared : rad^2/s^2, what the program is divided by.
+    scatter : what the counterweights may be off by.
+    apart : every peak of a sum is a group by itself, the largest of its variants.
+
+    Raises
+    ------
+    MissingInput
+        if specific loads are asked for and a bearing has no diameter or length.
+    """
+    objective = request.objective
+    quantities: list[Quantity] = []
+    wanted = {name: float(weight) for name, weight in weights(request.machine, objective).items()}
+    asked = [_Asked(case, wanted, case.omega_squared / omega_squared, quantities) for case in cases]
+    groups: dict[str, list[tuple[Group, ...]]] = {"external": [each.external(apart) for each in asked]}
+    if objective.bearing_weight > 0:
+        groups["bearings"] = [(each.weighed_bearings(),) for each in asked]
+    if objective.bending_weight > 0:
+        groups["bending"] = [(each.weighed_bending(),) for each in asked]
+    limited = tuple(one for each in asked for one in each.limited())
+    chosen, allowances = _in_order(objective, groups)
+    # of all orders the ceilings are among what is limited over the turn
+    exact = tuple(
+        (each, allowed / case.omega_squared)
+        for case in (cases if objective.orders == "first" else ())
+        for responses in case.variants
+        for each, allowed in limited_responses(responses, objective)
+    )
+    capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
+    program = OverTurn(tuple(quantities), chosen, exact, capped, limits(request.machine), scatter)
+    return Goals(program, allowances, limited, tuple(cases))
+
+
+class _Asked:
+    """The quantities that an objective asks of a case, each once."""
+
+    def __init__(self, case: Case, wanted: Mapping[str, float], speed: float, quantities: list[Quantity]) -> None:
+        """Prepare.
+
+        Parameters
+        ----------
+        wanted : weights of the responses of the first order.
+        speed : square of the speed of the case, as a share of what the program is divided by.
+        quantities : of all cases, to which those of this one are added.
+        """
+        self.objective, self.fidelity, self.case = case.request.objective, case.request.fidelity, case
+        self.layout, self.quantities = case.layout, quantities
+        self._wanted = {name: weight * speed * case.weight for name, weight in wanted.items()}
+        self._factor = speed * case.weight
+        self._places: dict[str, range] = {}
+
+    @property
+    def machine(self) -> ReciprocatingMachine:
+        assert isinstance(self.case.request.machine, ReciprocatingMachine)  # no other has bearings
+        return self.case.request.machine
+
+    @property
+    def turn(self) -> WholeTurn:
+        assert self.case.turn is not None  # it is there where the objective looks at it
+        return self.case.turn
+
+    def external(self, apart: bool) -> tuple[Group, ...]:
+        """Force and moment, as they are weighed and combined: of the first order in closed form, of all by cuts.
+
+        The roll moment beside them always has all orders.
+        """
+        groups = self._of_frame(apart)
+        if self.objective.roll_weight > 0:
+            weight = self.objective.roll_weight * self._factor
+            groups = (*groups, Group(weighed=tuple(Weighed(q, weight) for q in self._of_roll())))
+        return (_merged(groups),) if self.objective.combine == "max" and len(groups) > 1 else groups
+
+    def _of_frame(self, apart: bool) -> tuple[Group, ...]:
+        wanted, across = self._wanted, self.objective.direction_weights
+        if self.objective.orders == "all":
+            places = zip(RESPONSES, self._of_shaking(), strict=True)
+            weighed = [Weighed(q, wanted[name]) for name, q in places if wanted[name] > 0]
+            return tuple(Group(weighed=(each,)) for each in weighed)
+        variants = [
+            [weighted_peak(each, wanted[each.name], across.x, across.y) for each in of if wanted[each.name] > 0]
+            for of in self.case.variants
+        ]
+        if not variants[0]:
+            return ()
+        if not apart:
+            (peaks,) = variants
+            rows = combined(peaks, self.objective.combine)
+            return tuple(Group(rows=tuple(_called(row, self.case.scenario) for row in each)) for each in rows)
+        found = [
+            tuple(_called(Row(peak.name, (peak,)), self.case.scenario, n) for n, peak in enumerate(of_response))
+            for of_response in zip(*variants, strict=True)
+        ]
+        return tuple(Group(rows=rows) for rows in found)
+
+    def weighed_bearings(self) -> Group:
+        measure, weight = self.objective.bearing_measure, self.objective.bearing_weight * self._factor
+        area = self._areas if measure == "specific" else np.ones(len(self.machine.bearings))
+        places = self._of_bearings("rms" if measure == "rms" else "peak")
+        return Group(weighed=tuple(Weighed(q, weight / size) for q, size in zip(places, area.tolist(), strict=True)))
+
+    def weighed_bending(self) -> Group:
+        weight = self.objective.bending_weight * self._factor
+        return Group(weighed=tuple(Weighed(q, weight) for q in self._of_bending()))
+
+    def limited(self) -> Iterator[Limited]:
+        """Ceilings, whatever is weighed on peaks."""
+        for each, allowed in given_ceilings(self.objective) if self.objective.orders == "all" else ():
+            yield self._limited(each.field, each.limit, self._of_frame_under(each), allowed)
+        load, specific = self.objective.bearing_ceiling_N, self.objective.specific_load_ceiling_Pa
+        if load is not None:
+            for q in self._of_bearings("peak"):
+                yield self._limited("bearing_ceiling_N", "bearing_ceiling", q, load)
+        if specific is not None:
+            for q, area in zip(self._of_bearings("peak"), self._areas.tolist(), strict=True):
+                yield self._limited("specific_load_ceiling_Pa", "specific_load_ceiling", q, specific * area)
+        if self.objective.bending_ceiling_Nm is not None:
+            for q in self._of_bending():
+                yield self._limited("bending_ceiling_Nm", "bending_ceiling", q, self.objective.bending_ceiling_Nm)
+
+    def _of_shaking(self) -> range:
+        """Force and moment of all orders."""
+        return self._placed("shaking", lambda: [self._quantity(each) for each in shaking(self.turn, self.layout)])
+
+    def _of_frame_under(self, ceiling: Ceiling) -> int:
+        """What a ceiling limits of force or moment of all orders: all of it, or its component."""
+        name, _, axis = ceiling.name.partition(":")
+        whole = self._of_shaking()[list(RESPONSES).index(name)]
+        if not axis:
+            return whole
+        response, sense = self.quantities[whole].response, float(self.layout.sense)
+        return self._placed(ceiling.name, lambda: [self._quantity(component(response, axis, sense))])[0]
+
+    def _of_roll(self) -> range:
+        def moment() -> list[Quantity]:
+            response, shafts = roll(self.turn, self.layout), self.layout.balance
+            if shafts is not None and self.objective.orders == "first":
+                response = mirrored(response, shafts)
+            return [self._quantity(response)]
+
+        return self._placed("roll", moment)
+
+    def _of_bearings(self, measure: Literal["peak", "rms"]) -> range:
+        def loads() -> list[Quantity]:
+            responses = bearing_responses(self.machine, self.fidelity, self.layout, self.turn)
+            return [self._quantity(response, measure) for response in responses]
+
+        return self._placed(measure, loads)
+
+    def _of_bending(self) -> range:
+        def moments() -> list[Quantity]:
+            influence = INFLUENCES[self.fidelity.shaft]
+            responses = bending_moments(self.turn, self.layout, bearing_places(self.machine), influence)
+            return [self._quantity(response) for response in responses]
+
+        return self._placed("bending", moments)
+
+    def _quantity(self, response: TurnResponse, measure: Literal["peak", "rms"] = "peak") -> Quantity:
+        return Quantity(response, measure, self.case.scenario, self.case.masses)
+
+    def _limited(self, field: CeilingField, limit: MachineLimit, quantity: int, ceiling: float) -> Limited:
+        return Limited(field, limit, quantity, ceiling, self.case.omega_squared, self.case.scenario)
+
+    def _placed(self, kind: str, found: Callable[[], list[Quantity]]) -> range:
+        if kind not in self._places:
+            first = len(self.quantities)
+            self.quantities += found()
+            self._places[kind] = range(first, len(self.quantities))
+        return self._places[kind]
+
+    @cached_property
+    def _areas(self) -> Real:
+        """Diameter times length of every bearing, m^2."""
+        problems = list(missing_sizes(self.machine))
+        if problems:
+            raise MissingInput(problems)
+        return np.array([(each.diameter_m or 0.0) * (each.length_m or 0.0) for each in self.machine.bearings])
+
+
+def _called(row: Row, scenario: str | None, variant: int | None = None) -> Row:
+    """A row by the names of its scenario and of its variant of the masses."""
+    name = row.name if not variant else f"{row.name} {variant}"
+    return row._replace(name=name if scenario is None else f"{name} in {scenario}")
+
+
+def _largest(name: str, cases: Sequence[tuple[Group, ...]]) -> Goal:
+    """The largest of the sums of groups of several cases."""
+    if len(cases) == 1:
+        return Goal(name, cases[0])
+    if all(len(each) == 1 for each in cases):
+        return Goal(name, (_merged([group for each in cases for group in each]),))
+    flat = tuple(group for each in cases for group in each)
+    return Goal(name, flat, cases=tuple(n for n, each in enumerate(cases) for _ in each))
+
+
+def _merged(groups: Sequence[Group]) -> Group:
+    """The largest of several groups."""
+    rows = tuple(row for group in groups for row in group.rows)
+    return Group(rows, tuple(each for group in groups for each in group.weighed))
+
+
+def _in_order(
+    objective: Objective, groups: dict[str, list[tuple[Group, ...]]]
+) -> tuple[tuple[Goal, ...], tuple[float, ...]]:
+    """Goals one after the other with their allowances, or one of them all.
+
+    Parameters
+    ----------
+    groups : of every goal those of each case.
+    """
+    order = [priority for priority in objective.priorities if priority.goal != "mass"]
+    if order:
+        return (
+            tuple(_largest(priority.goal, groups[priority.goal]) for priority in order),
+            tuple(priority.allowance for priority in order[:-1]),
+        )
+    every = [tuple(group for one in of_case for group in one) for of_case in zip(*groups.values(), strict=True)]
+    # several goals in their order are never combined: their quantities are of one kind
+    if objective.combine == "max":
+        every = [(_merged(each),) for each in every]
+    return (_largest("all", every),), ()
+
+
+def missing_sizes(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:
+    """Sizes of bearings that specific loads need and the machine does not give."""
+    for k, bearing in enumerate(machine.bearings):
+        for name in ("diameter_m", "length_m"):
+            if getattr(bearing, name) is None:
+                path = ("machine", "bearings", k, name)
+                yield FieldProblem(path, "specific loads need diameter and length of every bearing")

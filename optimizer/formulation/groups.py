@@ -1,0 +1,94 @@
+"""Identical castings: webs that get the same counterweight, in the same place on their own cranks or mirrored there."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from optimizer.errors import refuse
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.crank_of_web import crank_angles
+from optimizer.numerics.memoization import remembered
+from optimizer.program.equal_castings import Alike
+from schemas.base import FieldProblem
+from schemas.machine import Machine
+
+#: what webs of a group have in common, beside their sectors and holes as seen from their own cranks
+_ALIKE = (
+    "counterweight_radius_m",
+    "max_mass_kg",
+    "max_centrifugal_force_N",
+    "envelope",
+    "min_fitted_mass_kg",
+    "catalogue_masses_kg",
+)
+
+
+@remembered
+def alike_webs(machine: Machine) -> Alike | None:
+    """Which webs of one machine are alike, None where none are.
+
+    Raises
+    ------
+    OutOfRange
+        where webs of a group are unlike, or one belongs to no crank.
+    """
+    if not machine.web_groups:
+        return None
+    places = {web.name: k for k, web in enumerate(machine.webs)}
+    groups = [[places[name] for name in group.webs] for group in machine.web_groups]
+    cranks = crank_angles(machine)
+    refuse(problem for i, group in enumerate(groups) for problem in _problems(machine, cranks, i, group))
+    count = len(machine.webs)
+    ahead, leader, mirrored = np.zeros(count), list(range(count)), [False] * count
+    for group, asked in zip(groups, machine.web_groups, strict=True):
+        first = cranks[group[0]] or 0.0
+        for n, k in enumerate(group):
+            leader[k], mirrored[k] = group[0], asked.mirrors(n)
+            # d_k w with w = u conj(d) of the first at d, or d_k conj(w)
+            own = cranks[k] or 0.0
+            ahead[k] = (own + first if mirrored[k] else own - first) % 360.0
+    return Alike(direction(ahead), ahead, tuple(leader), tuple(mirrored))
+
+
+def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: Sequence[int]) -> Iterator[FieldProblem]:
+    first, at = machine.webs[group[0]], cranks[group[0]]
+    for j, k in enumerate(group):
+        web, path = machine.webs[k], ("machine", "web_groups", i, "webs", j)
+        if cranks[k] is None:
+            yield FieldProblem(path, "this web belongs to no crank: name its throw")
+            continue
+        unlike = [name for name in _ALIKE if getattr(web, name) != getattr(first, name)]
+        mirrored = machine.web_groups[i].mirrors(j)
+        if not _same_sector(first.sector, at or 0.0, web.sector, cranks[k] or 0.0, mirrored):
+            unlike.append("sector, counted from the own crank,")
+        if not _same_holes(first.hole_angles_deg, at or 0.0, web.hole_angles_deg, cranks[k] or 0.0, mirrored):
+            unlike.append("hole_angles_deg, counted from the own crank,")
+        if unlike:
+            words = " and ".join(unlike)
+            yield FieldProblem(
+                path, f"only webs that are alike get the same casting: its {words} is not that of {first.name}"
+            )
+
+
+def _same_holes(
+    first: Sequence[float] | None, at: float, other: Sequence[float] | None, there: float, mirrored: bool
+) -> bool:
+    """Whether holes are in the same places, or each other's mirror images, as seen from the own cranks."""
+    if first is None or other is None:
+        return first is other
+    sign = -1.0 if mirrored else 1.0
+    one, two = np.sort([sign * (angle - at) % 360.0 for angle in first]), [(angle - there) % 360.0 for angle in other]
+    # a hair below a whole turn is 0
+    return len(one) == len(two) and all(
+        float(np.min(np.abs((one - angle + 180.0) % 360.0 - 180.0))) <= 1e-9 for angle in two
+    )
+
+
+def _same_sector(first: Any, at: float, other: Any, there: float, mirrored: bool) -> bool:
+    """Whether two sectors are the same, or each other's mirror image, as seen from the own cranks."""
+    if first is None or other is None:
+        return first is other
+    from_crank = first.centre_deg - at
+    off = other.centre_deg - there - (-from_crank if mirrored else from_crank)
+    return abs((off + 180.0) % 360.0 - 180.0) <= 1e-9 and bool(first.half_angle_deg == other.half_angle_deg)

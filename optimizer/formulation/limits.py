@@ -1,0 +1,204 @@
+"""The limits that a machine states, a small entry each; several largest masses of a web are a minimum.
+
+The program sees none of them by name: it gets the smallest of the masses, one sector and one budget.
+Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import reduce
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from optimizer.formulation.groups import alike_webs
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.fixed_weights import fixed_masses, fixed_webs
+from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.shapes import plates
+from optimizer.numerics.arrays import Real, Reals, mapped, spread
+from optimizer.numerics.memoization import remembered
+from optimizer.program.limits import Limits
+from optimizer.program.sensitivity import ShadowPrices
+from schemas.limits import MachineLimit, WebLimit
+from schemas.machine import Machine
+
+#: a limit counts as touched when what it limits is nearer than this share of it; optima may differ by
+#: 1e-6 of the objective, which is more than that of a mass
+TOUCHED = 1e-4
+#: a larger limit is none, kg
+_NO_LIMIT = 1e30
+
+
+class Limit(Protocol):
+    """A limit in the unit of the answer; (..., K) of every web, (...) of the machine."""
+
+    @property
+    def unit(self) -> str: ...
+
+    def size(self, machine: Machine) -> Real:
+        """The limit in its unit; inf where there is none."""
+        ...
+
+    def touched(self, machine: Machine, mass_kg: Real, angle_deg: Real) -> np.ndarray:
+        """Whether counterweights (..., K) stand at it."""
+        ...
+
+    def price(self, machine: Machine, prices: ShadowPrices) -> Real:
+        """Fall of the smallest objective per unit by which it is raised."""
+        ...
+
+
+@dataclass(frozen=True)
+class MassLimit:
+    """What a counterweight may have at most of something that grows with its mass."""
+
+    unit: str
+    largest: Callable[[Machine], Real]  # (..., K), in the unit; inf where a web has no such limit
+    of_one_kg: Callable[[Machine], Reals]  # (..., K), in the unit
+
+    def mass(self, machine: Machine) -> Real:
+        """Largest mass of every web, kg."""
+        return self.largest(machine) / self.of_one_kg(machine)
+
+    def size(self, machine: Machine) -> Real:
+        return self.largest(machine)
+
+    def touched(self, machine: Machine, mass_kg: Real, angle_deg: Real) -> np.ndarray:
+        return mass_kg >= self.mass(machine) * (1.0 - TOUCHED)
+
+    def price(self, machine: Machine, prices: ShadowPrices) -> Real:
+        # of several the smallest mass is the one that binds
+        binds = self.mass(machine) <= largest_mass(machine)
+        return np.where(binds, prices.max_mass / self.of_one_kg(machine), 0.0)
+
+
+class _Sector:
+    unit = "deg"
+
+    def size(self, machine: Machine) -> Real:
+        free, _, half_angle = sectors(machine)
+        return np.where(free, np.inf, half_angle)
+
+    def touched(self, machine: Machine, mass_kg: Real, angle_deg: Real) -> np.ndarray:
+        free, centre, half_angle = sectors(machine)
+        off = np.abs(np.mod(angle_deg - centre + 180.0, 360.0) - 180.0)
+        return ~free & (mass_kg > 0) & (off >= half_angle * (1.0 - TOUCHED))
+
+    def price(self, machine: Machine, prices: ShadowPrices) -> Real:
+        # a sector is opened to both sides
+        return np.radians(prices.half_angle)
+
+
+class _Budget:
+    unit = "kg"
+
+    def size(self, machine: Machine) -> Real:
+        budget = machine.max_total_mass_kg
+        return np.asarray(np.inf if budget is None else budget, dtype=float)
+
+    def touched(self, machine: Machine, mass_kg: Real, angle_deg: Real) -> np.ndarray:
+        return np.asarray(np.add.reduce(mass_kg, axis=-1) >= self.size(machine) * (1.0 - TOUCHED))
+
+    def price(self, machine: Machine, prices: ShadowPrices) -> Real:
+        return prices.max_total_mass
+
+
+def _largest_unbalances(machine: Machine) -> Real:
+    """What the envelopes of the webs hold (K,), kg m; inf where there is none."""
+    most, cut = np.full(len(machine.webs), np.inf), plates(machine)
+    if cut is not None:
+        most[cut.webs] = cut.unbalance(cut.most)
+    return most
+
+
+def _largest_force(machine: Machine) -> Real:
+    """Largest centrifugal force of every web (..., K), N."""
+    given = (web.max_centrifugal_force_N for web in machine.webs)
+    return stacked([np.inf if force is None else force for force in given])
+
+
+def _force_of_one_kg(machine: Machine) -> Real:
+    """Centrifugal force of a kilogram on every web (..., K) at the highest speed, N."""
+    fastest = machine.speed_rpm if machine.overspeed_rpm is None else machine.overspeed_rpm
+    omega = np.asarray(fastest) * (np.pi / 30.0)
+    return stacked([web.radius_m for web in machine.webs]) * np.square(omega)[..., None]
+
+
+#: of every web, as the answer calls them and in its order; one more is one more entry
+WEB_LIMITS: dict[WebLimit, Limit] = {
+    "max_mass": MassLimit(
+        "kg",
+        largest=lambda machine: stacked(
+            [np.inf if web.max_mass_kg is None else web.max_mass_kg for web in machine.webs]
+        ),
+        of_one_kg=lambda machine: 1.0,
+    ),
+    "envelope": MassLimit(
+        "(kg m)",
+        largest=_largest_unbalances,
+        of_one_kg=lambda machine: stacked([web.radius_m for web in machine.webs]),
+    ),
+    "max_centrifugal_force": MassLimit("N", _largest_force, _force_of_one_kg),
+    "sector": _Sector(),
+}
+#: of the machine
+MACHINE_LIMITS: dict[MachineLimit, Limit] = {"max_total_mass": _Budget()}
+
+
+class Given(NamedTuple):
+    """A limit of the webs that is stated at all."""
+
+    limit: Limit
+    size: Real  # (..., K) in its unit; inf where a web has no such limit
+
+
+@remembered
+def given_limits(machine: Machine) -> dict[WebLimit, Given]:
+    """Limits that some web of a machine states, in the order of the answer; no other is touched, or has a price."""
+    every = {name: Given(limit, limit.size(machine)) for name, limit in WEB_LIMITS.items()}
+    return {name: each for name, each in every.items() if (each.size < np.inf).any()}
+
+
+@remembered
+def largest_mass(machine: Machine) -> Real:
+    """Largest mass of every web (..., K), the smallest of what its limits allow, kg; inf where there is none."""
+    given = (each.limit for each in given_limits(machine).values())
+    allowed = [each.mass(machine) for each in given if isinstance(each, MassLimit)]
+    # where a weight is fixed nothing is chosen
+    mass = np.where(fixed_webs(machine), 0.0, reduce(np.minimum, allowed, np.full(len(machine.webs), np.inf)))
+    # null, or more than can be multiplied
+    return np.where(mass > _NO_LIMIT, np.inf, mass)
+
+
+def limits(machine: Machine, leading: tuple[int, ...] = ()) -> Limits:
+    """Limits of the counterweights on the webs of a machine, or of many (*leading, K)."""
+    webs = machine.webs
+    free, towards, half_angle = sectors(machine)
+    if free.all():
+        centre, edge = np.ones(len(webs), complex), np.full(len(webs), 1j)
+    else:
+        centre, edge = direction(towards), direction(half_angle)
+    shape, alike = (*leading, len(webs)), alike_webs(machine)
+    left = MACHINE_LIMITS["max_total_mass"].size(machine) - np.add.reduce(fixed_masses(machine), axis=-1)
+    return Limits(
+        radius=spread(stacked([web.radius_m for web in webs]), shape),
+        max_mass=spread(largest_mass(machine), shape),
+        free=spread(free, shape),
+        centre=spread(centre, shape),
+        half_angle_cos=spread(edge.real, shape),
+        half_angle_sin=spread(edge.imag, shape),
+        max_total_mass=spread(left, leading),
+        alike=None if alike is None else mapped(alike, lambda array: spread(array, shape)),
+    )
+
+
+@remembered
+def sectors(machine: Machine) -> tuple[np.ndarray, Real, Real]:
+    """Which webs have no sector (K,); centres and half-angles [deg] (..., K), 0 and 90 where there is none."""
+    webs = machine.webs
+    return (
+        np.array([web.sector is None for web in webs], dtype=bool),
+        stacked([web.sector.centre_deg if web.sector else 0.0 for web in webs]),
+        stacked([web.sector.half_angle_deg if web.sector else 90.0 for web in webs]),
+    )

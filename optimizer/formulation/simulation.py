@@ -1,0 +1,120 @@
+"""A scene made ready: what its outputs call for has been simulated, and the responses stand."""
+
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+
+from optimizer.effects.registry import Simulated, closure, simulate
+from optimizer.formulation.formulate import responses
+from optimizer.mechanics.balance_shafts import of_balance_shafts
+from optimizer.mechanics.cylinders import cycle_turns
+from optimizer.mechanics.fixed_weights import laden
+from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
+from optimizer.mechanics.layout import Layout, layout, spread
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.response import Response
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import Scene
+from schemas.scroll_machine import ScrollMachine
+
+
+@dataclass(frozen=True)
+class Prepared:
+    """A machine as arrays and what was simulated of it.
+
+    A request whose fields hold columns (n,) is many designs of one shape: all arrays then have that leading axis.
+    """
+
+    request: Scene
+    layout: Layout
+    angle_deg: Real  # (T,) sampled shaft angles, the end point not repeated
+    simulated: Simulated
+    mechanics_ms: float
+    shafts: Complex | None = None  # (S,) kg m, unbalances of the balance shafts that go with counterweights
+    turns: int = 1  # over which the samples go: 2 where gas takes so long
+
+    @property
+    def machine(self) -> ReciprocatingMachine | ScrollMachine:
+        return self.request.machine
+
+    @property
+    def results(self) -> Mapping[str, Any]:
+        """Results of the effects that ran, by name."""
+        return self.simulated.results
+
+    @property
+    def angles(self) -> tuple[float, ...]:
+        """Sampled shaft angles as an answer holds them."""
+        return tuple(self.angle_deg.tolist())
+
+    @cached_property
+    def omega_squared(self) -> float:
+        return float(self.layout.omega**2)
+
+    def first_order(self, unbalance: Complex | None = None) -> Wrench:
+        """First-order force [N] and moment [N m], with counterweights if given (..., K) kg m."""
+        if unbalance is None:
+            return self._bare
+        wrench = self.simulated.first_order.plus(counterweights(self.layout, unbalance))
+        return self.with_shafts(wrench, 1).times(self.layout.omega**2)
+
+    @cached_property
+    def _bare(self) -> Wrench:
+        """First-order force [N] and moment [N m] without counterweights."""
+        return self.simulated.first_order.times(self.layout.omega**2)
+
+    def with_shafts(self, wrench: Wrench, order: int) -> Wrench:
+        """Force and moment of an order over omega^2, with what the balance shafts add."""
+        if self.layout.balance is None or self.shafts is None:
+            return wrench
+        return wrench.plus(of_balance_shafts(self.layout, self.layout.balance, self.shafts, order))
+
+    @cached_property
+    def laden(self) -> Layout:
+        """The machine with the weights that are on it already."""
+        return laden(self.layout, self.machine)
+
+    @cached_property
+    def responses(self) -> tuple[Response, ...]:
+        """What can be weighed, as responses to the unbalance of the counterweights that are chosen."""
+        plan = self.laden
+        if plan is self.layout:
+            return responses(plan, self.simulated.first_order)
+        return responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+
+    @property
+    def first_turn_deg(self) -> Real:
+        """The samples of the first turn."""
+        return self.angle_deg[: self.angle_deg.size // self.turns]
+
+
+def simulated(
+    request: Scene, asked: Mapping[str, Sequence[str]], samples: int, leading: tuple[int, ...] = ()
+) -> Prepared:
+    """Simulate what the outputs call for.
+
+    Parameters
+    ----------
+    request : its machine gives what the effects need; its fields may hold columns of the leading axes.
+    asked : outputs by name, with the effects that each needs.
+    samples : number of sampled shaft angles in one turn.
+    leading : axes of all results; none for one machine.
+    """
+    start = time.perf_counter()
+    plan = layout(request.machine)
+    if leading:
+        plan = spread(plan, leading)
+    turns = turns_over(request.machine, [need for needs in asked.values() for need in needs])
+    angle: Real = np.arange(samples * turns, dtype=float) * (360.0 / samples)
+    found = simulate(request.machine, plan, asked, request.fidelity, np.deg2rad(angle))
+    return Prepared(request, plan, angle, found, (time.perf_counter() - start) * 1e3, turns=turns)
+
+
+def turns_over(machine: Machine, needs: Sequence[str]) -> int:
+    """Turns of the shaft over which results of effects go: 2 where they hold gas of a cycle that takes so long."""
+    return cycle_turns(machine) if isinstance(machine, ReciprocatingMachine) and "gas" in closure(machine, needs) else 1

@@ -1,0 +1,61 @@
+"""Weights that are on the crank already: what the program sees as part of the machine, and what an answer shows."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.layout import Layout, Rotating, stacked
+from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import remembered
+from schemas.machine import Machine
+
+
+@remembered
+def fixed_webs(machine: Machine) -> np.ndarray:
+    """Which webs carry a fixed weight (K,) bool."""
+    return np.array([web.fixed is not None for web in machine.webs], dtype=bool)
+
+
+def fixed_masses(machine: Machine) -> Real:
+    """Fixed weights of all webs (..., K) kg, 0 where there is none."""
+    return stacked([0.0 if web.fixed is None else web.fixed.mass_kg for web in machine.webs])
+
+
+def beside(machine: Machine, mass_kg: Real, angle_deg: Real) -> tuple[Real, Real]:
+    """Masses [kg] and angles [deg] of chosen counterweights (..., K), with the fixed weights in their places.
+
+    Of webs on balance shafts, which stand behind those of the crankshaft, nothing is fixed.
+    """
+    which = fixed_webs(machine)
+    if not which.any():
+        return mass_kg, angle_deg
+    behind = mass_kg.shape[-1] - which.size
+    angles = np.mod(stacked([0.0 if web.fixed is None else web.fixed.angle_deg for web in machine.webs]), 360.0)
+    masses, at = (np.pad(each, [(0, 0)] * (each.ndim - 1) + [(0, behind)]) for each in (fixed_masses(machine), angles))
+    there = np.pad(which, (0, behind))
+    # without a mass there is no angle
+    return np.where(there, masses, mass_kg), np.where(there, np.where(masses > 0, at, 0.0), angle_deg)
+
+
+def laden(layout: Layout, machine: Machine) -> Layout:
+    """The layout with the fixed weights among its rotating masses: what counterweights are chosen for."""
+    there = np.flatnonzero(fixed_webs(machine))
+    if not there.size:
+        return layout
+    fixed = [web.fixed for web in machine.webs if web.fixed is not None]
+    turning = layout.rotating
+    parts = {
+        "mass": stacked([each.mass_kg for each in fixed]),
+        "radius": layout.webs.radius[..., there],
+        "direction": direction(stacked([each.angle_deg for each in fixed])),
+        "position": layout.webs.position[..., there],
+    }
+    return replace(
+        layout, rotating=Rotating(**{name: _behind(getattr(turning, name), more) for name, more in parts.items()})
+    )
+
+
+def _behind(arrays: np.ndarray, more: np.ndarray) -> np.ndarray:
+    leading = np.broadcast_shapes(arrays.shape[:-1], more.shape[:-1])
+    return np.concatenate([np.broadcast_to(each, (*leading, each.shape[-1])) for each in (arrays, more)], axis=-1)

@@ -1,0 +1,69 @@
+"""Counterweights that are cut from a plate: the webs of a machine that say from which, and what is fitted to them.
+
+A fitted counterweight has a radius of its own, so what is fitted stands on a machine of plain webs.
+"""
+
+from collections.abc import Mapping
+from functools import lru_cache
+
+import numpy as np
+
+from optimizer.mechanics.envelope import AnnularSector, Segment
+from optimizer.mechanics.plates import Plates
+from optimizer.numerics.arrays import Real
+from optimizer.numerics.memoization import remembered
+from schemas.machine import Machine
+from schemas.webs import Envelope
+
+_SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector, "segment": Segment}
+
+
+@remembered
+def plates(machine: Machine) -> Plates | None:
+    """The plates of the webs that have one; None where no web has."""
+    given = tuple(web.envelope for web in machine.webs)
+    return _side_by_side(given) if any(given) else None
+
+
+@lru_cache(maxsize=8)
+def _side_by_side(given: tuple[Envelope | None, ...]) -> Plates:
+    """The plates of the webs, which machines have in common whose counterweights differ."""
+    cut = [(k, each) for k, each in enumerate(given) if each is not None]
+    parts = []
+    for shape, made in _SHAPES.items():
+        places = np.array([n for n, (_, each) in enumerate(cut) if each.shape == shape], dtype=int)
+        if places.size:
+            of_shape = [cut[n][1] for n in places]
+            figures = [
+                (each.inner_radius_m, each.outer_radius_m, each.thickness_m * each.density_kg_m3) for each in of_shape
+            ]
+            inner, outer, areal = np.array(figures).T
+            parts.append(
+                (places, made(inner, outer, areal, np.deg2rad([each.max_half_angle_deg for each in of_shape])))
+            )
+    kinds = [given.index(each) for _, each in cut]
+    return Plates(np.array([k for k, _ in cut]), np.array(kinds), parts)
+
+
+def fitted(machine: Machine, half_angle: Real) -> Machine:
+    """The machine with the radius of the counterweight that every plate comes to.
+
+    Parameters
+    ----------
+    half_angle : (P,) rad, of its plates; 0 has the radius that a first gram would have.
+    """
+    cut = plates(machine)
+    if cut is None:
+        return machine
+    mass, webs = cut.mass(half_angle), list(machine.webs)
+    fits = mass > 0.0
+    radius = np.where(fits, cut.unbalance(half_angle) / np.where(fits, mass, 1.0), cut.lever(np.zeros(mass.shape)))
+    for k, each in zip(cut.webs.tolist(), radius.tolist(), strict=True):
+        webs[k] = webs[k].model_copy(update={"counterweight_radius_m": each})
+    return machine.model_copy(update={"webs": tuple(webs)})
+
+
+def fitted_masses(machine: Machine, mass_kg: Real) -> Machine:
+    """The same for masses (K,) that are on the machine."""
+    cut = plates(machine)
+    return machine if cut is None else fitted(machine, cut.opened_for(mass_kg[cut.webs]))

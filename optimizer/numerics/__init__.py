@@ -1,0 +1,1 @@
+"""Arrays, compiled loops, circles, polynomials: what any of the rooms above counts with."""

@@ -1,0 +1,1 @@
+"""Inner loops that any room above calls."""

@@ -1,0 +1,48 @@
+"""Balance quality of the shaft: the grade reached by what deviates from its design unbalance."""
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import angle_deg
+from optimizer.mechanics.balance_quality import in_planes, permissible_unbalance, plane_shares
+from optimizer.mechanics.inertia import Wrench, counterweights
+from optimizer.numerics.arrays import Complex
+from schemas.balance_quality import BalanceQuality, GradeReached, Grading, PlaneUnbalance
+
+
+def balance_quality(scene: Prepared, unbalance: Complex | None) -> GradeReached | None:
+    """Of one machine, without and with counterweights (webs,) kg m; None where nothing is asked of it."""
+    asked = scene.machine.balance_quality
+    if asked is None:
+        return None
+    # of the crankshaft alone: balance shafts are rotors of their own
+    shaft = scene.simulated.first_order
+    fitted = None if unbalance is None else shaft.plus(counterweights(scene.layout, unbalance))
+    return GradeReached(
+        permissible_kg_m=float(_permissible(scene, asked)),
+        before=_grading(scene, asked, shaft),
+        after=None if fitted is None else _grading(scene, asked, fitted),
+    )
+
+
+def _permissible(scene: Prepared, asked: BalanceQuality) -> float:
+    """kg m."""
+    return float(permissible_unbalance(1e-3 * asked.grade_mm_s, asked.mass_kg, scene.layout.omega))
+
+
+def _grading(scene: Prepared, asked: BalanceQuality, wrench: Wrench) -> Grading:
+    """Of the first order over omega^2 that turns with the shaft, half of every reciprocating mass with its crank."""
+    plane = float(scene.layout.reference_plane)
+    places = (asked.plane_a_m, asked.plane_b_m)
+    found = in_planes(wrench.force.co, wrench.moment.co, *(place - plane for place in places))
+    shares = plane_shares(asked.centre_of_mass_m, *places)
+    permissible = [float(share) * _permissible(scene, asked) for share in shares]
+    sizes = [float(np.abs(one)) for one in found]
+    first, second = (
+        PlaneUnbalance(
+            position_m=place, permissible_kg_m=most, unbalance_kg_m=size, angle_deg=float(angle_deg(np.asarray(one)))
+        )
+        for place, most, size, one in zip(places, permissible, sizes, found, strict=True)
+    )
+    reached = max(size / most for size, most in zip(sizes, permissible, strict=True))
+    return Grading(grade_mm_s=asked.grade_mm_s * reached, plane_a=first, plane_b=second)

@@ -1,0 +1,76 @@
+"""Balance rates of the throws: how much of its own crank each pair of webs balances."""
+
+from cmath import isnan
+from typing import NamedTuple
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.balance_rate import balance_rates, customary
+from optimizer.mechanics.crank_of_web import shares
+from optimizer.mechanics.layout import stacked
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.output import Columns, Output
+from schemas.answers import BalanceRate
+from schemas.machine import Machine
+from schemas.outputs import labels
+from schemas.reciprocating import ReciprocatingMachine
+
+
+class Cranks(NamedTuple):
+    """Rotating unbalance of the throws, and which webs are theirs; of one machine, or of many with leading axes."""
+
+    rotating: Complex  # (..., throws) kg m, with the rotating shares of the rods
+    shares: Real  # (..., throws, webs)
+
+    def rates(self, unbalance: Complex) -> Complex:
+        """Balance rate and, imaginary, its sideways part (..., throws), with counterweights (..., webs) kg m."""
+        return balance_rates(self.rotating, self.shares, unbalance)
+
+    @property
+    def customary(self) -> Complex:
+        """Counterweights (..., webs) kg m of a uniform rate of 1."""
+        return customary(self.rotating, self.shares)
+
+
+def cranks(machine: ReciprocatingMachine) -> Cranks:
+    """Throws of a machine and their webs; its fields may hold columns (n,)."""
+    masses = [throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows) for throw in machine.throws]
+    radii = stacked([throw.crank_radius_m for throw in machine.throws])
+    crank = direction(stacked([throw.crank_angle_deg for throw in machine.throws]))
+    return Cranks(stacked(masses) * radii * crank, shares(machine))
+
+
+def balance_rate(machine: Machine, unbalance: Complex | None) -> tuple[BalanceRate, ...]:
+    """Balance rates with counterweights (webs,) kg m; none without counterweights to show, or without throws."""
+    if unbalance is None or not isinstance(machine, ReciprocatingMachine):
+        return ()
+    rates = cranks(machine).rates(unbalance)
+    return tuple(
+        BalanceRate(
+            throw=number,
+            name=throw.name,
+            rate=None if isnan(rate) else rate.real + 0.0,
+            sideways=None if isnan(rate) else rate.imag + 0.0,
+        )
+        for number, (throw, rate) in enumerate(zip(machine.throws, rates.tolist(), strict=True))
+    )
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    machine = scene.machine
+    if not isinstance(machine, ReciprocatingMachine):
+        return {}
+    rates, found = cranks(machine).rates(unbalance), {}
+    for k, label in enumerate(labels([throw.name for throw in machine.throws])):
+        found[f"balance_rate.{label}"] = rates[..., k].real
+        found[f"balance_rate_sideways.{label}"] = rates[..., k].imag
+    return found
+
+
+BALANCE_RATE = Output(
+    "balance_rate",
+    "how much of its own crank each pair of webs balances",
+    (),
+    lambda scene, unbalance: balance_rate(scene.machine, unbalance),
+    Columns(_columns),
+)

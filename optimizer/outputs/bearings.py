@@ -1,0 +1,131 @@
+"""Main-bearing loads without and with counterweights, and the bending moment inside the shaft."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import turned
+from optimizer.mechanics.shaft import bearing_places
+from optimizer.mechanics.shaft_curves import ShaftCurves, stations
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.enclosing_circle import Circle
+from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.peaks import (
+    FLOOR_TOLERANCE,
+    bearing_and_bending_curves,
+    bearing_influence,
+    bracket,
+    of_shaft,
+    of_shaft_each,
+    one_by_one,
+)
+from optimizer.responses.curve import floors
+from optimizer.responses.piecewise_cubics import Bracket
+from schemas.drive import Bearing
+from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
+from schemas.outputs import labels
+from schemas.reciprocating import ReciprocatingMachine
+
+
+def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:
+    """Loads of the main bearings of one machine, and the bending moments of its shaft."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    planes = stations(scene.layout, bearing_places(machine))
+    found = bearing_and_bending_curves(scene, planes)
+    count = len(machine.bearings)
+    # every bearing's, and the largest of all bending moments
+    circles = [each.circle for each in floors(found.curves, FLOOR_TOLERANCE, None, one_by_one(count, planes.size))]
+    before, *fitted_too = of_shaft_each(scene, found, [None] if unbalance is None else [None, unbalance])
+    after = fitted_too[0] if fitted_too else None
+    alone = found.first(count)
+    loads = _loads(scene, alone, before, circles, None)
+    fitted = None if after is None else _loads(scene, alone, after, circles, unbalance)
+    shown = before if after is None else after
+    worst = int(np.argmax(shown.lower[count:]))
+    return MainBearings(
+        angle_deg=scene.angles,
+        shaft=scene.request.fidelity.shaft,
+        bearings=tuple(
+            MainBearing(
+                name=bearing.name,
+                position_m=bearing.position_m,
+                before=loads[k],
+                after=None if fitted is None else fitted[k],
+            )
+            for k, bearing in enumerate(machine.bearings)
+        ),
+        bending=BendingMoment(
+            position_m=tuple(planes.tolist()),
+            before_Nm=tuple(before.lower[count:].tolist()),
+            after_Nm=None if after is None else tuple(after.lower[count:].tolist()),
+            peak_Nm=float(shown.lower[count + worst]),
+            peak_bracket_Nm=(float(shown.lower[count + worst]), float(np.max(shown.upper[count:]))),
+            peak_position_m=float(planes[worst]),
+            floor_Nm=max(circle.radius for circle in circles[count:]) * scene.omega_squared,
+        ),
+    )
+
+
+def _loads(
+    scene: Prepared, found: ShaftCurves, peak: Bracket, circles: Sequence[Circle], unbalance: Complex | None
+) -> tuple[BearingLoad, ...]:
+    """Loads of the bearings of one machine, by their curves, without or with counterweights (webs,) kg m."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    bearings = machine.bearings
+    square, turn = scene.omega_squared, np.deg2rad(scene.angle_deg)
+    offset = found.offsets(unbalance)
+    _, loads = scene.results["shaft_loads"]
+    # the webs come last
+    samples = bearing_influence(scene)[:, : len(loads)] @ loads
+    samples = samples + offset[:, None] * turned(scene.layout.sense, turn) * square
+    centre = (np.array([circle.centre for circle in circles[: len(bearings)]]) + offset) * square
+    rms = np.sqrt(found.curves.variance + np.abs(found.curves.mean + offset) ** 2) * square
+    return tuple(
+        BearingLoad(
+            force_x_N=tuple(one.real.tolist()),
+            force_y_N=tuple(one.imag.tolist()),
+            peak_N=float(peak.lower[k]),
+            peak_bracket_N=bracket(peak, k),
+            peak_angle_deg=float(np.rad2deg(peak.angle[k])),
+            specific_load_Pa=_over_area(float(peak.lower[k]), bearings[k]),
+            rms_N=float(rms[k]),
+            floor_N=float(circles[k].radius * square),
+            circle_x_N=float(centre[k].real),
+            circle_y_N=float(centre[k].imag),
+        )
+        for k, one in enumerate(samples)
+    )
+
+
+def _over_area(load: float, bearing: Bearing) -> float | None:
+    """Specific load, Pa; None where the machine does not say how large the bearing is."""
+    if bearing.diameter_m is None or bearing.length_m is None:
+        return None
+    return load / (bearing.diameter_m * bearing.length_m)
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has bearings
+    curves = bearing_and_bending_curves(scene, stations(scene.layout, bearing_places(machine)))
+    # the largest bending moment alone; the bearings one by one
+    count = len(machine.bearings)
+    peak = of_shaft(scene, curves, unbalance, one_by_one(count, curves.webs.shape[-2] - count)).lower
+    names = labels([bearing.name for bearing in machine.bearings])
+    return {
+        "peak_bearing_load_N": np.max(peak[..., :count], axis=-1),
+        "peak_bending_Nm": peak[..., count],
+        **{f"bearing_peak_N.{name}": peak[..., k] for k, name in enumerate(names)},
+    }
+
+
+MAIN_BEARINGS = Output(
+    "main_bearings",
+    "main-bearing loads and bending of the shaft",
+    ("shaft_loads", "whole_turn"),
+    main_bearings,
+    Columns(_columns, needs=("whole_turn",)),
+)

@@ -1,0 +1,320 @@
+"""Warnings of an answer: what is right as it stands and may still be taken for something else."""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from optimizer.formulation.formulate import span
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.cylinders import without_gas
+from optimizer.numerics.arrays import Complex
+from optimizer.outputs.balance_rate import cranks
+from optimizer.outputs.peaks import at_least, bearing_and_bending_curves, of_shaft
+from schemas.answers import BalanceRate, Certificate
+from schemas.base import Model
+from schemas.caution import Caution, CautionCode
+from schemas.dynamics import MainBearings
+from schemas.first_order import Residual
+from schemas.loads import Loads
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import OptimizeRequest
+from schemas.robust import Sensitivity
+from schemas.sweep import pointer
+
+#: a share of what the machine shakes with that is worth a word
+_NOTABLE = 1e-3
+#: a throw whose webs balance less than this share of its rotating mass is bare
+_BARE = 0.5
+#: webs that make the span so many times that of the throws decide it
+_FAR = 2.0
+#: loads that differ by less than this share are alike; so are the ends of a closed bracket
+_ALIKE = 1e-6
+#: an optimum of which little errors cost this share of what it gains is fragile; of a plain counterweight a degree
+#: costs 0.017 of it
+_FRAGILE = 0.5
+#: a peak that cancels to this share of what it is the sum of is rounding
+_CANCELLED = 1e-9
+
+
+@dataclass(frozen=True)
+class Told:
+    """What there is to look at."""
+
+    scene: Prepared
+    unbalance: Complex | None  # (webs,) kg m; None where there are none to show
+    fields: Mapping[str, Any]  # of the answer, by name: of its outputs
+    proven: Mapping[str, Any]  # and of what is proven of the counterweights
+
+    @cached_property
+    def sizes(self) -> tuple[float, float]:
+        """Sum of the centrifugal forces of all cranks [N], and that times the span [N m]."""
+        masses, rows = self.scene.layout.rotating, self.scene.layout.reciprocating
+        unbalance = np.add.reduce(masses.mass * masses.radius) + np.add.reduce(rows.mass * rows.crank_radius)
+        force = float(unbalance) * self.scene.omega_squared
+        return force, force * float(span(self.scene.machine))
+
+
+def cautions(
+    scene: Prepared, unbalance: Complex | None, fields: Mapping[str, Any], proven: Mapping[str, Any]
+) -> tuple[Caution, ...]:
+    """All warnings of one machine, in a fixed order.
+
+    Parameters
+    ----------
+    fields, proven : of the answer that has been made so far; what is proven only where counterweights were chosen.
+    """
+    told = Told(scene, unbalance, fields, proven)
+    return tuple(caution for watch in WATCHES for caution in watch(told))
+
+
+def _plain(value: float, digits: int = 4) -> str:
+    """Some digits without an exponent, as forces and moments are read: 107600, not 1.076e+05."""
+    return f"{float(f'{value:.{digits}g}'):.15g}"
+
+
+def _no_gas(told: Told) -> Iterator[Caution]:
+    """Rows whose loads were wanted with gas and have none."""
+    machine = told.scene.machine
+    if not isinstance(machine, ReciprocatingMachine) or "piston_force" not in told.scene.simulated.times_ms:
+        return
+    rows = without_gas(machine)
+    if rows:
+        who = "1 row has no cylinder: its" if len(rows) == 1 else f"{len(rows)} rows have no cylinder: their"
+        yield Caution(
+            code="no_gas",
+            message=f"{who} loads are those of inertia and friction alone.",
+            pointer=pointer(("machine", *rows[0])),
+        )
+
+
+def _crosshead_lifts(told: Told) -> Iterator[Caution]:
+    """Rows whose side force carries the crosshead to the upper guide, from which it falls at the dead centres."""
+    loads: Loads | None = told.fields.get("loads")
+    for row in () if loads is None else loads.rows:
+        if row.guide is not None and row.guide.lifts:
+            weight, up = row.guide.weight_N, row.guide.weight_N - row.guide.smallest_N
+            yield Caution(
+                code="crosshead_lifts",
+                message=f"The crosshead of this row leaves its lower guide over {100.0 * row.guide.lifted_share:.0f} % "
+                f"of the turn: a side force of up to {_plain(up)} N against a weight of {_plain(weight)} N.",
+                pointer=pointer(("machine", "throws", row.throw, "rows", row.row)),
+            )
+
+
+def _second_order(told: Told) -> Iterator[Caution]:
+    """What counterweights on the shaft cannot change, where it is more than what they leave."""
+    shafts = told.scene.layout.balance
+    remedy = "no counterweight on the crank changes it."
+    if shafts is not None:
+        remedy = "balance shafts at twice the speed could change it."
+    if shafts is not None and np.any(np.abs(shafts.ratio) == 2.0):
+        remedy = "ask for all orders, so that the balance shafts at twice the speed count."
+        request = told.scene.request
+        if not isinstance(request, OptimizeRequest) or request.objective.orders == "all":
+            remedy = "that is what the balance shafts at twice the speed leave."
+    residual: Residual | None = told.fields.get("residual")
+    first, second = (None, None) if residual is None or residual.orders.after is None else residual.orders.after
+    if residual is None or first is None or second is None:
+        return
+    force, moment = told.sizes
+    for what, left, twice, size, unit in (
+        ("force", first.force.peak_N, second.force.peak_N, force, "N"),
+        ("moment", first.moment.peak_Nm, second.moment.peak_Nm, moment, "N m"),
+    ):
+        if twice > left and twice > _NOTABLE * size:
+            yield Caution(
+                code="second_order_remains",
+                message=f"A {what} of {_plain(twice)} {unit} remains at twice the shaft speed, more than the "
+                f"{_plain(left)} {unit} at the speed itself: {remedy}",
+                pointer="/machine/throws",
+            )
+
+
+def _bare_crank(told: Told) -> Iterator[Caution]:
+    """External balance alone leaves the bearings to carry the rotating masses."""
+    request, machine = told.scene.request, told.scene.machine
+    if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
+        return
+    goal = request.objective
+    if told.unbalance is None or not machine.webs or goal.of_the_shaft:
+        return
+    rates: tuple[BalanceRate, ...] = told.fields["balance_rate"]
+    bare = [(each.rate, each.throw) for each in rates if each.rate is not None and each.rate < _BARE]
+    if bare:
+        rate, least = min(bare)
+        name = machine.throws[least].name or str(least + 1)
+        yield Caution(
+            code="bare_crank",
+            message=f"{len(bare)} of {len(machine.throws)} throws have less than half of their rotating mass balanced "
+            f"by their own webs (throw {name}: {rate:.2f}). What leaves the machine needs no more, but "
+            "its main bearings carry the rest: ask for main_bearings, or weigh them.",
+            pointer="/objective",
+        )
+
+
+def _component_grows(told: Told) -> Iterator[Caution]:
+    """A component across the shaft that counterweights make larger."""
+    residual: Residual | None = told.fields.get("residual")
+    if residual is None or residual.after is None:
+        return
+    was, now, sizes = residual.before, residual.after, told.sizes
+    for what, unit, size, pairs in (
+        ("force", "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
+                                          "y": (was.force.peak_y_N, now.force.peak_y_N)}),
+        ("moment", "N m", sizes[1], {"x": (was.moment.peak_x_Nm, now.moment.peak_x_Nm),
+                                               "y": (was.moment.peak_y_Nm, now.moment.peak_y_Nm)}),
+    ):  # fmt: skip
+        for axis, (before, after) in pairs.items():
+            if after > before + _NOTABLE * size:
+                yield Caution(
+                    code="component_grows",
+                    message=f"The {what} along {axis} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
+                    "that direction more if it matters.",
+                    pointer=f"/objective/direction_weights/{axis}",
+                )
+
+
+def _far_web(told: Told) -> Iterator[Caution]:
+    """A default weight of the moment that a web far from the throws decides."""
+    request, machine = told.scene.request, told.scene.machine
+    if not isinstance(request, OptimizeRequest) or not isinstance(machine, ReciprocatingMachine):
+        return
+    if request.objective.moment_weight is not None or not machine.webs:
+        return
+    planes = [throw.position_m for throw in machine.throws]
+    own, whole = max(planes) - min(planes), float(span(machine))
+    if own > 0.0 and whole > _FAR * own:
+        middle = 0.5 * (max(planes) + min(planes))
+        far = max(range(len(machine.webs)), key=lambda k: abs(machine.webs[k].position_m - middle))
+        yield Caution(
+            code="span_of_a_far_web",
+            message=f"The moment is weighed with the span {_plain(whole)} m of throws and webs, which web "
+            f"{machine.webs[far].name} makes {_plain(whole / own)} times that of the throws: give moment_weight.",
+            pointer=f"/machine/webs/{far}/position_m",
+        )
+
+
+def _loads_grow(told: Told) -> Iterator[Caution]:
+    """Bearing loads or bending moments above those of the bare or of the customary crank."""
+    scene, machine = told.scene, told.scene.machine
+    shown: MainBearings | None = told.fields.get("main_bearings")
+    if shown is None or told.unbalance is None or not isinstance(machine, ReciprocatingMachine) or not machine.webs:
+        return
+    stations, count = np.array(shown.bending.position_m), len(machine.bearings)
+    curves = bearing_and_bending_curves(scene, stations)
+    customary = cranks(machine).customary
+    before = np.array([*(one.before.peak_N for one in shown.bearings), *shown.bending.before_Nm])
+    after = np.array([*(one.after.peak_N for one in shown.bearings if one.after), *(shown.bending.after_Nm or ())])
+    kinds: tuple[tuple[CautionCode, str, str, slice], ...] = (
+        ("bearing_load_grows", "bearing load", "N", slice(0, count)),
+        ("bending_moment_grows", "bending moment", "N m", slice(count, None)),
+    )
+    largest = [tuple(float(np.max(each[some])) for *_, some in kinds) for each in (after, before)]
+    usual = np.array([np.max(at_least(scene, curves, customary)[some]) for *_, some in kinds])
+    if np.any(usual < largest[0]):
+        usual = of_shaft(scene, curves, customary, np.minimum(np.arange(after.size) // count, 1)).lower
+    for (code, what, unit, _), now, bare, of_usual in zip(kinds, *largest, usual.tolist(), strict=True):
+        for than, of in ((bare, "without counterweights"), (of_usual, "of a crank balanced throw by throw")):
+            if now > than * (1.0 + _ALIKE):
+                yield Caution(
+                    code=code,
+                    message=f"The largest {what} is {_plain(now)} {unit}, above the {_plain(than)} {unit} {of}.",
+                    pointer="/objective" if isinstance(scene.request, OptimizeRequest) else "/counterweights",
+                )
+
+
+def _not_closed(told: Told) -> Iterator[Caution]:
+    """Peaks over the turn of which less is proven than a designer takes for granted."""
+    force, moment = told.sizes
+    for output, field in told.fields.items():
+        if not isinstance(field, Model) or not _bracketed(field.__class__):
+            continue
+        for unit, size in (("N", force), ("Nm", moment)):
+            brackets = [found for name, found in _values(field) if name.endswith(f"_bracket_{unit}")]
+            wide = [found for found in brackets if _width(found) > _ALIKE * max(np.abs(found))]
+            if not wide:
+                continue
+            # of the same unit: what cancels between rows or bearings is as large in each of them
+            most = max(float(np.max(np.abs(found), initial=size)) for name, found in _values(field) if _of(name, unit))
+            open_ = [found for found in wide if _width(found) > _CANCELLED * most]
+            if open_:
+                low, high = max(open_, key=_width)
+                yield Caution(
+                    code="peak_not_closed",
+                    message=f"A peak of {output} is proven only to lie between {_plain(low, 7)} and {_plain(high, 7)} "
+                    f"{_SPOKEN[unit]}: it is too steep to be followed further.",
+                    pointer="/machine",
+                )
+
+
+_SPOKEN = {"N": "N", "Nm": "N m"}
+
+
+def _width(bracket: Sequence[float]) -> float:
+    return bracket[1] - bracket[0]
+
+
+@cache
+def _bracketed(model: type[Model]) -> bool:
+    """Whether there are brackets anywhere in a model; most answers hold none, and are not looked through."""
+    return "_bracket_" in str(model.model_json_schema())
+
+
+def _of(name: str, unit: str) -> bool:
+    return name.endswith(f"_{unit}")
+
+
+def _values(field: Any) -> Iterator[tuple[str, Any]]:
+    """Names and contents of all fields of numbers in the models of an answer."""
+    if isinstance(field, Model):
+        for name in type(field).model_fields:
+            content = getattr(field, name)
+            if isinstance(content, float) or (isinstance(content, tuple) and content and isinstance(content[0], float)):
+                yield name, content
+            else:
+                yield from _values(content)
+    elif isinstance(field, tuple):
+        for item in field:
+            yield from _values(item)
+
+
+def _fragile(told: Told) -> Iterator[Caution]:
+    """Counterweights of which little errors cost much of what they gain."""
+    certificate: Certificate | None = told.proven.get("certificate")
+    sensitivity: Sensitivity | None = told.proven.get("sensitivity")
+    if certificate is None or sensitivity is None:
+        return
+    request = told.scene.request
+    stated = isinstance(request, OptimizeRequest) and request.tolerances is not None
+    gain = certificate.objective_without_counterweights - certificate.objective
+    for what, rise in (
+        ("One degree", sensitivity.objective_rise_per_deg),
+        ("One per cent of mass", sensitivity.objective_rise_per_percent),
+    ):
+        if gain > 0.0 and rise > _FRAGILE * gain:
+            yield Caution(
+                code="fragile_optimum",
+                message=f"{what} on all counterweights together may cost {_plain(rise)} of the {_plain(gain)} that "
+                "they gain: large ones balance one another."
+                + ("" if stated else " State tolerances, and what is best in their worst case is found."),
+                pointer="/tolerances" if stated else "/objective",
+            )
+            return
+
+
+#: what is looked at, in the order of the answer
+Watch = Callable[[Told], Iterator[Caution]]
+WATCHES: tuple[Watch, ...] = (
+    _no_gas,
+    _crosshead_lifts,
+    _second_order,
+    _bare_crank,
+    _component_grows,
+    _far_web,
+    _loads_grow,
+    _not_closed,
+    _fragile,
+)

@@ -1,0 +1,21 @@
+"""Columns in detail, by output; names, units and meanings are declared in :mod:`schemas.details`.
+
+What a single answer has of every bearing, row and load case, worked out in a sweep only where it is asked for.
+"""
+
+from optimizer.outputs.details.bearings import BEARINGS
+from optimizer.outputs.details.first_order import FIRST_ORDER
+from optimizer.outputs.details.loads import LOADS
+from optimizer.outputs.details.rows import FLYWHEEL, GAS, PISTONS, RODS, TORQUE
+from optimizer.outputs.output import Columns
+
+DETAILED: dict[str, tuple[Columns, ...]] = {
+    "residual": FIRST_ORDER,
+    "gas": GAS,
+    "piston_force": PISTONS,
+    "rod_loads": RODS,
+    "torque": TORQUE,
+    "flywheel": FLYWHEEL,
+    "loads": LOADS,
+    "main_bearings": BEARINGS,
+}

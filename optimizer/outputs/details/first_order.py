@@ -1,0 +1,26 @@
+"""First-order force and moment in detail."""
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
+from optimizer.outputs.output import Columns
+from schemas.details import keys_of
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    wrench = scene.first_order(unbalance)
+    found: dict[str, Real] = {}
+    for quantity, unit, pair in (("force", "N", wrench.force), ("moment", "Nm", wrench.moment)):
+        found |= {
+            f"{quantity}_minor_{unit}": pair.minor,
+            f"{quantity}_peak_x_{unit}": pair.peak_along(np.asarray(1.0 + 0j)),
+            f"{quantity}_peak_y_{unit}": pair.peak_along(np.asarray(1j)),
+            f"{quantity}_co_rotating_{unit}": np.abs(pair.co),
+            f"{quantity}_counter_rotating_{unit}": np.abs(pair.counter),
+        }
+    return found
+
+
+FIRST_ORDER = (Columns(_columns, needs=FIRST_ORDER_EFFECTS, keys=keys_of("residual")),)

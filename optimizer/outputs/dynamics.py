@@ -1,0 +1,336 @@
+"""Dynamics as answers: series of every row, and what they come to together."""
+
+from collections.abc import Iterator, Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.row_series import Reading
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.peaks import Extremes, bracket, largest_of_rows, of_rows, of_torque
+from schemas.details import Case
+from schemas.dynamics import (
+    Chamber,
+    Flywheel,
+    Gas,
+    Kinematics,
+    LoadCase,
+    Overturning,
+    PistonForce,
+    RodLoads,
+    RowGas,
+    RowMotion,
+    RowOverturning,
+    RowPistonForce,
+    RowRodLoads,
+    RowTorque,
+    Torque,
+)
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.throws import row_cylinders
+
+_SIDES: tuple[Literal["head", "crank"], ...] = ("head", "crank")
+
+
+def kinematics(scene: Prepared, _fitted: Complex | None = None) -> Kinematics:
+    """Motion of every row."""
+    found = scene.results["kinematics"]
+    own = np.mod(np.rad2deg(found.crank_angle), 360.0)
+    return Kinematics(
+        angle_deg=scene.angles,
+        rows=tuple(
+            RowMotion(
+                **labels,
+                crank_angle_deg=_series(own[k]),
+                displacement_m=_series(found.displacement[k]),
+                velocity_m_s=_series(found.velocity[k]),
+                acceleration_m_s2=_series(found.acceleration[k]),
+            )
+            for k, labels in rows_of(scene)
+        ),
+    )
+
+
+def _indicated_power(scene: Prepared) -> Real:
+    power: Real = np.sum(scene.results["gas"].power, axis=-1)
+    return power
+
+
+def gas(scene: Prepared, _fitted: Complex | None = None) -> Gas:
+    """Gas of every row."""
+    cycle, motion = scene.results["gas"], scene.results["kinematics"]
+    total, force = cycle.forces.total, cycle.forces.force
+
+    assert isinstance(scene.machine, ReciprocatingMachine)  # of the kinematics
+    # a row without a cylinder has two sides without area
+    names = [
+        [getattr(one, "name", None) for _, one in row_cylinders(row)] or [None]
+        for throw in scene.machine.throws
+        for row in throw.rows
+    ]
+
+    def chamber(k: int, side: int, names: Sequence[str | None]) -> Chamber:
+        opens = (np.rad2deg(angles[k, side]) for angles in cycle.opens)
+        suction, discharge = (None if np.isnan(angle) else float(angle) for angle in opens)
+        return Chamber(
+            side=_SIDES[side % 2],
+            cylinder=side // 2,
+            name=names[side // 2],
+            pressure_Pa=_series(cycle.forces.pressure[k, side]),
+            force_N=_series(force[k, side]),
+            suction_opens_deg=suction,
+            discharge_opens_deg=discharge,
+            indicated_work_J=float(scene.results["indicated_work"][k, side]),
+        )
+
+    return Gas(
+        angle_deg=scene.angles,
+        rows=tuple(
+            RowGas(
+                **labels,
+                chambers=tuple(chamber(k, side, names[k]) for side in range(2 * len(names[k]))),
+                displacement_m=_series(motion.displacement[k]),
+                force_N=_series(total[k]),
+                indicated_power_W=float(cycle.power[k]),
+            )
+            for k, labels in rows_of(scene)
+        ),
+        indicated_power_W=float(_indicated_power(scene)),
+    )
+
+
+def piston_force(scene: Prepared, _fitted: Complex | None = None) -> PistonForce:
+    """Gas, inertia and friction on every piston."""
+    found, peaks = scene.results["piston_force"], of_rows(scene, "piston")
+    return PistonForce(
+        angle_deg=scene.angles,
+        rows=tuple(
+            RowPistonForce(
+                **labels,
+                gas_N=_series(found.gas[k]),
+                inertia_N=_series(found.inertia[k]),
+                friction_N=_series(found.friction[k]),
+                total_N=_series(found.total[k]),
+                peak_tension_N=float(peaks.high.lower[k]),
+                peak_tension_bracket_N=bracket(peaks.high, k),
+                peak_compression_N=-float(peaks.low.lower[k]),
+                peak_compression_bracket_N=_negated(bracket(peaks.low, k)),
+            )
+            for k, labels in rows_of(scene)
+        ),
+    )
+
+
+#: rod force of every load case (design calculation of the 2D12, section 2.5)
+CASES: dict[Case, Reading] = {"running": "rod", "no_load": "rod_without_gas", "sudden_stop": "rod_at_rest"}
+
+
+def rod_loads(scene: Prepared, _fitted: Complex | None = None) -> RodLoads:
+    """Forces in the mechanism, and the load cases of every rod."""
+    found = scene.results["rod_forces"]
+    rod, side, tangential, radial = found.rod, found.side, found.tangential, found.radial
+    by_case = {case: of_rows(scene, reading) for case, reading in CASES.items()}
+    on_guide = of_rows(scene, "side").magnitude
+    rows = []
+    for k, labels in rows_of(scene):
+        cases = tuple(_case(case, peaks, k) for case, peaks in by_case.items())
+        worst = max(cases, key=_largest)
+        rows.append(
+            RowRodLoads(
+                **labels,
+                rod_N=_series(rod[k]),
+                side_N=_series(side[k]),
+                tangential_N=_series(tangential[k]),
+                radial_N=_series(radial[k]),
+                peak_side_N=float(on_guide.lower[k]),
+                peak_side_bracket_N=bracket(on_guide, k),
+                cases=cases,
+                governing_case=worst.case,
+                governing_load_N=_largest(worst),
+            )
+        )
+    return RodLoads(
+        angle_deg=scene.angles,
+        rows=tuple(rows),
+        governing_load_N=max((row.governing_load_N for row in rows), default=0.0),
+    )
+
+
+def _shaft_power(scene: Prepared) -> Real:
+    power: Real = scene.results["torque_integrals"].mean * scene.layout.omega
+    return power
+
+
+def torque(scene: Prepared, _fitted: Complex | None = None) -> Torque:
+    """Torque over the turn and its integrals."""
+    found, integrals = scene.results["torque"], scene.results["torque_integrals"]
+    errors, shaft_power = scene.results["torque_errors"], _shaft_power(scene)
+    peak = of_torque(scene, found.rotating_friction)
+    radius = scene.layout.reciprocating.crank_radius
+    one_radius = radius.size > 0 and bool(np.all(radius == radius[0]))
+    return Torque(
+        angle_deg=scene.angles,
+        rows=tuple(
+            RowTorque(**labels, torque_Nm=_series(found.rows[k]), mean_torque_Nm=float(integrals.row_mean[k]))
+            for k, labels in rows_of(scene)
+        ),
+        rotating_friction_Nm=float(found.rotating_friction),
+        torque_Nm=_series(found.total),
+        tangential_N=_series(found.total / radius[0]) if one_radius else None,
+        peak_Nm=float(peak.lower),
+        peak_bracket_Nm=bracket(peak),
+        peak_angle_deg=float(np.rad2deg(peak.angle)),
+        mean_torque_Nm=float(integrals.mean),
+        mean_torque_error_Nm=float(errors.mean),
+        indicated_power_W=float(integrals.indicated_power),
+        friction_power_W=float(integrals.friction_power),
+        shaft_power_W=float(shaft_power),
+        fluctuation_energy_J=float(integrals.fluctuation),
+        fluctuation_energy_error_J=float(errors.fluctuation),
+    )
+
+
+def flywheel(scene: Prepared, _fitted: Complex | None = None) -> Flywheel:
+    """Irregularity and inertia, J and MD^2 both; the source prints the latter as the former."""
+    found = scene.results["flywheel"]
+    return Flywheel(
+        fluctuation_energy_J=float(scene.results["torque_integrals"].fluctuation),
+        irregularity=float(found.irregularity),
+        inertia_J_kg_m2=float(found.inertia),
+        inertia_MD2_kg_m2=4.0 * float(found.inertia),
+    )
+
+
+def overturning(scene: Prepared, _fitted: Complex | None = None) -> Overturning:
+    """Overturning couple on the frame."""
+    rows = scene.results["rod_forces"].overturning
+    total, peak = np.sum(rows, axis=-2), of_torque(scene)
+    return Overturning(
+        angle_deg=scene.angles,
+        rows=tuple(RowOverturning(**labels, couple_Nm=_series(rows[k])) for k, labels in rows_of(scene)),
+        couple_Nm=_series(total),
+        peak_Nm=float(peak.lower),
+        peak_bracket_Nm=bracket(peak),
+        peak_angle_deg=float(np.rad2deg(peak.angle)),
+    )
+
+
+def rows_of(scene: Prepared) -> Iterator[tuple[int, dict[str, Any]]]:
+    """Number of every row, and its labels."""
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # no other has effects over the turn
+    places = [(t, i, row.name) for t, throw in enumerate(machine.throws) for i, row in enumerate(throw.rows)]
+    for number, (t, i, name) in enumerate(places):
+        yield number, {"throw": t, "row": i, "name": name}
+
+
+def _series(values: Real) -> tuple[float, ...]:
+    return tuple(values.tolist())
+
+
+def _case(case: Case, peaks: Extremes, k: int) -> LoadCase:
+    return LoadCase(
+        case=case,
+        tension_N=max(float(peaks.high.lower[k]), 0.0),
+        tension_bracket_N=_pull(bracket(peaks.high, k)),
+        tension_deg=float(np.rad2deg(peaks.high.angle[k])),
+        compression_N=0.0 - max(float(peaks.low.lower[k]), 0.0),
+        compression_bracket_N=_negated(_pull(bracket(peaks.low, k))),
+        compression_deg=float(np.rad2deg(peaks.low.angle[k])),
+    )
+
+
+def _pull(found: tuple[float, float]) -> tuple[float, float]:
+    """0 where there is none."""
+    return max(found[0], 0.0), max(found[1], 0.0)
+
+
+def _negated(found: tuple[float, float]) -> tuple[float, float]:
+    # no -0.0
+    return 0.0 - found[1], 0.0 - found[0]
+
+
+def _largest(case: LoadCase) -> float:
+    return max(case.tension_N, -case.compression_N)
+
+
+def _gas_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"indicated_power_W": _indicated_power(scene)}
+
+
+def _piston_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"peak_piston_force_N": largest_of_rows(scene, "piston").lower}
+
+
+def _rod_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"peak_rod_load_N": np.max([largest_of_rows(scene, reading).lower for reading in CASES.values()], axis=0)}
+
+
+def _torque_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    integrals, friction = scene.results["torque_integrals"], scene.results.get("friction")
+    return {
+        "mean_torque_Nm": integrals.mean,
+        "peak_torque_Nm": of_torque(scene, 0.0 if friction is None else friction.torque).lower,
+        "fluctuation_energy_J": integrals.fluctuation,
+        "shaft_power_W": _shaft_power(scene),
+        "indicated_power_W": integrals.indicated_power,
+        "friction_power_W": integrals.friction_power,
+    }
+
+
+def _flywheel_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    found = scene.results["flywheel"]
+    return {"irregularity": found.irregularity, "inertia_J_kg_m2": found.inertia}
+
+
+def _overturning_columns(scene: Prepared, _fitted: Complex) -> dict[str, Real]:
+    return {"peak_overturning_Nm": of_torque(scene).lower}
+
+
+OVER_THE_TURN = (
+    Output("kinematics", "motion of every row", ("kinematics",), kinematics),
+    Output(
+        "gas",
+        "pressures and gas forces of every row, indicated power",
+        ("kinematics", "gas", "indicated_work"),
+        gas,
+        Columns(_gas_columns),
+    ),
+    Output(
+        "piston_force",
+        "gas, inertia and friction on every piston",
+        ("piston_force", "whole_turn"),
+        piston_force,
+        Columns(_piston_columns, needs=("whole_turn",)),
+    ),
+    Output(
+        "rod_loads",
+        "forces on rod, guide and crank pin; load cases",
+        ("rod_forces", "whole_turn"),
+        rod_loads,
+        Columns(_rod_columns, needs=("whole_turn",)),
+    ),
+    Output(
+        "torque",
+        "torque over the turn, its mean, powers, fluctuation energy",
+        ("torque", "torque_integrals", "torque_errors", "whole_turn"),
+        torque,
+        Columns(_torque_columns, needs=("friction", "torque_integrals", "whole_turn")),
+    ),
+    Output(
+        "flywheel",
+        "irregularity of the speed and inertia",
+        ("torque_integrals", "flywheel"),
+        flywheel,
+        Columns(_flywheel_columns, needs=("flywheel",)),
+    ),
+    Output(
+        "overturning",
+        "overturning couple on the frame",
+        ("rod_forces", "whole_turn"),
+        overturning,
+        Columns(_overturning_columns, needs=("whole_turn",)),
+    ),
+)

@@ -1,0 +1,151 @@
+"""First-order force and moment as ellipses, their floor, and their hodographs."""
+
+from collections.abc import Mapping, Sequence
+from functools import cache
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.balance_shafts import shaft_arms
+from optimizer.mechanics.inertia import Wrench, reciprocating
+from optimizer.mechanics.layout import Layout
+from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.phasors import orders_of, vectors_of
+from optimizer.responses.response import Phasors
+from schemas.first_order import FirstOrder, Floor, Residual
+from schemas.outputs import Hodograph, Hodographs
+from schemas.proof import BoundMultipliers
+
+#: x and y
+_AXES = np.array([1.0, 1j]).reshape(2, 1, 1)
+FIRST_ORDER_EFFECTS = ("rotating_inertia", "reciprocating_inertia")
+
+
+def first_order(wrench: Wrench) -> FirstOrder:
+    """Ellipses of force [N] and moment [N m] of one machine."""
+    return FirstOrder.model_validate(_ellipses(vectors_of([wrench]))[0])
+
+
+def floor(layout: Layout, wrench: Wrench) -> Floor:
+    """What counterweights on the shaft cannot remove: the counter-rotating phasors.
+
+    A balance shaft that turns backwards can, each by itself; the moment only outside the reference plane.
+    """
+    force, moment = (float(np.abs(pair.counter)) for pair in wrench)
+    if layout.balance is not None:
+        backwards = layout.balance.ratio == -1.0
+        force = 0.0 if backwards.any() else force
+        moment = 0.0 if (backwards & (shaft_arms(layout, layout.balance) != 0.0)).any() else moment
+    return Floor(force_N=force, moment_Nm=moment)
+
+
+def peaks(wrench: Wrench) -> dict[str, Real]:
+    """Peaks of force [N] and moment [N m] as columns (...)."""
+    return {"force_peak_N": wrench.force.peak, "moment_peak_Nm": wrench.moment.peak}
+
+
+def smallest_peaks(value: Mapping[str, float], bound: Mapping[str, float]) -> dict[str, float]:
+    """Fields of the smallest peaks by themselves [N], [N m], and of their bounds, from those by response."""
+    return {
+        "smallest_force_N": value["force"],
+        "smallest_moment_Nm": value["moment"],
+        "smallest_force_lower_bound_N": bound["force"],
+        "smallest_moment_lower_bound_Nm": bound["moment"],
+    }
+
+
+def smallest_proofs(proofs: Mapping[str, BoundMultipliers]) -> dict[str, BoundMultipliers]:
+    """Fields of the proofs of those bounds."""
+    return {"smallest_force": proofs["force"], "smallest_moment": proofs["moment"]}
+
+
+def residual(scene: Prepared, unbalance: Complex | None) -> Residual:
+    """First order of one machine without and with counterweights, and the second beside it."""
+    shown = [scene.first_order()] if unbalance is None else [scene.first_order(), scene.first_order(unbalance)]
+    second = _second_order(scene, [False] if unbalance is None or scene.shafts is None else [False, True])
+    vectors = vectors_of([*shown, *second])
+    told = orders_of([1] * len(shown) + [2] * len(second), vectors)
+    first, twice, ellipses = told[: len(shown)], told[len(shown) :], _ellipses(vectors[: len(shown)])
+    # one validation of the whole takes a third of the time of one of each part
+    return Residual.model_validate(
+        {
+            "before": ellipses[0],
+            "after": None if unbalance is None else ellipses[1],
+            "orders": {
+                "before": (first[0], twice[0] if twice else None),
+                "after": None if unbalance is None else (first[1], twice[-1] if twice else None),
+            },
+        }
+    )
+
+
+def _second_order(scene: Prepared, with_shafts: Sequence[bool]) -> list[Wrench]:
+    """Second order of one machine, which balance shafts alone change, without and with them; none where a row has no
+    rod."""
+    if np.isnan(scene.layout.reciprocating.rod_ratio).any():
+        return []
+    harmonic = acceleration_harmonic if scene.request.fidelity.kinematics == "exact" else acceleration_harmonic_order_2
+    own, square = reciprocating(scene.layout, 2, harmonic), scene.layout.omega**2
+    return [(scene.with_shafts(own, 2) if turning else own).times(square) for turning in with_shafts]
+
+
+def hodographs(scene: Prepared, unbalance: Complex | None) -> Hodographs:
+    """First order of one machine over the turn."""
+    turned = scene.layout.sense * np.deg2rad(scene.first_turn_deg)
+    return Hodographs(
+        angle_deg=tuple(scene.first_turn_deg.tolist()),
+        before=_hodograph(scene.first_order(), turned),
+        after=None if unbalance is None else _hodograph(scene.first_order(unbalance), turned),
+    )
+
+
+def _hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
+    """Force [N] and moment [N m] at the shaft angles s*theta (n,)."""
+    force, moment = wrench.force.at(angle_rad), wrench.moment.at(angle_rad)
+    return Hodograph(
+        force_x_N=tuple(force.real.tolist()),
+        force_y_N=tuple(force.imag.tolist()),
+        moment_x_Nm=tuple(moment.real.tolist()),
+        moment_y_Nm=tuple(moment.imag.tolist()),
+    )
+
+
+def _ellipses(vectors: Complex) -> list[dict[str, dict[str, float]]]:
+    """Fields of the ellipses (:class:`schemas.first_order.FirstOrder`) of the phasors (n, 2, 2) of wrenches."""
+    pairs = Phasors(vectors[..., 0], vectors[..., 1])
+    along_x, along_y = pairs.peak_along(_AXES)
+    figures = {
+        "peak": pairs.peak,
+        "minor": pairs.minor,
+        "major_axis_deg": pairs.major_axis_deg,
+        "peak_x": along_x,
+        "peak_y": along_y,
+        "co_rotating": np.abs(pairs.co),
+        "counter_rotating": np.abs(pairs.counter),
+    }
+    columns = np.array([*figures.values()]).transpose(1, 2, 0).tolist()
+    return [
+        {
+            name: dict(zip((_in(figure, unit) for figure in figures), values, strict=True))
+            for (name, unit), values in zip((("force", "N"), ("moment", "Nm")), of_one, strict=True)
+        }
+        for of_one in columns
+    ]
+
+
+@cache
+def _in(figure: str, unit: str) -> str:
+    """Field of a figure in a unit."""
+    return figure if figure.endswith("_deg") else f"{figure}_{unit}"
+
+
+RESIDUAL = Output(
+    "residual",
+    "first-order force and moment, before and after",
+    FIRST_ORDER_EFFECTS,
+    residual,
+    Columns(lambda scene, unbalance: peaks(scene.first_order(unbalance))),
+)
+HODOGRAPH = Output("hodograph", "first-order force and moment over the turn", FIRST_ORDER_EFFECTS, hodographs)

@@ -1,0 +1,238 @@
+"""Loads as a designer of parts asks for them, from the forces over the turn."""
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from optimizer.effects.results import GasCycle
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import direction
+from optimizer.mechanics.gas import gas_forces
+from optimizer.mechanics.kinematics import motion, own_angle
+from optimizer.mechanics.layout import stacked
+from optimizer.mechanics.shaft import INFLUENCES, bearing_places
+from optimizer.mechanics.weight import GRAVITY, along_axis, on_guide
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.dynamics import rows_of
+from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.peaks import largest_of_rows, of_rows, of_torque
+from schemas.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
+from schemas.outputs import labels
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.throws import row_cylinders
+
+
+def _figure(scene: Prepared, fitted: Complex | None) -> Loads:
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
+    found, integrals = scene.results["torque"], scene.results["torque_integrals"]
+    beyond = found.total - integrals.mean
+    inertia = _inertia(scene, machine)
+    return Loads(
+        angle_deg=scene.angles,
+        rows=tuple(_rows(scene, machine)),
+        throws=tuple(
+            ThrowMass(throw=t, rotating_mass_kg=throw.rotating_mass_kg + sum(row.rotating_kg for row in throw.rows))
+            for t, throw in enumerate(machine.throws)
+        ),
+        driver_Nm=float(integrals.mean),
+        shared_base_Nm=tuple(beyond.tolist()),
+        own_base_peak_Nm=float(of_torque(scene, found.rotating_friction).lower),
+        shared_base_peak_Nm=float(of_torque(scene, found.rotating_friction - integrals.mean).lower),
+        # J eps is what the constant torque of the driver leaves over
+        angular_acceleration_rad_s2=None if inertia is None else tuple((-beyond / inertia).tolist()),
+        bearing_weights=tuple(_weights(scene, machine, fitted)),
+        foundation_weight_N=(
+            None if machine.stationary_mass_kg is None else float(whole_weight(scene, machine, fitted))
+        ),
+        gravity_deg=machine.gravity_deg,
+    )
+
+
+def _inertia(scene: Prepared, machine: ReciprocatingMachine) -> float | None:
+    """Polar moment of inertia of all that turns, kg m^2: as given, or what the irregularity asks for."""
+    wheel = machine.flywheel
+    if wheel is None:
+        return None
+    if wheel.inertia_kg_m2 is not None:
+        return wheel.inertia_kg_m2
+    # delta = dE / (J omega^2)
+    allowed = wheel.irregularity or np.nan
+    return float(scene.results["torque_integrals"].fluctuation / (allowed * scene.omega_squared))
+
+
+def _rows(scene: Prepared, machine: ReciprocatingMachine) -> Iterator[RowLoad]:
+    forces, masses = scene.results["piston_force"], scene.layout.reciprocating.mass
+    piston, rod, stopped = (of_rows(scene, reading).magnitude for reading in ("piston", "rod", "rod_at_rest"))
+    at_centres = at_dead_centres(scene)
+    guides = _guides(scene, machine)
+    rows = [row for throw in machine.throws for row in throw.rows]
+    for k, place in rows_of(scene):
+        three = {
+            "gas": float(np.max(np.abs(forces.gas[k]))),
+            "inertia": float(np.max(np.abs(forces.inertia[k]))),
+            "running": float(piston.lower[k]),
+        }
+        link = rows[k].connecting_rod
+        worst = max(three, key=lambda name: three[name])
+        yield RowLoad(
+            **place,
+            reciprocating_mass_kg=float(masses[k]),
+            rod_rotating_mass_kg=0.0 if link is None else float(link.rotating_kg),
+            rotating_mass_kg=float(rows[k].rotating_kg),
+            largest_gas_N=three["gas"],
+            largest_inertia_N=three["inertia"],
+            largest_piston_force_N=three["running"],
+            piston_rod_N=three[worst],
+            piston_rod_governed_by=worst,
+            crosshead_pin_N=float(rod.lower[k]),
+            stop_at_outer_dead_centre_N=float(at_centres[k, 0]),
+            stop_at_inner_dead_centre_N=float(at_centres[k, 1]),
+            stop_over_the_turn_N=float(stopped.lower[k]),
+            covers=tuple(_covers(scene, k, sum(1 for _ in row_cylinders(rows[k])))),
+            frame=_frame(forces.gas[k]),
+            guide=None if guides is None else guides[k],
+        )
+
+
+def at_dead_centres(scene: Prepared) -> Real:
+    """Gas force of every row at its own outer and inner dead centre, (..., rows, 2) N."""
+    cycle: GasCycle | None = scene.results.get("gas")
+    masses = scene.layout.reciprocating.mass
+    if cycle is None:
+        return np.zeros((*masses.shape, 2))
+    ahead = own_angle(scene.layout, np.zeros(1))[..., 0]
+    angle = np.concatenate([-ahead, np.pi - ahead], axis=-1)
+    total = gas_forces(cycle.chambers, motion(scene.layout, angle), scene.layout, cycle.traces).total
+    count = masses.shape[-1]
+    rows = np.arange(count)
+    return np.stack([total[..., rows, rows], total[..., rows, count + rows]], axis=-1)
+
+
+def _covers(scene: Prepared, k: int, cylinders: int) -> Iterator[CoverLoad]:
+    cycle: GasCycle | None = scene.results.get("gas")
+    if cycle is None:
+        return
+    outward = np.abs(cycle.forces.force[k])
+    for chamber in range(2 * cylinders):
+        low, high = float(np.min(outward[chamber])), float(np.max(outward[chamber]))
+        side = "crank" if chamber % 2 else "head"
+        yield CoverLoad(cylinder=chamber // 2, side=side, largest_N=high, smallest_N=low)
+
+
+def _frame(gas: Real) -> FrameLoad:
+    """The cylinders pull at the frame against the gas force of the pistons."""
+    low, high = float(np.min(-gas)), float(np.max(-gas))
+    return FrameLoad(
+        tension_N=max(high, 0.0),
+        compression_N=min(low, 0.0) + 0.0,
+        mean_N=0.5 * (low + high) + 0.0,
+        amplitude_N=0.5 * (high - low),
+    )
+
+
+def on_guides(scene: Prepared, machine: ReciprocatingMachine) -> tuple[Real, Real]:
+    """Forces (..., rows, T) N on the guides, and weights (..., rows) N, of a machine that says where gravity pulls."""
+    layout = scene.layout
+    down = np.asarray(direction(np.asarray(machine.gravity_deg)))
+    masses = layout.reciprocating.mass
+    return on_guide(scene.results["rod_forces"].side, layout.reciprocating.axis, layout.sense, masses, down)
+
+
+def _guides(scene: Prepared, machine: ReciprocatingMachine) -> list[GuideLoad] | None:
+    if machine.gravity_deg is None:
+        return None
+    force, weight = on_guides(scene, machine)
+    return [
+        GuideLoad(
+            weight_N=float(weight[k]),
+            largest_N=float(np.max(force[k])),
+            smallest_N=float(np.min(force[k])),
+            lifts=None if weight[k] == 0.0 else bool(np.any(force[k] < 0.0)),
+            lifted_share=0.0 if weight[k] == 0.0 else float(np.mean(force[k] < 0.0)),
+        )
+        for k in range(len(weight))
+    ]
+
+
+def _turning(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> tuple[Real, Real]:
+    """Planes [m] and masses [kg] (..., P) of all that turns with the shaft, with counterweights (..., webs) kg m."""
+    parts = [(throw.position_m, throw.rotating_mass_kg) for throw in machine.throws]
+    parts += [(throw.position_m + row.offset_m, row.rotating_kg) for throw in machine.throws for row in throw.rows]
+    parts += [(part.position_m, part.mass_kg) for part in machine.shaft_parts]
+    places, masses = (stacked(each) for each in zip(*parts, strict=True))
+    if fitted is None:
+        return places, masses
+    webs = scene.layout.webs
+    # of designs without counterweights they are nan
+    return _joined(places, webs.position), _joined(masses, np.nan_to_num(np.abs(fitted)) / webs.radius)
+
+
+def _joined(one: Any, other: Any) -> Any:
+    """Side by side on the last axis, leading axes broadcast."""
+    leading = np.broadcast_shapes(one.shape[:-1], other.shape[:-1])
+    return np.concatenate([np.broadcast_to(each, (*leading, each.shape[-1])) for each in (one, other)], axis=-1)
+
+
+def on_bearings(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Complex:
+    """Weights on the main bearings, (..., B) N, with counterweights (..., webs) kg m."""
+    places, masses = _turning(scene, machine, fitted)
+    # without a direction they have one all the same, whichever it is
+    down = direction(np.asarray(0.0 if machine.gravity_deg is None else machine.gravity_deg))
+    load = masses * GRAVITY * np.asarray(down)[..., None]
+    if machine.gravity_deg is not None:
+        rows = scene.layout.reciprocating
+        places, load = _joined(places, rows.position), _joined(load, along_axis(rows.mass, rows.axis, down))
+    influence = INFLUENCES[scene.request.fidelity.shaft](bearing_places(machine), places)
+    found: Complex = (influence @ load[..., None])[..., 0]
+    return found
+
+
+def _weights(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Iterator[BearingWeight]:
+    if not machine.bearings:
+        return
+    for bearing, weight in zip(machine.bearings, on_bearings(scene, machine, fitted).tolist(), strict=True):
+        yield BearingWeight(
+            name=bearing.name,
+            weight_N=abs(weight),
+            x_N=None if machine.gravity_deg is None else weight.real,
+            y_N=None if machine.gravity_deg is None else weight.imag,
+        )
+
+
+def whole_weight(scene: Prepared, machine: ReciprocatingMachine, fitted: Complex | None) -> Real:
+    """Weight of a machine that says what stands still on its foundation, (...) N."""
+    _, turning = _turning(scene, machine, fitted)
+    shafts = 0.0
+    if scene.layout.balance is not None and scene.shafts is not None:
+        shafts = float(np.sum(np.abs(scene.shafts) / scene.layout.balance.radius))
+    moving = np.sum(turning, axis=-1) + np.sum(scene.layout.reciprocating.mass, axis=-1) + shafts
+    return np.asarray((machine.stationary_mass_kg + moving) * GRAVITY)
+
+
+def _columns(scene: Prepared, fitted: Complex) -> dict[str, Real]:
+    machine = scene.machine
+    assert isinstance(machine, ReciprocatingMachine)  # of the kinematics
+    friction, mean = scene.results.get("friction"), scene.results["torque_integrals"].mean
+    constant = 0.0 if friction is None else friction.torque
+    found = {
+        "peak_crosshead_pin_N": largest_of_rows(scene, "rod").lower,
+        "peak_sudden_stop_N": largest_of_rows(scene, "rod_at_rest").lower,
+        "own_base_peak_Nm": of_torque(scene, constant).lower,
+        "shared_base_peak_Nm": of_torque(scene, constant - mean).lower,
+    }
+    if machine.bearings:
+        weights = np.abs(on_bearings(scene, machine, fitted))
+        names = labels([bearing.name for bearing in machine.bearings])
+        found |= {f"bearing_weight_N.{name}": weights[..., k] for k, name in enumerate(names)}
+    return found
+
+
+LOADS = Output(
+    "loads",
+    "loads on piston rod, pin, covers, frame, guides, base and bearings",
+    ("gas", "piston_force", "rod_forces", "torque", "torque_integrals", "whole_turn"),
+    _figure,
+    Columns(_columns, needs=("friction", "torque_integrals", "whole_turn")),
+)

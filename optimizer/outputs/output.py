@@ -1,0 +1,58 @@
+"""One output: what it means, what it needs, its figure in an answer and its columns in a sweep."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.numerics.arrays import Complex, Real
+
+
+@dataclass(frozen=True)
+class Columns:
+    """What an output comes to in a sweep; names, units and meanings are declared in :mod:`schemas.outputs`.
+
+    values : of a scene of designs and their counterweights (n, webs) kg m, nan where there are none; (n,) by column.
+    sampled : whether they are read off the samples of the turn.
+    needs : effects whose results they read, where the figure reads others.
+    keys : of those in detail (:mod:`schemas.details`), which are worked out only where one of them is wanted.
+    alone : whether every design is worked out by itself, as a single answer is.
+    """
+
+    values: Callable[[Prepared, Complex], Mapping[str, Real]]
+    sampled: bool = False
+    needs: tuple[str, ...] | None = None
+    keys: tuple[str, ...] = ()
+    alone: bool = False
+
+
+@dataclass(frozen=True)
+class Output:
+    """An output.
+
+    name, meaning : a word and a line.
+    needs : effects whose results it reads; others are let go before.
+    figure : its field of the answer, of a scene and the counterweights (webs,) kg m; None where there are none to show.
+    columns : of a sweep; None where a sweep cannot hold it.
+    """
+
+    name: str
+    meaning: str
+    needs: tuple[str, ...]
+    figure: Callable[[Prepared, Complex | None], Any]
+    columns: Columns | None = None
+
+    @property
+    def column_needs(self) -> tuple[str, ...]:
+        """Effects that a sweep runs for the output."""
+        if self.columns is None:
+            return ()
+        return self.needs if self.columns.needs is None else self.columns.needs
+
+
+def largest(values: Real | Complex, own: int = 2) -> Real:
+    """Largest magnitude over the last ``own`` axes, (...); 0 where there is nothing."""
+    found: Real = np.max(np.abs(values), axis=tuple(range(-own, 0)), initial=0.0)
+    return found

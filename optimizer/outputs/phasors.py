@@ -1,0 +1,52 @@
+"""Co- and counter-rotating phasors of one order as an answer holds them."""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from optimizer.mechanics.inertia import Wrench
+from optimizer.numerics.arrays import Complex
+
+
+def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
+    """Phasors (n, 2, 2) of wrenches: of force [N] and moment [N m] that which turns with the shaft and the other."""
+    vectors = [vector for wrench in wrenches for pair in wrench for vector in (pair.co, pair.counter)]
+    return np.array(vectors, dtype=complex).reshape(-1, 2, 2)
+
+
+def orders_of(numbers: Sequence[int], vectors: Complex) -> list[dict[str, Any]]:
+    """Fields of orders (:class:`schemas.outputs.Order`) of force [N] and moment [N m] of one machine.
+
+    Parameters
+    ----------
+    vectors : (n, 2, 2) of the wrenches of these orders.
+    """
+    phase = np.where(vectors == 0, 0.0, np.rad2deg(np.arctan2(vectors.imag, vectors.real)))
+    size = np.abs(vectors)
+    parts = zip(vectors.tolist(), phase.tolist(), (size[..., 0] + size[..., 1]).tolist(), strict=True)
+    return [
+        {
+            "order": number,
+            **{
+                name: {
+                    "co_rotating": _phasor(co, of_co, unit),
+                    "counter_rotating": _phasor(counter, of_counter, unit),
+                    f"peak_{unit}": peak,
+                }
+                for (name, unit), (co, counter), (of_co, of_counter), peak in zip(
+                    (("force", "N"), ("moment", "Nm")), *each, strict=True
+                )
+            },
+        }
+        for number, each in zip(numbers, parts, strict=True)
+    ]
+
+
+def _phasor(vector: complex, phase_deg: float, unit: str) -> dict[str, float]:
+    return {
+        f"real_{unit}": vector.real,
+        f"imag_{unit}": vector.imag,
+        f"magnitude_{unit}": abs(vector),
+        "phase_deg": phase_deg,
+    }

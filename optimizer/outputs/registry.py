@@ -1,0 +1,184 @@
+"""All outputs: what they need, and what they come to in an answer and in a sweep."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from types import MappingProxyType
+from typing import Any
+
+from optimizer.effects.registry import EFFECTS, closure, effects_of, rules_of
+from optimizer.errors import MissingInput
+from optimizer.formulation.simulation import Prepared, simulated, turns_over
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.balance_quality import balance_quality
+from optimizer.outputs.balance_rate import BALANCE_RATE, balance_rate
+from optimizer.outputs.bearings import MAIN_BEARINGS
+from optimizer.outputs.cautions import cautions
+from optimizer.outputs.details import DETAILED
+from optimizer.outputs.dynamics import OVER_THE_TURN
+from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
+from optimizer.outputs.internal_moment import INTERNAL_MOMENT
+from optimizer.outputs.loads import LOADS
+from optimizer.outputs.orders import ORDERS
+from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.pins import PIN_LOADS
+from optimizer.outputs.roll import ROLL
+from optimizer.outputs.stages import STAGES
+from schemas.base import FieldProblem
+from schemas.details import usual_keys
+from schemas.machine import Machine
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import Scene
+from schemas.rules import Path, Rule
+
+#: every output, in the order of the answer
+OUTPUTS: dict[str, Output] = {
+    output.name: output
+    for output in (
+        RESIDUAL,
+        BALANCE_RATE,
+        HODOGRAPH,
+        ORDERS,
+        STAGES,
+        INTERNAL_MOMENT,
+        *OVER_THE_TURN,
+        ROLL,
+        LOADS,
+        MAIN_BEARINGS,
+        PIN_LOADS,
+    )
+}
+
+#: rows and bearings times shaft angles that one answer may hold
+MAX_SAMPLES = 200_000
+
+
+def prepare(request: Scene, always: tuple[str, ...] = (), objective: tuple[str, ...] = ()) -> Prepared:
+    """Simulate what the outputs of a request call for.
+
+    Parameters
+    ----------
+    always : outputs that are needed whether they were asked for or not.
+    objective : effects that the objective needs, which the machine gives.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what an output needs.
+    """
+    outputs = dict.fromkeys((*always, *request.outputs))
+    require_inputs(request.machine, tuple(outputs), request.angles.count)
+    needs = {name: OUTPUTS[name].needs for name in outputs}
+    if objective:
+        needs["objective"] = objective
+    return simulated(request, needs, request.angles.count)
+
+
+def fields(
+    scene: Prepared,
+    unbalance: Complex | None,
+    always: tuple[str, ...] = (),
+    proven: Mapping[str, Any] = MappingProxyType({}),
+) -> dict[str, Any]:
+    """Fields of the answer for the outputs of a scene without and with counterweights.
+
+    Parameters
+    ----------
+    unbalance : (K,) kg m, the counterweights; None where there are none to show (infeasible).
+    always : outputs that are answered whether they were asked for or not.
+    proven : fields of the answer that tell what is proven of counterweights that were chosen.
+    """
+    outputs = dict.fromkeys((*always, *scene.request.outputs))
+    found = {name: OUTPUTS[name].figure(scene, unbalance) for name in outputs}
+    if all(effect in scene.results for effect in FIRST_ORDER_EFFECTS):
+        found["balance_quality"] = balance_quality(scene, unbalance)
+        found["floor"] = floor(scene.layout, scene.first_order())
+    found["balance_rate"] = balance_rate(scene.machine, unbalance)
+    found["warnings"] = cautions(scene, unbalance, found, proven)
+    return found
+
+
+def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted: frozenset[str]) -> dict[str, Real]:
+    """Columns (n,) of the outputs of many designs, as many as have any.
+
+    Parameters
+    ----------
+    request : of columns (n,), valid and complete.
+    unbalance : (n, webs) kg m, the counterweights; nan where there are none.
+    always : outputs whose columns are needed whether they were asked for or not.
+    wanted : keys of the columns that are (:func:`schemas.details.key`); what comes along beside them costs little.
+    """
+    asked = column_groups(request, always, wanted)
+    samples = request.angles.count if any(each.sampled for each in asked) else 1
+    needs = {str(k): each.needs or () for k, each in enumerate(asked)}
+    scene = simulated(request, needs, samples, unbalance.shape[:1])
+    found: dict[str, Real] = {}
+    for each in asked:
+        found |= each.values(scene, unbalance)
+    return found
+
+
+def column_groups(request: Scene, always: tuple[str, ...], wanted: frozenset[str]) -> list[Columns]:
+    """The columns of a request's outputs that are wanted, in the groups in which they are worked out."""
+    found = []
+    for name in dict.fromkeys((*always, *request.outputs)):
+        output = OUTPUTS[name]
+        keys = usual_keys(name)
+        if output.columns is not None and (not keys or not wanted.isdisjoint(keys)):
+            found.append(replace(output.columns, needs=output.column_needs))
+        found += [each for each in DETAILED.get(name, ()) if not wanted.isdisjoint(each.keys)]
+    return found
+
+
+def require_inputs(machine: Machine, outputs: Sequence[str], samples: int = 1) -> None:
+    """Check that the machine gives what the outputs need, and that not too much is asked for.
+
+    Parameters
+    ----------
+    samples : number of shaft angles asked for in one turn.
+
+    Raises
+    ------
+    MissingInput
+        naming every missing field and an output that needs it.
+    """
+    problems: dict[Path, FieldProblem] = {}
+    for broken, path, message in input_rules(machine, outputs):
+        if broken:
+            problems.setdefault(path, FieldProblem(path, message))
+    needs = [need for output in outputs for need in OUTPUTS[output].needs]
+    if "kinematics" in effects_of(needs) and _series(machine) * samples * turns_over(machine, needs) > MAX_SAMPLES:
+        path = ("angles", "step_deg")
+        message = f"rows and bearings times samples must be at most {MAX_SAMPLES}"
+        problems[path] = FieldProblem(path, message)
+    if problems:
+        raise MissingInput(problems.values())
+
+
+def input_rules(machine: Machine, outputs: Sequence[str]) -> Iterator[Rule]:
+    """What the outputs ask of a machine, whose fields may hold columns (n,); paths from the root of the request."""
+    for output, effect in _reached(machine, outputs):
+        for broken, path, message in rules_of(machine, effect):
+            yield Rule(broken, ("machine", *path), f"{message}; asked for by output '{output}'")
+
+
+def missing_inputs(machine: Machine, outputs: Sequence[str]) -> Iterator[FieldProblem]:
+    """Fields that the outputs need and the machine does not give, whatever the numbers in the others."""
+    for output, effect in _reached(machine, outputs):
+        for path, message in EFFECTS[effect].problems(machine):
+            yield FieldProblem(("machine", *path), f"{message}; asked for by output '{output}'")
+
+
+def _reached(machine: Machine, outputs: Sequence[str]) -> Iterator[tuple[str, str]]:
+    """Every effect that the outputs need, once, with the first that needs it."""
+    first: dict[str, str] = {}
+    for output in outputs:
+        for effect in closure(machine, OUTPUTS[output].needs):
+            if first.setdefault(effect, output) is output:
+                yield output, effect
+
+
+def _series(machine: Machine) -> int:
+    """Rows and bearings of a machine: so many series does an output hold."""
+    if not isinstance(machine, ReciprocatingMachine):
+        return 0
+    return sum(len(throw.rows) for throw in machine.throws) + len(machine.bearings)

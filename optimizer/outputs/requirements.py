@@ -1,0 +1,38 @@
+"""What an objective over the whole turn needs and a machine does not give, in the objective's name."""
+
+from collections.abc import Iterator
+
+from optimizer.effects.registry import problems_of
+from optimizer.formulation.goals import missing_sizes
+from optimizer.outputs.registry import OUTPUTS
+from schemas.base import FieldProblem
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import OptimizeRequest
+
+#: effects that an objective over the whole turn needs
+_TURN = ("whole_turn",)
+#: why the bending of a shaft without bearings cannot be told
+_FREE = (
+    "a free shaft bends in a known way only where its loads balance at every angle, which those of pistons never do:"
+    " give the bearings that carry them"
+)
+
+
+def effects_of_objective(request: OptimizeRequest) -> tuple[str, ...]:
+    """Effects that the objective needs of a machine, beyond the first order."""
+    return _TURN if request.objective.over_the_turn else ()
+
+
+def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
+    """Fields that the objective of one request needs and the machine does not give; paths from the request."""
+    machine, goal = request.machine, request.objective
+    if not goal.over_the_turn:
+        return
+    needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else _TURN
+    field = goal.over_the_turn[0]
+    for path, message in problems_of(machine, needs):
+        why = _FREE if path == ("bearings",) and field.startswith("bending") else message
+        yield FieldProblem(("machine", *path), f"{why}; asked for by objective.{field}")
+    specific = goal.specific_load_ceiling_Pa is not None or (goal.bearing_weight and goal.bearing_measure == "specific")
+    if specific and isinstance(machine, ReciprocatingMachine):
+        yield from missing_sizes(machine)

@@ -1,0 +1,310 @@
+"""The eight balancing stages of the slides on balancing, for any layout.
+
+What turns with the shaft can be balanced on the shaft, nothing else can. In every stage ``value`` is what the
+machine has without counterweights and ``remaining`` is what the counterweights leave of it.
+
+Superposition (stage VII of the slides) splits the phasor c of the counterweights, force and moment each for itself:
+- the rotating masses R come first: they take the part of c that is opposed to R, at most -R;
+- the rest serves the first-order reciprocating masses (A1, B1).
+With c = -q R/|R| + c', where q is Re(-c conj(R))/|R| held within [0, |R|], stages I and II keep (|R| - q) R/|R|,
+stages III and IV keep (A1 + c', B1). Their sum is the first-order residual, whatever the split; without
+counterweights every ``remaining`` equals its ``value``. Where there are webs in two planes, iron shared out in
+this way exists.
+"""
+
+from dataclasses import replace
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.angles import angle_deg
+from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, rotating
+from optimizer.mechanics.layout import Layout
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.output import Columns, Output
+from optimizer.outputs.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
+from optimizer.outputs.stage_parts import iron, of_wrench
+from optimizer.responses.response import Phasors
+from schemas.outputs import STAGE_UNITS, Stage
+from schemas.stages import Acting
+
+Balanceable = Literal["fully", "partly", "no"]
+
+#: what is smaller than this share of the machine's scale is not worth a word in the summary
+_NEGLIGIBLE = 1e-5
+#: share of the machine's scale that is rounding
+_ROUNDING = 1e-13
+
+
+class _Heading(NamedTuple):
+    stage: Literal["I", "II", "III", "IV", "V", "VI", "VII", "VIII"]
+    title: str
+    quantity: str
+    formula: str
+    unit: str
+
+
+class _Shape(NamedTuple):
+    """What an engineer is told of a stage beside its size."""
+
+    plane: str
+    frequency: str
+    balanceable: Balanceable
+
+
+_ARMS = "every term times (z - z_ref)"
+_I = _Heading(
+    "I", "forces of rotating masses", "constant force that turns with the shaft", "omega^2 |sum m_r r e^{jd}|", "N"
+)
+_II = _Heading(
+    "II",
+    "moments of rotating masses",
+    "constant moment whose plane turns with the shaft",
+    f"as stage I, {_ARMS}",
+    "N m",
+)
+_III = _Heading(
+    "III",
+    "first-order forces of reciprocating masses",
+    "peak force over a turn",
+    "|A1| + |B1|, A1 = omega^2/2 sum m r e^{jd}, B1 = omega^2/2 sum m r e^{j(2g - d)}",
+    "N",
+)
+_IV = _Heading("IV", "moments of first-order forces", "peak moment over a turn", f"as stage III, {_ARMS}", "N m")
+_V = _Heading(
+    "V",
+    "second-order forces of reciprocating masses",
+    "peak force over a turn",
+    "|A2| + |B2|, A2 = omega^2/2 sum m r a2 e^{j(2d - g)}, B2 = omega^2/2 sum m r a2 e^{j(3g - 2d)}, "
+    "a2 the second harmonic of the acceleration, r/l in the shortest series",
+    "N",
+)
+_VI = _Heading("VI", "moments of second-order forces", "peak moment over a turn", f"as stage V, {_ARMS}", "N m")
+_VII = _Heading(
+    "VII",
+    "counterweights by superposition",
+    "total mass times radius, in the two outermost planes, that removes all that turns with the shaft "
+    "(rotating masses and co-rotating half of the reciprocating masses); remaining is what is still missing",
+    "|u1| + |u2|, u1 + u2 = -f, z1 u1 + z2 u2 = -c, f and c the co-rotating force and moment over omega^2",
+    "kg m",
+)
+_VIII = _Heading(
+    "VIII",
+    "summary of what is left unbalanced",
+    "sum of the peak forces of orders 1 and 2, which their force never exceeds; the plane names every force and "
+    "moment that is left",
+    "|R + A1| + |B1| + |A2| + |B2|",
+    "N",
+)
+
+
+def stages(
+    layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None
+) -> tuple[Stage, ...]:
+    """Stages I to VIII of one machine.
+
+    Parameters
+    ----------
+    layout : a machine without leading axes.
+    turning, first, second : force and moment of its rotating masses, and of the first and second order of
+        its reciprocating masses, over omega^2.
+    unbalance : (webs,) mass-radius products m R e^{ja} of the counterweights, kg m; None where there are
+        none to show (infeasible), which leaves ``remaining`` null.
+    """
+    square, speed = layout.omega**2, float(layout.omega)
+    value = amounts(layout, turning, first, second, None)
+    remaining = None if unbalance is None else amounts(layout, turning, first, second, unbalance)
+    planes = layout.webs.position
+    span = float(np.ptp(planes)) if planes.size else 0.0
+    rules = {_III: force_rules(first.force, float(square)), _IV: moment_rules(first.moment, float(square), span)}
+    turning, first, second = (part.times(square) for part in (turning, first, second))
+    fitted = None if unbalance is None else counterweights(layout, unbalance).times(square)
+    scale = _scale(layout)
+    noise = (_ROUNDING * scale[0], _ROUNDING * scale[1])
+    before = _data(turning, first, second, speed, noise)
+    after = None if fitted is None else _data(*_superpose(turning, first, fitted), second, speed, noise)
+    whole = turning.plus(first) if fitted is None else turning.plus(first).plus(fitted)
+    all_left = (*of_wrench(whole, 1, speed, noise), *of_wrench(second, 2, speed, noise))
+    of_all = (*of_wrench(turning.plus(first), 1, speed, noise), *of_wrench(second, 2, speed, noise))
+
+    def shape(heading: _Heading, order: int, wrench: Wrench) -> _Shape:
+        pair = wrench.force if heading.unit == "N" else wrench.moment
+        return _Shape(_plane(pair), _frequency(order, speed), _balanceable(pair, order))
+
+    shapes = {
+        _I: shape(_I, 1, turning),
+        _II: shape(_II, 1, turning),
+        _III: shape(_III, 1, first),
+        _IV: shape(_IV, 1, first),
+        _V: shape(_V, 2, second),
+        _VI: shape(_VI, 2, second),
+        _VII: _Shape(_planes_of_iron(planes), _frequency(1, speed), "fully"),
+        _VIII: _summary(layout, turning.plus(first), second, fitted),
+    }
+    return tuple(
+        Stage(
+            **heading._asdict(),
+            **found._asdict(),
+            value=float(value[k]),
+            remaining=None if remaining is None else float(remaining[k]),
+            acting=of_all if heading is _VIII else before[k : k + 1],
+            left=None if after is None else all_left if heading is _VIII else after[k : k + 1],
+            iron=iron(layout) if heading is _VII else (),
+            rules_of_thumb=rules.get(heading, ()),
+        )
+        for k, (heading, found) in enumerate(shapes.items())
+    )
+
+
+def _data(
+    turning: Wrench, first: Wrench, second: Wrench, speed: float, noise: tuple[float, float]
+) -> tuple[Acting, ...]:
+    """Stages I to VI, one each."""
+    parts = ((turning, 1), (first, 1), (second, 2))
+    return tuple(one for wrench, order in parts for one in of_wrench(wrench, order, speed, noise))
+
+
+def amounts(layout: Layout, turning: Wrench, first: Wrench, second: Wrench, unbalance: Complex | None) -> Real:
+    """What the eight stages come to with counterweights (..., webs) kg m, or without: (..., 8) in their units.
+
+    Parameters
+    ----------
+    layout : of one machine, or of many with leading axes (...).
+    turning, first, second : as for :func:`stages`.
+    """
+    square = layout.omega**2
+    missing = _missing(layout, unbalance)
+    turning, first, second = (part.times(square) for part in (turning, first, second))
+    both = turning.plus(first)
+    if unbalance is not None:
+        fitted = counterweights(layout, unbalance).times(square)
+        both = both.plus(fitted)
+        turning, first = _superpose(turning, first, fitted)
+    sizes = [pair.peak for part in (turning, first, second) for pair in part]
+    return np.stack([*sizes, missing, both.force.peak + second.force.peak], axis=-1)
+
+
+def _superpose(turning: Wrench, first: Wrench, fitted: Wrench) -> tuple[Wrench, Wrench]:
+    """What is left of rotating and of first-order reciprocating masses."""
+    force = _split(turning.force, first.force, fitted.force)
+    moment = _split(turning.moment, first.moment, fitted.moment)
+    return Wrench(force[0], moment[0]), Wrench(force[1], moment[1])
+
+
+def _split(turning: Phasors, first: Phasors, fitted: Phasors) -> tuple[Phasors, Phasors]:
+    size = np.abs(turning.co)
+    # a denormal number has no direction that could be divided out
+    some = size > np.finfo(float).tiny
+    outward: Complex = np.where(some, turning.co / np.where(some, size, 1.0), 0j)
+    opposed = np.clip(-(fitted.co * np.conj(outward)).real, 0.0, size)
+    return (
+        Phasors((size - opposed) * outward, turning.counter),
+        Phasors(first.co + fitted.co + opposed * outward, first.counter),
+    )
+
+
+def _missing(layout: Layout, unbalance: Complex | None) -> Real:
+    """Stage VII: |u1| + |u2| of two planes that cancel all that turns with the shaft, (...) kg m."""
+    # couples about the centre: a far reference plane would cost digits
+    centred = replace(layout, reference_plane=layout.centre_plane)
+    wrench = rotating(centred).plus(reciprocating(centred, 1))
+    if unbalance is not None:
+        wrench = wrench.plus(counterweights(centred, unbalance))
+    force, couple = wrench.force.co, wrench.moment.co
+    planes, centre = layout.webs.position, layout.centre_plane
+    if planes.shape[-1] == 0:
+        return np.abs(force)
+    low, high = np.min(planes, axis=-1), np.max(planes, axis=-1)
+    apart = high - low > ONE_PLANE_M
+    ends = np.abs(couple - (high - centre) * force) + np.abs(couple - (low - centre) * force)
+    return np.where(apart, ends / np.where(apart, high - low, 1.0), np.abs(force))
+
+
+def _planes_of_iron(planes: Real) -> str:
+    """Where stage VII puts it."""
+    if planes.size == 0:
+        return "no webs, force only"
+    low, high = float(planes.min()), float(planes.max())
+    if high - low > ONE_PLANE_M:
+        return f"planes z = {low:.6g} m and z = {high:.6g} m"
+    return f"plane z = {low:.6g} m, force only"
+
+
+def _summary(layout: Layout, first: Wrench, second: Wrench, fitted: Wrench | None) -> _Shape:
+    """Stage VIII: every force and moment of orders 1 and 2 together."""
+    after = first if fitted is None else first.plus(fitted)
+    names = ("first-order force", "first-order moment", "second-order force", "second-order moment")
+    parts = list(zip(names, (1, 1, 2, 2), (*first, *second), (*after, *second), strict=True))
+    force, moment = _scale(layout)
+    sizes = (force, moment, force, moment)
+    left = [part for part, size in zip(parts, sizes, strict=True) if part[3].peak > _NEGLIGIBLE * size]
+    words = [f"{name} {pair.peak:.5g} {'N' if 'force' in name else 'N m'}, {_plane(pair)}" for name, _, _, pair in left]
+    orders = sorted({order for _, order, _, _ in left})
+    verdicts = {_balanceable(was, order) for _, order, was, _ in parts if was.peak > 0} or {"fully"}
+    return _Shape(
+        plane="; ".join(words) or "none",
+        frequency=", ".join(_frequency(order, float(layout.omega)) for order in orders) or "none",
+        balanceable=verdicts.pop() if len(verdicts) == 1 else "partly",
+    )
+
+
+def _scale(layout: Layout) -> tuple[float, float]:
+    """Force in N if all masses pushed the same way, and moment in N m if they did so at opposite ends."""
+    turning, moving = layout.rotating, layout.reciprocating
+    product = np.sum(turning.mass * turning.radius) + np.sum(moving.mass * moving.crank_radius)
+    planes = np.concatenate((turning.position, moving.position, layout.webs.position, [layout.reference_plane]))
+    force = float(product * layout.omega**2)
+    return force, force * float(np.ptp(planes))
+
+
+def _balanceable(pair: Phasors, order: int) -> Balanceable:
+    """Whether counterweights on the shaft can balance a pair: only the co-rotating phasor of the first order."""
+    co, counter = np.abs(pair.co), np.abs(pair.counter)
+    if pair.peak == 0 or (order == 1 and counter <= SHAPE_TOLERANCE * co):
+        return "fully"
+    return "no" if order > 1 or co <= SHAPE_TOLERANCE * counter else "partly"
+
+
+def _plane(pair: Phasors) -> str:
+    """Direction of a force, or the direction that spans the plane of a couple together with the shaft."""
+    co, counter = np.abs(pair.co), np.abs(pair.counter)
+    if pair.peak == 0:
+        return "none"
+    if counter <= SHAPE_TOLERANCE * co:
+        return f"rotates with the shaft, at {_degrees(angle_deg(pair.co), 360)} deg at shaft angle 0"
+    if co <= SHAPE_TOLERANCE * counter:
+        return f"rotates against the shaft, at {_degrees(angle_deg(pair.counter), 360)} deg at shaft angle 0"
+    axis = _degrees(pair.major_axis_deg, 180)
+    if pair.minor <= SHAPE_TOLERANCE * pair.peak:
+        return f"along {axis} deg (fixed direction)"
+    return f"ellipse, major axis {axis} deg"
+
+
+def _degrees(angle: Real, period: int) -> str:
+    return f"{round(float(angle), 1) % period:.1f}"
+
+
+def _frequency(order: int, speed: float) -> str:
+    return f"{'n' if order == 1 else f'{order}n'} = {order * speed / (2.0 * np.pi):.3f} Hz"
+
+
+#: effects whose results the stages are about
+_PARTS = ("rotating_inertia", "reciprocating_inertia", "second_order")
+
+
+def _figure(scene: Prepared, unbalance: Complex | None) -> tuple[Stage, ...]:
+    turning, first, second = (scene.results[name] for name in _PARTS)
+    return stages(scene.layout, turning, first, second, unbalance)
+
+
+def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
+    turning, first, second = (scene.results[name] for name in _PARTS)
+    found: dict[str, Real] = {}
+    for name, fitted in (("value", None), ("remaining", unbalance)):
+        sizes = amounts(scene.layout, turning, first, second, fitted)
+        found |= {f"stage_{name}.{stage}": sizes[..., k] for k, stage in enumerate(STAGE_UNITS)}
+    return found
+
+
+STAGES = Output("stages", "the eight balancing stages", _PARTS, _figure, Columns(_columns))

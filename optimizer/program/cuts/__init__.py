@@ -1,0 +1,1 @@
+"""Programs over the whole turn, by outer approximation: cuts, their proof, and the optimum."""

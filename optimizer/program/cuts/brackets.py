@@ -1,0 +1,86 @@
+"""What quantities over the turn come to, between two figures that are proven."""
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.cut import Quantity, Reached, Scatter
+from optimizer.responses.curve import peaks
+from optimizer.responses.mass_scatter import peaks_astray
+
+#: unbalances that are remembered
+_REMEMBERED = 3
+#: share of an unbalance within which another is near
+_NEAR = 1e-9
+
+
+class Brackets:
+    """Brackets of quantities; those of the last unbalances are known, and tell of what is near them.
+
+    Where counterweights differ by du, a quantity differs by no more than sum |H_k du_k|, and what scatters with them.
+    """
+
+    def __init__(self, quantities: Sequence[Quantity], cancelled: Sequence[bool], scatter: Scatter) -> None:
+        """Prepare.
+
+        Parameters
+        ----------
+        cancelled : (quantities,) those whose curves are nothing.
+        """
+        self._quantities, self._cancelled, self._scatter = quantities, cancelled, scatter
+        self._known: list[tuple[Complex, dict[int, Reached]]] = []
+
+    def found(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Reached, ...]:
+        """What quantities come to with an unbalance (K,) kg m.
+
+        Parameters
+        ----------
+        tolerance : (quantities,) of upper - lower, relative to lower.
+        chosen : which, by default all.
+        """
+        asked = range(len(self._quantities)) if chosen is None else chosen
+        found: dict[int, Reached] = {}
+        for at, known in reversed(self._known):
+            change = np.abs(u - at)
+            if np.max(change, initial=0.0) <= _NEAR * np.max(np.abs(u), initial=0.0):
+                near = {q: self._near(q, known[q], change) for q in asked if q in known and q not in found}
+                found |= {q: each for q, each in near.items() if each.upper - each.lower <= tolerance[q] * each.lower}
+        sought = [q for q in asked if q not in found]
+        if sought:
+            # half, so that rounding and what is near leave them as narrow as asked
+            new = dict(zip(sought, self._bracketed(u, 0.5 * tolerance, sought), strict=True))
+            self._known = [*self._known[1 - _REMEMBERED :], (u, new)]
+            found |= new
+        return tuple(found[q] for q in asked)
+
+    def _near(self, q: int, known: Reached, change: Real) -> Reached:
+        influence = np.abs(self._quantities[q].response.influence)
+        off = float(influence @ change) * (1.0 + self._scatter.share)
+        return Reached(known.lower - off, known.upper + off, known.cut)
+
+    def _bracketed(self, u: Complex, tolerance: Real, chosen: list[int]) -> tuple[Reached, ...]:
+        quantities, scatter = self._quantities, self._scatter
+        found: dict[int, Reached] = {}
+        peak: list[int] = []
+        for q in chosen:
+            if quantities[q].measure == "rms":
+                found[q] = quantities[q].rms(u, scatter)
+            elif self._cancelled[q]:
+                size = abs(quantities[q].response.offset(u))
+                found[q] = quantities[q].peak(u, scatter, size, size, quantities[q].cut(0.0, 0j))
+            else:
+                peak.append(q)
+        scattered = [q for q in peak if quantities[q].masses > 0.0]
+        exact = [q for q in peak if not quantities[q].masses > 0.0]
+        for some in (scattered, exact):
+            if some:
+                responses = [quantities[q].response for q in some]
+                bracket = (
+                    peaks(responses, u, tolerance[some])
+                    if some is exact
+                    else peaks_astray(responses, [quantities[q].masses for q in some], u, tolerance[some])
+                )
+                for q, angle, value, lower, upper in zip(some, *(part.tolist() for part in bracket), strict=True):
+                    found[q] = quantities[q].peak(u, scatter, lower, upper, quantities[q].cut(angle, value))
+        return tuple(found[q] for q in chosen)

@@ -1,0 +1,160 @@
+"""Quantities over the whole turn that are the largest of infinitely many norms, each known by cuts.
+
+A cut is one of these norms, floor + |c + H u|, so that no u makes the quantity smaller: a row of a statement. The
+peak of |d(theta) + H u| over the turn has a cut at every angle; the root mean square sqrt(V + |mean d + H u|^2) one for
+every split of a unit between the part that stays and the part that moves.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal, NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.responses.curve import TurnResponse
+
+#: by this share of them constants differ that are not one
+_ALIKE = 1e-12
+#: cuts of a quantity that are kept from one round to the next
+_MOST_CUTS = 16
+
+
+class Scatter(NamedTuple):
+    """What the unbalance of every counterweight may be off by, in any direction."""
+
+    share: float = 0.0  # of itself
+    unbalance: float = 0.0  # kg m, whatever the counterweight
+
+    def of(self, influence: Real | Complex, u: Complex) -> float:
+        """What |c + influence @ u| grows by at most: all counterweights (K,) off in the direction in which it grows."""
+        return float(np.sum(np.abs(influence) * (self.share * np.abs(u) + self.unbalance))) if any(self) else 0.0
+
+
+#: counterweights as they should be
+EXACT = Scatter()
+
+
+class Cut(NamedTuple):
+    """floor + |constant + influence @ u|, which the quantity is never below; of a scalar the real part inside."""
+
+    constant: complex
+    influence: Real | Complex  # (K,)
+    floor: float = 0.0
+    angle_deg: float | None = None  # of the shaft, where the cut belongs to one
+    scalar: bool = False
+
+    def at(self, u: Complex, scatter: Scatter) -> float:
+        """What it comes to with an unbalance (K,)."""
+        vector = self.constant + self.influence @ u
+        return self.floor + float(abs(vector.real if self.scalar else vector)) + scatter.of(self.influence, u)
+
+    def alike(self, other: "Cut") -> bool:
+        """Whether both are of one angle and, beside a jump, of one side of it: they differ by rounding."""
+        apart = abs(self.constant - other.constant) > _ALIKE * max(abs(self.constant), abs(other.constant))
+        return self.angle_deg is not None and self.angle_deg == other.angle_deg and not apart
+
+
+class Reached(NamedTuple):
+    """What a quantity comes to, between two figures that are proven, and the cut that comes to the lower one."""
+
+    lower: float
+    upper: float
+    cut: Cut
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """What is to be small of a response over the turn."""
+
+    response: TurnResponse
+    measure: Literal["peak", "rms"] = "peak"
+    scenario: str | None = None  # whose response it is; None is the machine as it is given
+    masses: float = 0.0  # share by which the mass of every row may be off
+
+    @property
+    def name(self) -> str:
+        return self.response.name
+
+    @cached_property
+    def spread(self) -> float:
+        """sqrt(V), what the root mean square comes to at least, but for its error."""
+        return float(np.sqrt(self.response.variance))
+
+    def cut(self, angle: float, value: complex) -> Cut:
+        """The cut of the peak at an angle [rad], where the curve has a value."""
+        influence = self.response.influence_at(angle)
+        return Cut(value, influence, angle_deg=float(np.rad2deg(angle)), scalar=self.response.scalar)
+
+    def harmonics(self, largest: float) -> tuple[Cut, ...]:
+        """Cuts that tell together all that counterweights add to a peak, at any angle: each speed at which they turn.
+
+        The mean of d + sum_n c_n e^{j n theta}, turned back by n, is no longer than the peak, so that this is at least
+        |c_n| less the largest |d|; of a scalar |c_n + conj(c_-n)| / 2, in its two parts.
+
+        Parameters
+        ----------
+        largest : of the curve without counterweights, or more.
+        """
+        influence, turning = self.response.influence, self.response.turning
+        if turning is None or self.measure == "rms":
+            return ()
+        if not self.response.scalar:
+            return tuple(Cut(0j, np.where(turning == n, influence, 0.0), -largest) for n in np.unique(turning))
+        found = []
+        for n in np.unique(np.abs(turning)):
+            share = np.where(turning == n, 0.5, 0.0) + np.where(turning == -n, 0.5, 0.0)
+            for quarter in (1.0, 1.0j) if n else (1.0,):
+                turned = np.where(turning < 0, np.conj(quarter), quarter)
+                found.append(Cut(0j, share * turned * influence, -largest, scalar=True))
+        return tuple(found)
+
+    def peak(self, u: Complex, scatter: Scatter, lower: float, upper: float, cut: Cut) -> Reached:
+        """The peak where counterweights scatter, from what it is where they do not."""
+        more = scatter.of(self.response.influence, u)
+        return Reached(lower + more, upper + more, cut)
+
+    def rms(self, u: Complex, scatter: Scatter) -> Reached:
+        """The root mean square: with the angle of the vector (|mean + H u|, sqrt(V)) its cut is it.
+
+        Both are off by no more than is known of mean and variance.
+        """
+        mean, influence = self.response.mean, self.response.influence
+        moved = abs(mean + self.response.offset(u)) + scatter.of(influence, u)
+        value = float(np.hypot(moved, self.spread))
+        along, across = (moved / value, self.spread / value) if value > 0 else (1.0, 0.0)
+        off = self.response.rms_error
+        cut = Cut(along * mean, along * influence, across * self.spread - off)
+        return Reached(value - off, value + off, cut)
+
+
+class Pool:
+    """The cuts that are known of every quantity."""
+
+    def __init__(self, first: Sequence[Sequence[Cut]], scatter: Scatter) -> None:
+        self.cuts = [list(cuts) for cuts in first]
+        self.scatter = scatter
+
+    def count(self) -> int:
+        return sum(len(cuts) for cuts in self.cuts)
+
+    def add(self, found: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+        """Take the cuts of every quantity whose true value is above what matters; whether any was new."""
+        new = False
+        for cuts, several, least in zip(self.cuts, found, matters, strict=True):
+            above = [each for each in several if each.lower > least]
+            if not above:
+                continue
+            known = max(cut.at(u, self.scatter) for cut in cuts) * (1.0 + 4 * np.finfo(float).eps)
+            for each in above:
+                if each.lower > known and not any(each.cut.alike(cut) for cut in cuts):
+                    cuts.append(each.cut)
+                    new = True
+        return new
+
+    def forget(self, u: Complex) -> None:
+        """Keep what is largest at a point."""
+        for q, cuts in enumerate(self.cuts):
+            if len(cuts) > _MOST_CUTS:
+                self.cuts[q] = sorted(cuts, key=lambda cut: -cut.at(u, self.scatter))[:_MOST_CUTS]

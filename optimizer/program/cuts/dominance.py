@@ -1,0 +1,51 @@
+"""Which quantities decide what a program over the turn comes to: of the others a coarse bracket tells enough."""
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Real
+from optimizer.program.cuts.cut import Reached
+from optimizer.program.rows import Row
+
+#: share of what a quantity is below what decides that its bracket may take up
+_SHARE = 0.25
+#: what is smaller is nothing
+_TINY = 1e-300
+
+
+class Weighed(NamedTuple):
+    """offset + weight * quantity, a row of a group."""
+
+    quantity: int  # its place in the program
+    weight: float  # > 0
+    offset: float = 0.0
+
+
+class Group(NamedTuple):
+    """The largest of some rows and of some quantities."""
+
+    rows: tuple[Row, ...] = ()
+    weighed: tuple[Weighed, ...] = ()
+
+
+def spare(groups: Sequence[Group], about: Real) -> Real:
+    """How wide brackets may be, relative to what quantities (quantities,) are about, to tell of those that decide
+    nothing that they do not; 0 of those that may decide."""
+    left = np.full(about.size, np.inf)
+    for group in groups:
+        level = max((each.offset + each.weight * about[each.quantity] for each in group.weighed), default=0.0)
+        for each in group.weighed:
+            left[each.quantity] = min(left[each.quantity], (level - each.offset) / each.weight - about[each.quantity])
+    return np.clip(_SHARE * left / np.maximum(about, _TINY), 0.0, _SHARE)
+
+
+def deciding(groups: Sequence[Group], found: Sequence[Reached]) -> np.ndarray:
+    """(quantities,) whether any may be the largest of a group, by brackets."""
+    may = np.zeros(len(found), dtype=bool)
+    for group in groups:
+        least = max((each.offset + each.weight * found[each.quantity].lower for each in group.weighed), default=0.0)
+        for each in group.weighed:
+            may[each.quantity] |= each.offset + each.weight * found[each.quantity].upper > least
+    return may

@@ -1,0 +1,46 @@
+"""Bounds that need no solver: the smallest circles around the cuts of quantities.
+
+The radius of the smallest circle around points of a curve is a floor of its peak, and the weights of its support are
+the multipliers that prove it: sum lam (point - centre) = 0, so that no counterweight enters
+(:mod:`optimizer.numerics.enclosing_circle`).
+"""
+
+import numpy as np
+
+from optimizer.numerics.enclosing_circle import smallest_circle
+from optimizer.program.certificate import Multipliers
+from optimizer.program.cuts.semi_infinite import Cuts, OverTurn
+from optimizer.program.statement import Statement
+
+
+def floor_multipliers(program: OverTurn, cuts: Cuts, statement: Statement) -> Multipliers:
+    """Multipliers of the largest floor of each group: of a row by itself, or of a quantity by its circle.
+
+    Parameters
+    ----------
+    statement : of the program with these cuts, its groups times factors or not.
+    """
+    points = [np.array([cut.constant for cut in each]) for each in cuts]
+    circles = [smallest_circle(each) for each in points]
+    row = np.zeros(statement.floor.size)
+    term = np.zeros(statement.row.size, complex)
+    first_term = np.searchsorted(statement.row, np.arange(statement.floor.size))
+    start = 0
+    for group in program.groups:
+        # floor, first row, quantity
+        found = [(float(statement.floor[start + k]), start + k, -1) for k in range(len(group.rows))]
+        start += len(group.rows)
+        for each in group.weighed:
+            found.append((each.offset + each.weight * circles[each.quantity].radius, start, each.quantity))
+            start += len(cuts[each.quantity])
+        _, place, quantity = max(found)
+        if quantity < 0:
+            row[place] = 1.0
+            continue
+        circle = circles[quantity]
+        held = place + circle.support
+        row[held] = circle.weights
+        if circle.radius > 0.0:
+            outward = (points[quantity][circle.support] - circle.centre) / circle.radius
+            term[first_term[held]] = circle.weights * outward
+    return Multipliers(term, row, np.zeros_like(statement.ceilings.norms.constant))

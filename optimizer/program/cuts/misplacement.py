@@ -1,0 +1,102 @@
+"""What a goal over the turn comes to at worst where counterweights are not quite what they should be.
+
+As in :mod:`optimizer.program.misplacement`. A peak over the turn is convex in what the counterweights add to its curve,
+so that the worst of all that they may add is at one of finitely many corners, each with a bracket of its own.
+"""
+
+from collections.abc import Callable, Iterator, Sequence
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.cut import EXACT, Quantity, Reached
+from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.misplacement import angle_corners, mass_corners, worst_by_angle, worst_by_mass
+from optimizer.program.norms import Norms
+from optimizer.responses.curve import peaks_about
+
+#: relative width of the brackets
+_WIDTH = 1e-7
+
+
+def largest_last_goals(
+    program: OverTurn, u: Complex, reached: Sequence[Reached], angle: float, share: float
+) -> tuple[float, float]:
+    """The last goal where every counterweight (K,) is off by up to an angle [rad], and by up to a share of its mass.
+
+    Neither is less than what it comes to; of a sum of peaks it may be more.
+
+    Parameters
+    ----------
+    program : whose counterweights do not scatter.
+    reached : what its quantities come to with counterweights as they should be.
+    """
+    assert program.scatter == EXACT
+    kinds: tuple[_Kind, ...] = (
+        (2.0 * np.sin(0.5 * angle), lambda norms: worst_by_angle(norms, u, angle), lambda v: angle_corners(v, angle)),
+        (share, lambda norms: worst_by_mass(norms, u, share), lambda v: share * mass_corners(v)),
+    )
+    worst = [[_no_less(quantity, u, each, kind) for quantity, each in _pairs(program, reached)] for kind in kinds]
+    sharp = [(k, q) for k, of_kind in enumerate(worst) for q in _matter(program, reached, of_kind)]
+    for (k, q), peak in zip(sharp, _sharper(program, u, [(kinds[k], q) for k, q in sharp]), strict=True):
+        worst[k][q] = min(worst[k][q], peak)
+    by_angle, by_mass = (_last_goal(program, size, each) for (_, size, _), each in zip(kinds, worst, strict=True))
+    return by_angle, by_mass
+
+
+#: largest change of a counterweight as a share of it, sizes of norms at worst, and corners of what sums may change by
+_Kind = tuple[float, Callable[[Norms], Real], Callable[[Complex], Complex]]
+
+
+def _pairs(program: OverTurn, reached: Sequence[Reached]) -> Iterator[tuple[Quantity, Reached]]:
+    yield from zip(program.quantities, reached, strict=True)
+
+
+def _no_less(quantity: Quantity, u: Complex, reached: Reached, kind: _Kind) -> float:
+    """What a quantity comes to at worst, or more: every counterweight off along what is largest."""
+    change, size, _ = kind
+    response = quantity.response
+    if quantity.measure == "rms":
+        mean = Norms(np.array([response.mean]), response.influence[None])
+        return float(np.hypot(size(mean)[0], quantity.spread)) + response.rms_error
+    return reached.upper + change * float(np.sum(np.abs(response.influence * u)))
+
+
+def _matter(program: OverTurn, reached: Sequence[Reached], worst: Sequence[float]) -> list[int]:
+    """Peaks that may decide the last goal, where what counterweights add stands still."""
+    found: set[int] = set()
+    for group in program.goals[-1].groups:
+        least = max((each.offset + each.weight * reached[each.quantity].lower for each in group.weighed), default=0.0)
+        found |= {each.quantity for each in group.weighed if each.offset + each.weight * worst[each.quantity] > least}
+    peaks = [
+        quantity.measure == "peak" and quantity.response.turning is None and not cancelled
+        for quantity, cancelled in zip(program.quantities, program.samples.cancelled, strict=True)
+    ]
+    return sorted(q for q in found if peaks[q])
+
+
+def _sharper(program: OverTurn, u: Complex, asked: Sequence[tuple[_Kind, int]]) -> Iterator[float]:
+    """The worst of peaks by brackets at all corners."""
+    if not asked:
+        return
+    responses, offsets, of = [], [], []
+    for n, ((_, _, corners), q) in enumerate(asked):
+        response = program.quantities[q].response
+        added = response.influence * u
+        some = corners(added[added != 0])
+        some = response.offset(u) + (some if some.size else np.zeros(1, complex))
+        responses += [response] * some.size
+        offsets.append(some)
+        of += [n] * some.size
+    yield from peaks_about(responses, np.concatenate(offsets), _WIDTH, np.array(of)).upper.tolist()
+
+
+def _last_goal(program: OverTurn, size: Callable[[Norms], Real], of_quantities: Sequence[float]) -> float:
+    largest = [
+        max(
+            [float(sum(peak.floor + np.sum(size(peak.norms)) for peak in row.peaks)) for row in group.rows]
+            + [each.offset + each.weight * of_quantities[each.quantity] for each in group.weighed]
+        )
+        for group in program.groups
+    ]
+    return float(program.of_goals(np.array(largest))[-1])

@@ -1,0 +1,278 @@
+"""Certified optimum of a program over the turn by cuts: its goals one after the other, then the least mass."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.cut import Pool
+from optimizer.program.cuts.proof import Proof, times
+from optimizer.program.cuts.rounding import settled_turn
+from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.stage import Kept, Point, Search, Stage
+from optimizer.program.limits import Limits
+from optimizer.program.methods.implied_bounds import bounded, far_limits
+from optimizer.program.solution import CEILING_ROUNDING, OPTIMUM_SHARE
+
+METHOD = "cuts, clarabel"
+#: of a search whose time limit nobody has asked for
+TIME_LIMIT_S = 5.0
+
+#: room below the ceilings, as a share of their size, that lets them be kept as they are
+_AMPLE = 1e-8
+#: room that makes a point without counterweights one to start from
+_ROOMY = 1e-3
+#: gap of the smallest excess that is good enough
+_TOLD = 1e-12
+#: the smallest objective is sought this much more sharply than optima are told apart, where another stage follows;
+#: the second where the mass is so steep that the first leaves it open
+_SHARPNESS = (1e-2, 1e-4)
+#: and this share of the asked gap where none does
+_ENOUGH = 0.5
+#: share of what optima may differ by that is kept for the figures of the answer
+_RESERVE = 5e-3
+#: of a goal that is kept, what is left for the rounding of masses and angles and for the brackets by which it is judged
+_RESERVED = 1e-11
+#: of what the stage before has left open, what a later stage leaves unused so that its point is an optimum
+_TARGET_MARGIN = 0.2
+#: relative gap of the mass that ends the search, and that is good enough
+_MASS_GAP, _LIGHT = 1e-5, 5e-5
+
+
+class Reached(NamedTuple):
+    """What a goal came to, and what is proven of it."""
+
+    goal: str
+    value: float
+    proof: Proof
+    most: float  # that it may come to for what follows
+
+    @property
+    def lower_bound(self) -> float:
+        return self.proof.bound
+
+
+@dataclass(frozen=True)
+class Found:
+    """Counterweights over the whole turn with their proof; the last goal is the objective."""
+
+    point: Point
+    goals: tuple[Reached, ...]
+    mass_proof: Proof | None  # None where the least mass was not sought
+    mass_target: float  # largest objective that the proof of the mass counts as an optimum
+    limits: Limits  # that the proofs count with
+    rounds: int
+    cuts: int
+    certify_s: float  # time spent on bounds
+    contradicted: bool  # a point exceeds the ceilings by less than any is proven to
+    timed_out: bool  # the time limit ended a search
+
+    @property
+    def proof(self) -> Proof:
+        """Of the objective."""
+        return self.goals[-1].proof
+
+    def counting(self, value: float) -> "Found":
+        """With the mass proven for all that come to no more than this value: that of counterweights which rounding has
+        put above what was counted as an optimum."""
+        if self.mass_proof is None or value <= self.mass_target:
+            return self
+        return replace(self, mass_proof=self.mass_proof.up_to(value - self.mass_target), mass_target=value)
+
+    @property
+    def mass_gap(self) -> float:
+        """Of the mass above its bound, relative to it; inf where nothing is proven."""
+        if self.mass_proof is None:
+            return np.inf
+        return (self.point.mass - self.mass_proof.bound) / self.point.mass if self.point.mass > 0 else 0.0
+
+
+@dataclass(frozen=True)
+class Unkept:
+    """Proof that no counterweights keep the ceilings, and those that come closest."""
+
+    closest: Point
+    proof: Proof  # of the smallest largest excess, relative to the sizes
+    limits: Limits
+    rounds: int
+    certify_s: float
+
+
+def over_turn(
+    program: OverTurn,
+    relative_gap: float,
+    least_mass: bool,
+    allowances: Sequence[float],
+    time_limit_s: float = TIME_LIMIT_S,
+) -> Found | Unkept:
+    """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
+
+    Parameters
+    ----------
+    relative_gap : asked gap of the last goal, relative to its yardstick.
+    least_mass : take the least total mass among the optima.
+    allowances : of all goals but the last, the share of its yardstick that what follows may use.
+    time_limit_s : of this thread's own time, after which the search ends with what it has: what else a machine does
+        changes no answer.
+    """
+    until = time.thread_time() + time_limit_s
+    pool = Pool(program.first, program.scatter)
+    nearest = _nearest(program, pool, until)
+    excess = nearest.point.values.excess
+    contradicted = nearest.proof is not None and nearest.proof.bound > excess + CEILING_ROUNDING
+    if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
+        return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds, nearest.certify_s)
+    course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted, until=until)
+    for n, allowance in enumerate(allowances):
+        size = float(program.units[n])
+        course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), max(allowance, OPTIMUM_SHARE) * size)
+    last = len(program.goals) - 1
+    size = float(program.units[last])
+    if not least_mass:
+        course.keep(last, course.smallest(last, _ENOUGH * relative_gap * size), 0.0)
+        return course.found(None, np.inf)
+    # a little is kept for the rounding of masses and angles
+    share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
+    proof: Proof | None = None
+    tried: list[Found] = []
+    for sharpness in _SHARPNESS:
+        proof = course.smallest(last, sharpness * share, proof)
+        course.keep(last, proof, share)
+        target = course.goals[last].value + share
+        mass_proof = course.lightest(target, _TARGET_MARGIN * sharpness * share)
+        tried.append(course.found(mass_proof, target))
+        if tried[-1].mass_gap <= _LIGHT or course.timed_out:
+            break
+    # what is sought more sharply may be found less so
+    best = min(tried, key=lambda found: found.mass_gap)
+    return replace(best, rounds=course.rounds, certify_s=course.certify_s, timed_out=course.timed_out)
+
+
+def next_goal(
+    program: OverTurn, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
+) -> Found:
+    """Certified optimum of the last goal of a program under levels of the others that are given.
+
+    Parameters
+    ----------
+    before : all goals but the last, with the most that they may come to.
+    u : (K,) kg m, within the limits, that keeps these levels and the ceilings.
+    """
+    inside = Point(u, program.values(u, _TOLD), float(np.sum(np.abs(u) / program.limits.radius)))
+    nearest = Stage(inside, None, 0, 0.0, False)
+    raised, until = inside.values.excess > -_AMPLE, time.thread_time() + time_limit_s
+    course = _Course(program, Pool(program.first, program.scatter), nearest, raised, False, until)
+    course.goals = list(before)
+    last = len(before)
+    course.keep(last, course.smallest(last, _ENOUGH * relative_gap * float(program.units[last])), 0.0)
+    return course.found(None, np.inf)
+
+
+class _Course:
+    """Stages one after the other, each with what is known already."""
+
+    def __init__(
+        self, program: OverTurn, pool: Pool, nearest: Stage, raised: bool, contradicted: bool, until: float
+    ) -> None:
+        self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
+        self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
+        self.rounds, self.certify_s = nearest.rounds, nearest.certify_s
+        self.goals: list[Reached] = []
+
+    def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof:
+        """Make a goal small under those before it."""
+        so_far = self.program.changed(goals=self.program.goals[: n + 1])
+        self.inside, most = _again(so_far, self.inside), self._most(n)
+        self.so_far = _bounded(so_far, self.inside, most)
+        margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
+        found = self._run(Kept(margin, most - _RESERVED * self.program.units[:n], most), enough)
+        assert found is not None  # rest proves something of every objective
+        return found if known is None or found.bound > known.bound else known
+
+    def keep(self, n: int, proof: Proof, share: float) -> None:
+        """What a goal may come to from now on: so much above its bound."""
+        value = float(self.inside.values.goals[n])
+        most = max(value, proof.bound + share)
+        if n + 1 < len(self.program.goals):
+            most += _RESERVED * float(self.program.units[n])
+        self.goals[n:] = [Reached(self.program.goals[n].name, value, proof, most)]
+
+    def lightest(self, target: float, margin: float) -> Proof | None:
+        """The least mass under all goals.
+
+        Parameters
+        ----------
+        target : of the last goal, what the bound counts as an optimum.
+        margin : by which the solver aims below what the last goal may come to.
+        """
+        most = self._most(len(self.goals))
+        margins = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units
+        margins[-1] = margin
+        reserved = _RESERVED * self.program.units
+        reserved[-1] = 0.0
+        return self._run(Kept(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
+
+    def found(self, mass_proof: Proof | None, target: float) -> Found:
+        most = self._most(len(self.goals))
+        bound = None if mass_proof is None else mass_proof.bound
+        return Found(
+            settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _TOLD),
+            tuple(self.goals),
+            mass_proof,
+            target,
+            self.so_far.limits,
+            self.rounds,
+            self.pool.count(),
+            self.certify_s,
+            self.contradicted,
+            self.timed_out,
+        )
+
+    def _most(self, n: int) -> Real:
+        return np.array([goal.most for goal in self.goals[:n]])
+
+    def _run(self, kept: Kept, enough: float) -> Proof | None:
+        stage = Search(self.so_far, self.pool, kept, self.inside, self.raised, self.until).run(enough)
+        self.timed_out |= stage.timed_out
+        self.inside, self.rounds = stage.point, self.rounds + stage.rounds
+        self.certify_s += stage.certify_s
+        return stage.proof
+
+
+def _rest(program: OverTurn) -> Point:
+    return Point(np.zeros(program.limits.radius.shape, complex), program.at_rest, 0.0)
+
+
+def _nearest(program: OverTurn, pool: Pool, until: float) -> Stage:
+    """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
+    rest = _rest(program)
+    if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
+        return Stage(rest, None, 0, 0.0, False)
+    excess = program.excess()
+    still = _rest(excess)
+    excess = _bounded(excess, still, np.zeros(0))
+    none = np.zeros(0)
+    found = Search(excess, pool, Kept(none, none, none), still, False, until).run(
+        _TOLD, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
+    )
+    return found._replace(point=_again(program, found.point))
+
+
+def _again(program: OverTurn, point: Point) -> Point:
+    """A point with what it comes to in another program."""
+    known = None if np.any(point.unbalance) else program.at_rest
+    return replace(point, values=known or program.values(point.unbalance, _TOLD))
+
+
+def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
+    """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
+    telling = program.begun if program.telling is program.first else program.statement(program.telling)
+    statement = times(telling, 1.0 / program.units[program.goal_of])
+    if not np.any(far_limits(statement)):
+        return program
+    levels = np.append(most, inside.values.goals[most.size]) / program.units
+    # no point that is no larger has a larger sum in any case
+    return program.changed(limits=bounded(statement, 2.0 * float(np.sum(levels[program.goal_of_case]))).limits)

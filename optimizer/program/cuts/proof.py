@@ -1,0 +1,137 @@
+"""What multipliers prove of one stage of a program over the turn, for all angles, since no u makes a quantity smaller
+than its cuts."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import (
+    Multipliers,
+    best_proof,
+    mass_lower_bound,
+    nothing_proven,
+    objective_lower_bound,
+)
+from optimizer.program.cuts.floors import floor_multipliers
+from optimizer.program.cuts.semi_infinite import Cuts, OverTurn
+from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
+from optimizer.program.statement import Statement
+
+#: shares of several sums, which are to sum to no more than 1
+_MEAN = 1.0 - 64 * np.finfo(float).eps
+#: for the rounding of a product
+_UP = 1.0 + 64 * np.finfo(float).eps
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A bound by multipliers of a statement with finitely many cuts.
+
+    charge : what the goals that are kept below a level are charged with: the bound of several goals is that of the
+        statement, whose groups are those of all goals times their prices, less this.
+    cuts : of every quantity, in the order of the statement.
+    price : of a bound of the mass, by which it falls where the last goal may come to one more, kg.
+    """
+
+    bound: float
+    statement: Statement
+    multipliers: Multipliers
+    charge: float
+    cuts: tuple[int, ...]
+    price: float = 0.0
+
+    def up_to(self, more: float) -> "Proof":
+        """That of the mass of all whose last goal comes to so much more."""
+        return replace(self, bound=max(self.bound - self.price * more * _UP, 0.0))
+
+
+def resting_proof(program: OverTurn, cuts: Cuts, statement: Statement) -> Proof:
+    """What is proven of the last goal without a solver, whatever the goals before it come to.
+
+    Parameters
+    ----------
+    statement : of the program with these cuts.
+    """
+    last = np.flatnonzero(program.goal_of_case == len(program.goals) - 1)
+    proofs = []
+    for case in last:
+        alone = times(statement, (program.case_of == case).astype(float))
+        each = (*resting_multipliers(alone), floor_multipliers(program, cuts, alone))
+        bound, best = best_proof(alone, each)
+        proofs.append(Proof(float(bound), alone, best, 0.0, tuple(map(len, cuts))))
+    return max(proofs, key=lambda proof: proof.bound)
+
+
+def proofs(
+    program: OverTurn, cuts: Cuts, statement: Statement, u: Complex, found: Multipliers, counted: Real
+) -> Iterator[Proof]:
+    """Bounds of the last goal, or of the mass, by the multipliers of the solver and by sharper ones.
+
+    Parameters
+    ----------
+    statement : of the program with these cuts.
+    u : the solver's point.
+    found : the solver's multipliers, of the statement whose goals are in their units where there are several.
+    counted : levels that the bound counts with, of all goals but the last; of all where the mass is to be small.
+    """
+    of_mass = counted.size == len(program.goals)
+    charge, prices = float(np.sum(counted)), 1.0
+    if program.goal_of_case.size > 1:
+        statement, found, charges = _charged(program, of_mass, statement, found)
+        kept = program.goal_of_case < counted.size
+        charge = float(np.sum(charges[kept] * counted[program.goal_of_case[kept]]))
+        prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
+    sharper = mass_multipliers if of_mass else objective_multipliers
+    for multipliers in sharper(statement, u, found):
+        price = 0.0
+        if of_mass:
+            bound = float(mass_lower_bound(statement, multipliers, np.asarray(charge)))
+            # of one sum the multipliers tell it; of several they sum to 1 and the groups have the prices
+            price = prices * float(multipliers.admissible(statement).price(statement))
+        else:
+            bound = float(objective_lower_bound(statement, multipliers)) - charge
+        if np.isfinite(bound):
+            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)), price)
+
+
+def _charged(
+    program: OverTurn, of_mass: bool, statement: Statement, found: Multipliers
+) -> tuple[Statement, Multipliers, Real]:
+    """The statement whose groups have the prices of their sums, where each group's multipliers sum to 1."""
+    case_of, goal_of_case, unit_of = program.case_of, program.goal_of_case, units(program)
+    price = np.zeros(goal_of_case.size)
+    np.maximum.at(price, case_of, np.add.reduceat(np.maximum(found.row, 0.0), statement.first_rows))
+    last = goal_of_case == len(program.goals) - 1
+    unit = 1.0 if of_mass else float(np.sum(price[last])) / unit_of[-1]
+    if not unit > 0:
+        return statement, nothing_proven(statement), price
+    charges = price / unit_of[goal_of_case] / unit
+    if np.count_nonzero(last) > 1:
+        # the largest sum is no less than their mean, whatever the rounding of the shares
+        charges[last] *= _MEAN
+    each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[case_of]
+    multipliers = Multipliers(
+        found.term * each[statement.group][statement.row], found.row * each[statement.group], found.ceiling / unit
+    )
+    return times(statement, charges[case_of]), multipliers, charges
+
+
+def units(program: OverTurn) -> Real:
+    """(goals,) what the goals are divided by before they are solved: one alone stays as it is."""
+    return program.units if len(program.goals) > 1 else np.ones(1)
+
+
+def times(statement: Statement, factor: Real) -> Statement:
+    """The statement with its groups times factors (groups,)."""
+    if np.all(factor == 1.0):
+        return statement
+    of_row = factor[statement.group]
+    of_term = of_row[statement.row]
+    norms = replace(
+        statement.norms,
+        constant=statement.norms.constant * of_term,
+        influence=statement.norms.influence * of_term[:, None],
+    )
+    return replace(statement, norms=norms, floor=statement.floor * of_row)

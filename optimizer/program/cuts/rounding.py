@@ -1,0 +1,47 @@
+"""Counterweights over the turn without dust, and at the limits that they touch
+(:mod:`optimizer.program.methods.rounding`)."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import Real, mapped
+from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.stage import Point
+from optimizer.program.methods.rounding import HEAVIER, NEAR, brought
+from optimizer.program.solution import CEILING_ROUNDING
+from optimizer.program.statement import Statement
+
+#: all at once, then dust and limits by themselves, each as far as it can be had
+_STEPS = ((NEAR[0], NEAR[0]), *((near, 0.0) for near in NEAR[1:]), *((0.0, near) for near in NEAR))
+
+
+def settled_turn(
+    program: OverTurn, statement: Statement, point: Point, most: Real, mass_bound: float | None, width: float
+) -> Point:
+    """The point, settled as far as it is no worse for it.
+
+    Parameters
+    ----------
+    statement : the program with some cuts; of every response one row is left as it was.
+    most : (goals,) what the goals may come to; the point may be above it.
+    mass_bound : kg, nothing is lighter; None where the mass does not count.
+    width : of the brackets of all figures.
+    """
+    responses = [term.response for term in statement.names.terms]
+    rows = [responses.index(name) for name in dict.fromkeys(responses)]
+    influence = np.concatenate([statement.norms.influence[rows], statement.ceilings.norms.influence])
+    limits = mapped(statement.limits, lambda array: array[None])
+    heaviest = np.inf if mass_bound is None else mass_bound / (1.0 - HEAVIER)
+    for dust, touched in _STEPS:
+        u, moved = brought(limits, influence[None], point.unbalance[None], dust, touched)
+        if not moved.size:
+            continue
+        mass = float(np.sum(np.abs(u[0]) / statement.limits.radius))
+        if mass > max(point.mass, heaviest):
+            continue
+        old, new = program.values(point.unbalance, width), program.values(u[0], width)
+        kept = np.all(new.goals <= np.maximum(most, old.goals))
+        if kept and new.excess <= max(old.excess, CEILING_ROUNDING):
+            point = replace(point, unbalance=u[0], values=new, mass=mass)
+    return point

@@ -1,0 +1,281 @@
+"""Quantities over the turn at angles all over it: their cuts lead close to an optimum in no time.
+
+Every piece is looked at in a few places by its cubic, which costs next to nothing, and where that leaves out much by
+the curve itself. Where a quantity may be largest, at the vertex of parabolas through three places, the curve is
+evaluated at any rate: so what is told there is true.
+
+Shapes: Q curves of one source, P pieces, S places in each.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.enclosing_circle import smallest_circle
+from optimizer.program.cuts.cut import Cut, Quantity, Reached, Scatter
+from optimizer.responses.boxes import worst_masses
+from optimizer.responses.curve import TurnResponse
+from optimizer.responses.piecewise_cubics import Index
+
+#: in every piece, as shares of its half width; at its ends on the side of the piece
+_PLACES = np.linspace(-1.0, 1.0, 7) * (1.0 - 1e-7)
+_POWERS = _PLACES ** np.arange(_PLACES.size)[:, None]
+#: from values at the places to the polynomial through them
+_TO_POLYNOMIAL = np.linalg.inv(_POWERS)
+#: share of what is added up from which on a cubic leaves out much
+_STEEP = 1e-6
+_BETWEEN = float(_PLACES[1] - _PLACES[0])
+_BESIDE = np.arange(-1, 2)
+#: distance of places, as a share of that, by which a vertex is found more closely
+_CLOSER = 0.0625
+#: share of what is added up at which it has cancelled
+_DUST = 1e-13
+#: local maxima of a curve that are told at most
+_MOST = 4
+#: share by which a curve may be above what its cubic shows
+_ABOUT = 1e-3
+#: circles about a curve that are tried, and the change of their radius that ends it
+_MOST_CIRCLES, _STEADY = 12, 1e-9
+#: share of the largest radius below which a circle is good enough as it is
+_SMALL = 0.9
+
+#: squares of what a peak is the largest of: from curves, shaft angles and the numbers of the curves, all alike in shape
+_Squares = Callable[[Complex, Real, Index], Real]
+
+
+class _Maxima(NamedTuple):
+    """Local maxima (m,), by curve and the highest first."""
+
+    curve: Index
+    piece: Index
+    angle: Real  # rad
+    value: Complex  # about that of the curve
+
+    def chosen(self, some: Index) -> "_Maxima":
+        return _Maxima._make(each[some] for each in self)
+
+
+def _joined(maxima: Sequence[_Maxima | None]) -> _Maxima:
+    return _Maxima._make(map(np.concatenate, zip(*filter(None, maxima), strict=True)))
+
+
+class _Curves:
+    """Curves that are looked at together: what is added to them stands still, or it is only one."""
+
+    def __init__(self, responses: Sequence[TurnResponse]) -> None:
+        pieces = responses[0].curves.pieces
+        self.number: Index = np.array([each.number for each in responses], dtype=np.intp)
+        self.source = pieces.source
+        self.piece = np.flatnonzero(pieces.half[self.number[0]] > 0.0)
+        self.centre, self.half = (each[self.number[0], self.piece] for each in (pieces.centre, pieces.half))
+        self.angle = self.centre[:, None] + self.half[:, None] * _PLACES
+        values = pieces.cubic[self.number[:, None], self.piece] @ _POWERS[:4]
+        size = pieces.size[self.number]
+        self.nothing = ~(np.max(np.abs(values), axis=(-2, -1)) > _DUST * size)
+        steep = np.any(pieces.rest[self.number[:, None], self.piece] > _STEEP * size[:, None], axis=0)
+        if np.any(steep):
+            there = responses[0].curves.at(self.angle[steep].ravel())[self.number]
+            values[:, steep] = there.reshape(self.number.size, -1, _PLACES.size)
+        self.values: Complex = np.where(self.nothing[:, None, None], 0.0, values)
+        self.polynomial: Complex = self.values @ _TO_POLYNOMIAL
+
+    def squares(self, of: _Squares) -> Real:
+        """At all places (Q, P, S)."""
+        return of(self.values, self.angle, np.arange(self.number.size)[:, None, None])
+
+    def maxima(self, of: _Squares, least: Real) -> _Maxima:
+        """Local maxima above the square roots of ``least`` (Q,), of every curve the highest at any rate."""
+        square = self.squares(of)
+        place = np.argmax(square, axis=-1)
+        middle = np.clip(place, 1, _PLACES.size - 2)
+        around = np.take_along_axis(square, middle[..., None] + _BESIDE, axis=-1)
+        step, highest = _vertex(around, place - middle)
+        largest = np.max(highest, axis=-1, keepdims=True)
+        # of two pieces that meet in a maximum it belongs to one
+        local = (highest > np.roll(highest, 1, axis=-1)) & (highest >= np.roll(highest, -1, axis=-1))
+        local &= highest >= np.minimum(least[:, None], largest) * (1.0 - _ABOUT)
+        # of a constant none is above another
+        local[~np.any(local, axis=-1), 0] = True
+        curve, piece = np.nonzero(local)
+        order = np.lexsort((-highest[curve, piece], curve))
+        curve, piece = curve[order], piece[order]
+        few = np.arange(curve.size) - np.searchsorted(curve, curve) < _MOST
+        curve, piece = curve[few], piece[few]
+        # once more, closer
+        width = _BETWEEN * _CLOSER
+        at = _PLACES[middle[curve, piece]] + _BETWEEN * step[curve, piece]
+        near = np.clip(at, width - 1.0, 1.0 - width)[:, None] + width * _BESIDE
+        polynomial, half = self.polynomial[curve, piece], self.half[piece]
+        around = of(_at(polynomial, near), self.centre[piece, None] + half[:, None] * near, curve[:, None])
+        step, _ = _vertex(around, np.argmax(around, axis=-1) - 1)
+        at = np.clip(near[:, 1] + width * step, -1.0, 1.0)
+        value = _at(polynomial, at[:, None])[:, 0]
+        return _Maxima(curve, self.piece[piece], self.centre[piece] + half * at, value)
+
+    def true(self, maxima: _Maxima) -> Complex:
+        """The curves at their maxima (m,)."""
+        values = self.source.values(self.number[maxima.curve], maxima.piece, maxima.angle)
+        return np.where(self.nothing[maxima.curve], 0.0, values)
+
+    def supports(self) -> _Maxima:
+        """What holds the smallest circles, closely of those that are not much smaller than the largest."""
+        # of a third of the places, to begin with
+        circles = [smallest_circle(each[:, ::3].ravel()) for each in self.values]
+        least = np.full(len(circles), np.inf)
+        held: list[_Maxima | None] = [None] * len(circles)
+        open_ = list(range(len(circles)))
+        for _ in range(_MOST_CIRCLES):
+            centre = np.array([each.centre for each in circles])
+            every = self.maxima(_about(centre), least)
+            still: list[int] = []
+            for k in open_:
+                points = _joined([held[k], every.chosen(every.curve == k)])
+                circle = smallest_circle(points.value)
+                held[k] = points.chosen(circle.support)
+                before, circles[k] = circles[k].radius, circle
+                if abs(circle.radius - before) > _STEADY * circle.radius:
+                    still.append(k)
+            most = max(each.radius for each in circles)
+            open_ = [k for k in still if circles[k].radius > _SMALL * most]
+            if not open_:
+                break
+        return _joined(held)
+
+
+def _vertex(around: Real, otherwise: Index) -> tuple[Real, Real]:
+    """Where parabolas through three values (..., 3) a step apart are highest between them, and what they are there.
+
+    Parameters
+    ----------
+    otherwise : (...) step to the highest of parabolas that are bent upwards.
+    """
+    before, here, after = np.moveaxis(around, -1, 0)
+    slope, bend = 0.5 * (after - before), before - 2.0 * here + after
+    step = np.where(bend < 0.0, -slope / np.where(bend < 0.0, bend, -1.0), otherwise)
+    step = np.clip(step, -1.0, 1.0)
+    return step, here + step * (slope + 0.5 * bend * step)
+
+
+def _at(polynomial: Complex, place: Real) -> Complex:
+    """Polynomials (m, S) at places (m, n)."""
+    found: Complex = np.matmul(place[..., None] ** np.arange(_PLACES.size), polynomial[..., None])[..., 0]
+    return found
+
+
+class Samples:
+    """Quantities all over the turn."""
+
+    def __init__(self, quantities: Sequence[Quantity]) -> None:
+        self.quantities = quantities
+        self._rows: dict[int, Complex] = {}  # what rows add at the places of a quantity (P, S, R)
+        together: dict[object, list[int]] = {}
+        for q, quantity in enumerate(quantities):
+            response = quantity.response
+            if quantity.measure == "peak":
+                pieces = response.curves.pieces
+                alone = response.turning is not None or quantity.masses > 0.0
+                key = q if alone else (id(pieces.source), pieces.half[response.number].tobytes())
+                together.setdefault(key, []).append(q)
+        self._curves = [(some, _Curves([quantities[q].response for q in some])) for some in together.values()]
+        #: quantities whose curves cancel to their rounding error everywhere
+        self.cancelled = [False] * len(quantities)
+        for some, curves in self._curves:
+            for q, nothing in zip(some, curves.nothing.tolist(), strict=True):
+                still = quantities[q].response.turning is None
+                self.cancelled[q] = nothing and still and not quantities[q].masses > 0.0
+
+    def first(self) -> tuple[tuple[Cut, ...], ...]:
+        """Cuts to begin with: what holds the smallest circle, or the still and the moving part by themselves."""
+        found: list[list[Cut]] = [[] for _ in self.quantities]
+        for q, quantity in enumerate(self.quantities):
+            if quantity.measure == "rms":
+                mean, off, influence = quantity.response.mean, quantity.response.rms_error, quantity.response.influence
+                found[q] = [Cut(0j, 0.0 * influence, quantity.spread - off), Cut(mean, influence, -off)]
+        for some, curves in self._curves:
+            held = curves.supports()
+            for n, angle, value in zip(
+                held.curve.tolist(), held.angle.tolist(), curves.true(held).tolist(), strict=True
+            ):
+                found[some[n]].append(self.quantities[some[n]].cut(angle, value))
+        return tuple(map(tuple, found))
+
+    def sizes(self, u: Complex, scatter: Scatter) -> Real:
+        """(quantities,) about what each comes to with an unbalance (K,) kg m."""
+        found = np.zeros(len(self.quantities))
+        for q, quantity in enumerate(self.quantities):
+            more = scatter.of(quantity.response.influence, u)
+            found[q] = quantity.rms(u, scatter).lower if quantity.measure == "rms" else more
+        for some, curves in self._curves:
+            found[some] += np.sqrt(np.max(curves.squares(self._squares(some, u)), axis=(-2, -1)))
+        return found
+
+    def highest(self, u: Complex, scatter: Scatter, matters: Real) -> tuple[tuple[Reached, ...], ...]:
+        """What every quantity comes to where it is largest, at least one place each, the highest first.
+
+        Parameters
+        ----------
+        matters : (quantities,) above which more places than one count.
+        """
+        found: list[list[Reached]] = [[] for _ in self.quantities]
+        for q, quantity in enumerate(self.quantities):
+            if quantity.measure == "rms":
+                found[q] = [quantity.rms(u, scatter)]
+        for some, curves in self._curves:
+            more = [scatter.of(self.quantities[q].response.influence, u) for q in some]
+            maxima = curves.maxima(self._squares(some, u), np.maximum(matters[some] - more, 0.0) ** 2)
+            value, angle = curves.true(maxima), maxima.angle
+            moved = value + self._added(some, u, angle, maxima.curve)
+            if self.quantities[some[0]].masses > 0.0:
+                parts = self._parts(some[0], angle)
+                value = value + np.sum(worst_masses(moved, parts) * parts, axis=-1)
+                moved = value + self._added(some, u, angle, maxima.curve)
+            size = np.abs(moved.real if self.quantities[some[0]].response.scalar else moved)
+            for n, *each in zip(*(part.tolist() for part in (maxima.curve, angle, value, size)), strict=True):
+                at, there, lower = each
+                quantity = self.quantities[some[n]]
+                found[some[n]].append(quantity.peak(u, scatter, lower, lower, quantity.cut(at, there)))
+        return tuple(tuple(sorted(each, key=lambda one: -one.lower)) for each in found)
+
+    def _squares(self, some: list[int], u: Complex) -> _Squares:
+        """Of quantities that are looked at together, with an unbalance (K,) kg m."""
+        alone = self.quantities[some[0]]
+
+        def squares(value: Complex, angle: Real, curve: Index) -> Real:
+            moved = value + self._added(some, u, angle, curve)
+            if alone.masses > 0.0:
+                parts = self._parts(some[0], angle)
+                flat, each = moved.ravel(), parts.reshape(-1, parts.shape[-1])
+                moved = moved + np.sum(worst_masses(flat, each) * each, axis=-1).reshape(moved.shape)
+            return _squared(moved.real if alone.response.scalar else moved)
+
+        return squares
+
+    def _added(self, some: list[int], u: Complex, angle: Real, curve: Index) -> Complex:
+        """What counterweights add at angles (...) to curves (...)."""
+        response = self.quantities[some[0]].response
+        if response.turning is None:
+            offsets = np.array([self.quantities[q].response.offset(u) for q in some])
+            return offsets[curve]
+        return np.asarray(response.added(u, angle.ravel())).reshape(angle.shape)
+
+    def _parts(self, q: int, angle: Real) -> Complex:
+        """What rows add at angles (...) where their masses are off (..., R)."""
+        response, (curves,) = self.quantities[q].response, (each for some, each in self._curves if some == [q])
+        if angle is not curves.angle or q not in self._rows:
+            parts = self.quantities[q].masses * response.curves.parts.at(response.number, angle.ravel())
+            parts = parts.reshape(*angle.shape, -1)
+            if angle is not curves.angle:
+                return parts
+            self._rows[q] = parts
+        return self._rows[q]
+
+
+def _squared(value: Complex | Real) -> Real:
+    return np.asarray(value.real**2 + value.imag**2)
+
+
+def _about(centre: Complex) -> _Squares:
+    """Of curves about centres (Q,)."""
+    return lambda value, _, curve: _squared(value - centre[curve])

@@ -1,0 +1,338 @@
+"""The program with quantities that are known by cuts: bearing peaks beside force and moment, root mean squares.
+
+minimise    P_n(u) = sum_g max( rows of the group, w_q Q_q(u) of its quantities )      the last goal, or the mass
+            or the largest of several such sums
+subject to  P_i(u) <= most_i for the goals before it, ceilings on responses and on quantities, limits
+
+With finitely many cuts of every quantity it is a statement whose objective and ceilings no u exceeds: what is proven
+of that is proven of the program.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.program.ceilings import Ceilings, limited
+from optimizer.program.cuts.brackets import Brackets
+from optimizer.program.cuts.cut import EXACT, Cut, Quantity, Reached, Scatter
+from optimizer.program.cuts.dominance import Group, Weighed, deciding, spare
+from optimizer.program.cuts.samples import Samples
+from optimizer.program.cuts.terms import Terms
+from optimizer.program.limits import Limits
+from optimizer.program.norms import Norms
+from optimizer.program.rows import Row, WeightedPeak
+from optimizer.program.scaling import natural_reach
+from optimizer.program.statement import Names, Statement
+from optimizer.responses.response import Response
+
+#: relative width of the brackets by which quantities are known without counterweights
+_FINE = 1e-12
+#: what is known of the quantities alone
+_OF_QUANTITIES = ("samples", "brackets", "first", "_resting")
+#: what is smaller is nothing
+_TINY = 1e-300
+#: of every quantity
+Cuts = Sequence[Sequence[Cut]]
+
+
+class Goal(NamedTuple):
+    """A sum of groups that is to be small, or the largest of several such sums."""
+
+    name: str
+    groups: tuple[Group, ...]
+    unit: float | None = None  # what gaps are measured by; by default the yardstick
+    cases: tuple[int, ...] = ()  # sum to which each group belongs, in rising order from 0; by default one
+
+
+class Values(NamedTuple):
+    """What an unbalance comes to; of what is known by brackets the upper figure."""
+
+    goals: Real  # (goals,)
+    over: Real  # (ceilings and limited,) excess over each ceiling, relative to its size
+    reached: tuple[Reached, ...]  # every quantity
+
+    @property
+    def excess(self) -> float:
+        """The largest excess over a ceiling; -inf without ceilings."""
+        return float(np.max(self.over, initial=-np.inf))
+
+
+@dataclass(frozen=True)
+class OverTurn:
+    """A program whose quantities are known by cuts.
+
+    goals : in the order of their priority, at least one.
+    ceilings, limited : responses with the largest peak allowed, and quantities, by their place, with the largest value.
+    """
+
+    quantities: tuple[Quantity, ...]
+    goals: tuple[Goal, ...]
+    ceilings: tuple[tuple[Response, float], ...]
+    limited: tuple[tuple[int, float], ...]
+    limits: Limits
+    scatter: Scatter = EXACT
+
+    @cached_property
+    def groups(self) -> tuple[Group, ...]:
+        """Groups of all goals."""
+        return tuple(group for goal in self.goals for group in goal.groups)
+
+    @cached_property
+    def goal_of(self) -> np.ndarray:
+        """(groups,) goal to which a group belongs."""
+        return np.repeat(np.arange(len(self.goals)), [len(goal.groups) for goal in self.goals])
+
+    @cached_property
+    def case_of(self) -> np.ndarray:
+        """(groups,) sum to which a group belongs, of those of all goals."""
+        cases = [np.array(goal.cases or [0] * len(goal.groups), dtype=int) for goal in self.goals]
+        first = np.cumsum([0, *(int(each[-1]) + 1 for each in cases)])
+        return np.concatenate([each + start for each, start in zip(cases, first, strict=False)])
+
+    @cached_property
+    def goal_of_case(self) -> np.ndarray:
+        """(cases,) goal to which a sum belongs."""
+        return self.goal_of[np.searchsorted(self.case_of, np.arange(self.case_of[-1] + 1))]
+
+    def of_goals(self, of_groups: Real) -> Real:
+        """(goals,) the largest sums of what groups (groups,) come to."""
+        sums = np.bincount(self.case_of, of_groups)
+        return np.maximum.reduceat(sums, np.searchsorted(self.goal_of_case, np.arange(len(self.goals))))
+
+    def changed(self, **fields: Any) -> "OverTurn":
+        """The program with other goals, ceilings or limits, and what is known of its quantities."""
+        other = replace(self, **fields)
+        vars(other).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
+        return other
+
+    @cached_property
+    def samples(self) -> Samples:
+        """The quantities all over the turn."""
+        return Samples(self.quantities)
+
+    @cached_property
+    def brackets(self) -> Brackets:
+        """The quantities by what is proven of them."""
+        return Brackets(self.quantities, self.samples.cancelled, self.scatter)
+
+    @cached_property
+    def first(self) -> Cuts:
+        """Cuts to begin with."""
+        return self.samples.first()
+
+    @cached_property
+    def telling(self) -> Cuts:
+        """The same, and what tells all that counterweights change: no two of them alike in these are told apart."""
+        if all(quantity.response.turning is None for quantity in self.quantities):
+            return self.first
+        resting = zip(self.quantities, self.first, self._resting[0], strict=True)
+        return tuple((*first, *quantity.harmonics(rest.upper)) for quantity, first, rest in resting)
+
+    @cached_property
+    def at_rest(self) -> Values:
+        """Without counterweights."""
+        still, fine = np.zeros(self.limits.radius.shape, complex), np.full(len(self.quantities), _FINE)
+        return self._decided(still, fine, *self._resting)
+
+    @cached_property
+    def _resting(self) -> tuple[tuple[Reached, ...], np.ndarray]:
+        """Brackets without counterweights, and which are coarse (quantities,)."""
+        still = np.zeros(self.limits.radius.shape, complex)
+        spare = self._spare(self.samples.sizes(still, self.scatter))
+        return self.brackets.found(still, np.maximum(_FINE, spare)), spare > _FINE
+
+    @cached_property
+    def yardsticks(self) -> Real:
+        """(goals,) what gaps are relative to: the goal without counterweights.
+
+        Where that is 0, what the counterweights that cancel everything in the program could change of it, as
+        :func:`optimizer.program.verdict.yardstick` has it.
+        """
+        rest = self.at_rest.goals
+        if np.all(rest > 0):
+            return rest
+        posed = self.begun
+        reach = np.minimum(self.limits.reach, natural_reach(posed))
+        of_term = np.sum(np.abs(posed.norms.influence) * reach, axis=-1)
+        change = self.of_goals(np.bincount(posed.group[posed.row], of_term, len(self.groups)).astype(float))
+        return np.where(rest > 0, rest, change)
+
+    @cached_property
+    def units(self) -> Real:
+        """(goals,) what gaps are measured by on the way: the yardsticks, 1 where there is nothing to measure."""
+        given = [goal.unit for goal in self.goals]
+        if all(unit is not None for unit in given):
+            return np.array(given)
+        return np.where(self.yardsticks > 0, self.yardsticks, 1.0)
+
+    @cached_property
+    def sizes(self) -> Real:
+        """(ceilings and limited,) what excesses are measured by."""
+        rest = np.array([self._resting[0][q].upper for q, _ in self.limited])
+        size = np.maximum(np.array([cap for _, cap in self.limited]), rest)
+        return np.concatenate([self._exact_ceilings.size, np.where(size > 0, size, 1.0)])
+
+    @cached_property
+    def _exact_ceilings(self) -> Ceilings:
+        """The ceilings on responses."""
+        if not self.ceilings:
+            return self._none
+        exact = limited(self.ceilings, self._objective(self.first).norms, self.limits.radius.size)
+        norms = replace(exact.norms, scatter=self.scatter.share)
+        return replace(exact, norms=norms, cap=exact.cap - self._astray(norms))
+
+    def _astray(self, norms: Norms) -> Real:
+        """What terms grow by, whatever the counterweights."""
+        return self.scatter.unbalance * np.sum(np.abs(norms.influence), axis=-1)
+
+    def alone(self, n: int) -> "OverTurn":
+        """The program of one of the goals alone."""
+        return self.changed(goals=self.goals[n : n + 1])
+
+    @cached_property
+    def _none(self) -> Ceilings:
+        """No ceilings."""
+        webs = self.limits.radius.size
+        norms = Norms(np.zeros(0, complex), np.zeros((0, webs)), self.scatter.share)
+        return limited((), norms, webs)
+
+    @cached_property
+    def begun(self) -> Statement:
+        """The program with the cuts to begin with."""
+        return self.statement(self.first)
+
+    def statement(self, cuts: Cuts) -> Statement:
+        """The program with finitely many cuts of every quantity: its groups, its ceilings with what is limited last."""
+        posed = self._objective(cuts)
+        exact, chosen = self._exact_ceilings, [(q, cap, cut) for q, cap in self.limited for cut in cuts[q]]
+        if not chosen:
+            return replace(posed, ceilings=exact)
+        norms = Norms(
+            np.append(exact.norms.constant, [cut.constant for _, _, cut in chosen]),
+            np.concatenate([exact.norms.influence, *(cut.influence[None] for _, _, cut in chosen)]),
+            self.scatter.share,
+            (*(False for _ in exact.names), *(cut.scalar for _, _, cut in chosen)),
+        )
+        # an excess is a share of the quantity's size, not of its cuts'
+        size = dict(zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True))
+        ceilings = Ceilings(
+            (*exact.names, *(self.quantities[q].name for q, _, _ in chosen)),
+            norms,
+            np.append(exact.cap, [cap - cut.floor for _, cap, cut in chosen] - self._astray(norms)[exact.cap.size :]),
+            np.append(exact.size, [size[q, cap] for q, cap, _ in chosen]),
+            angles_deg=(*(None for _ in exact.names), *(cut.angle_deg for _, _, cut in chosen)),
+            scenarios=(*(exact.scenarios or ()), *(self.quantities[q].scenario for q, _, _ in chosen)),
+        )
+        return replace(posed, ceilings=ceilings)
+
+    def _objective(self, cuts: Cuts) -> Statement:
+        """The statement without ceilings."""
+        terms = Terms()
+        for n, group in enumerate(self.groups):
+            for row in group.rows:
+                terms.add(n, row)
+            for each in group.weighed:
+                for cut in cuts[each.quantity]:
+                    terms.add_cut(n, self.quantities[each.quantity], cut, each)
+        influence: Real | Complex = np.stack(terms.influence)  # type: ignore[assignment]  # real or complex
+        # what is too small to divide by has no influence
+        influence = np.where(np.abs(influence) > SMALLEST, influence, 0.0)
+        norms = Norms(np.array(terms.constant, dtype=complex), influence, self.scatter.share, tuple(terms.scalar))
+        owner, group_of = np.array(terms.row), np.array(terms.group)
+        floor = np.array(terms.floor) + np.bincount(owner, self._astray(norms)).astype(float)
+        names = Names(tuple(terms.names), tuple(terms.rows))
+        return Statement(norms, owner, group_of, floor, self._none, self.limits, names)
+
+    def values(self, u: Complex, width: float) -> Values:
+        """What an unbalance (K,) comes to.
+
+        Parameters
+        ----------
+        width : of the brackets, as a share of what the goals and ceilings are measured by.
+        """
+        about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
+        wanted = np.clip(width * self._shares / about, 1e-15, 1e300)
+        spare = self._spare(about)
+        return self._decided(u, wanted, self.brackets.found(u, np.maximum(wanted, spare)), spare > wanted)
+
+    def _spare(self, about: Real) -> Real:
+        """Widths of brackets (quantities,) that tell of what decides nothing that it does not.
+
+        0 of what is limited, and of what scatters, whose search wants cells to begin with.
+        """
+        found = spare(self.groups, about)
+        found[[q for q, _ in self.limited]] = 0.0
+        found[[quantity.masses > 0.0 for quantity in self.quantities]] = 0.0
+        return found
+
+    def _decided(self, u: Complex, tolerance: Real, found: tuple[Reached, ...], coarse: np.ndarray) -> Values:
+        """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
+        tolerance (quantities,) where they may decide something."""
+        may = deciding(self.groups, found)
+        may[[q for q, _ in self.limited]] = True
+        again = np.flatnonzero(coarse & may).tolist()
+        closer = dict(zip(again, self.brackets.found(u, tolerance, again), strict=True)) if again else {}
+        return self._values(u, tuple(closer.get(q, each) for q, each in enumerate(found)), self.sizes)
+
+    @cached_property
+    def _shares(self) -> Real:
+        """(quantities,) how much of each is worth what goals and ceilings are measured by."""
+        worth = np.full(len(self.quantities), np.inf)
+        for group, n in zip(self.groups, self.goal_of.tolist(), strict=True):
+            for each in group.weighed:
+                share = float(self.units[n]) / len(self.goals[n].groups) / each.weight
+                worth[each.quantity] = min(worth[each.quantity], share)
+        for (q, _), size in zip(self.limited, self.sizes[len(self.ceilings) :].tolist(), strict=True):
+            worth[q] = min(worth[q], size)
+        return worth
+
+    def seen(self, u: Complex, matters: Real) -> tuple[Values, tuple[tuple[Reached, ...], ...]]:
+        """What an unbalance comes to at some angles, which is no more than the truth, and every quantity there.
+
+        Parameters
+        ----------
+        matters : (quantities,) above which more angles than one count.
+        """
+        found = self.samples.highest(u, self.scatter, matters)
+        return self._values(u, tuple(each[0] for each in found), self.sizes), found
+
+    def _values(self, u: Complex, found: tuple[Reached, ...], sizes: Real) -> Values:
+        largest = [
+            max(
+                [_sum(row, u, self.scatter) for row in group.rows]
+                + [each.offset + each.weight * found[each.quantity].upper for each in group.weighed]
+            )
+            for group in self.groups
+        ]
+        over = [
+            float(response.to(u).peak) + self.scatter.of(response.influence, u) - cap for response, cap in self.ceilings
+        ]
+        over += [found[q].upper - cap for q, cap in self.limited]
+        return Values(self.of_goals(np.array(largest)), np.array(over) / sizes, found)
+
+    def excess_scales(self, cuts: Sequence[int]) -> Real:
+        """What the rows of the program of the smallest excess are divided by, with so many cuts of every quantity."""
+        count = [*(1 for _ in self.ceilings), *(cuts[q] for q, _ in self.limited)]
+        return np.repeat(self.sizes, np.array(count, dtype=int))
+
+    def excess(self) -> "OverTurn":
+        """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
+        rows = []
+        for (response, cap), size in zip(self.ceilings, self.sizes.tolist(), strict=False):
+            norms = Norms(response.baseline.co[..., None] / size, response.influence[..., None, :] / size)
+            floor = np.asarray((np.abs(response.baseline.counter) - cap) / size)
+            rows.append(Row(response.name, (WeightedPeak(response.name, floor, norms, response.scenario),)))
+        sizes = self.sizes[len(self.ceilings) :].tolist()
+        weighed = [Weighed(q, 1.0 / size, -cap / size) for (q, cap), size in zip(self.limited, sizes, strict=True)]
+        goal = Goal("excess", (Group(tuple(rows), tuple(weighed)),), 1.0)
+        return self.changed(goals=(goal,), ceilings=(), limited=())
+
+
+def _sum(row: Row, u: Complex, scatter: Scatter) -> float:
+    return float(
+        sum(peak.floor + np.sum(np.abs(peak.norms.at(u))) + scatter.of(peak.norms.influence, u) for peak in row.peaks)
+    )

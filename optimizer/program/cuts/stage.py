@@ -1,0 +1,344 @@
+"""One stage of a program over the turn, by cuts: the smallest last goal, or the least mass, under what is kept.
+
+Finitely many cuts of every quantity make a statement that clarabel solves as matrices. Its multipliers prove a lower
+bound for all angles, since no u makes a quantity smaller than its cuts; the upper figure comes from brackets of the
+true peaks. Where the two are apart the cuts that the brackets found are added, and slack ones let go. So the certified
+gap tells when to stop, and not the solver.
+"""
+
+import time
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
+from optimizer.program.cuts.cut import Pool, Reached
+from optimizer.program.cuts.proof import Proof, proofs, resting_proof, times, units
+from optimizer.program.cuts.semi_infinite import OverTurn, Values
+from optimizer.program.reference.assembled import NoPoint, Target, solved
+from optimizer.program.scaled_program import Stage as CostStage
+from optimizer.program.scaling import natural_reach, scale
+from optimizer.program.solution import CEILING_ROUNDING, NEGLIGIBLE
+from optimizer.program.statement import Statement
+
+#: rounds of a stage before it ends with what is proven
+_MOST_ROUNDS = 60
+#: limits beyond this multiple of the natural reach cannot bind
+_REACH = 10.0
+#: for what has begun when time is up
+_LAST_S = 1e-2
+#: no bracket is left wider
+_COARSE = 1e-4
+#: share of a gap from which on it is the solver that leaves it open
+_LOST = 0.5
+#: share of the gap asked for that brackets may leave open
+_OPEN = 0.1
+#: by this share of their size ceilings are lowered, so that the answer keeps them; raised on the edge of what can be
+_LOWERED, _RAISED = 2e-10, CEILING_TOLERANCE - 2e-10
+#: so much more than points missed their levels by is aimed lower next time
+_MISSED = 1.5
+#: so far towards a point inside the ceilings a point is moved at least that exceeds them
+_NARROWEST = 1e-12
+#: share of a goal below which points do not keep what is aimed at
+_LEAST_MARGIN = 1e-12
+#: relative width of the brackets of a point that may be the answer, and of one that only just keeps what it has to
+_JUDGED, _CLOSE = 5e-11, 1e-12
+
+
+@dataclass(frozen=True)
+class Kept:
+    """Levels of goals that come first, (goals,) each."""
+
+    margin: Real  # by which the solver aims lower
+    most: Real  # that the point keeps
+    counted: Real  # that the bound counts with
+
+
+@dataclass(frozen=True)
+class Point:
+    """Counterweights and what they come to."""
+
+    unbalance: Complex  # (K,) kg m
+    values: Values
+    mass: float  # kg
+
+
+class Stage(NamedTuple):
+    """What one stage came to."""
+
+    point: Point
+    proof: Proof | None  # None where nothing is proven, which can only be so of a mass
+    rounds: int
+    certify_s: float  # time spent on bounds
+    timed_out: bool  # the time limit ended the search
+
+
+class Search:
+    """One stage: the last goal of a program, or the mass, under what is kept."""
+
+    def __init__(self, program: OverTurn, pool: Pool, kept: Kept, inside: Point, raised: bool, until: float) -> None:
+        """Prepare.
+
+        Parameters
+        ----------
+        kept : levels of all goals but the last, or of all where the mass is to be small.
+        inside : a point that keeps all that has to be kept.
+        raised : ceilings take up the tolerance that they have.
+        until : time.thread_time() at which the search ends.
+        """
+        self.until = until
+        self.program, self.pool, self.kept, self.inside = program, pool, kept, inside
+        self.of_mass = kept.most.size == len(program.goals)
+        self.raised = raised
+        # nothing has to be kept, nor is it one that is measured by 1: an excess over ceilings, the trade of a front
+        self.free = not (kept.most.size or program.ceilings or program.limited or program.goals[-1].unit)
+        self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
+        self.unit = units(program)
+        statement = times(program.begun, 1.0 / self.unit[program.goal_of])
+        needed = 2.0 * float(np.max(np.abs(inside.unbalance), initial=0.0))
+        largest = float(np.max(program.limits.reach, initial=0.0))
+        natural = float(natural_reach(statement))
+        self.clip = min(max(_REACH * natural, needed), largest) if natural > 0 else largest
+        self.certify_s = 0.0
+        self.margin = kept.margin  # that is aimed at, no more than what is small can bear
+        self.price = np.zeros(kept.margin.size)  # of what is kept, in units of what is small
+        self.aimed = kept.most  # levels that the solver was last asked to keep
+        self.missed = np.zeros(kept.most.size)  # by what its points were above them
+        self.about: Real | None = None  # variables of the last program
+        self.near: Point | None = None  # the last one that kept all
+        self.beyond: Point | None = None  # the last one that did not
+
+    def run(self, enough: float, told: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
+        """Rounds until the gap is small enough, or nothing more is to be had.
+
+        Parameters
+        ----------
+        enough : gap that ends the search, in the goal's unit; of a mass relative to it.
+        told : whether a value and its bound are all that has to be known.
+        """
+        statement = self._posed()
+        best, proof = self.inside, self._closed(None, statement)
+        attempts, gap = list(FREELY if self.free else WITHIN), np.inf
+        rounds, timed_out, promised = 0, False, None
+        while attempts and rounds < _MOST_ROUNDS and not self._late():
+            rounds += 1
+            found = self._solved(statement, attempts[0])
+            if found is None:
+                attempts = attempts[1:]
+                continue
+            u, proven = found
+            for one in proven:
+                proof = one if proof is None or one.bound > proof.bound else proof
+            self._spare(enough * (best.mass if self.of_mass else 1.0))
+            bound = -np.inf if proof is None else proof.bound
+            matters, mass = self._matters(statement, u), self._mass(u)
+            # what is seen at some angles is no more than the truth: while that is too much no bracket is needed
+            seen, places = self.program.seen(u, matters)
+            promised = Point(u, seen, mass)
+            figure = self._promise(promised)
+            gap = figure - bound
+            lost = self.free and self._said(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap
+            if gap > self._wanted(enough, best) and not told(figure, bound) and self._learnt(places, u, matters):
+                if lost:
+                    # not cuts are missing but digits of the multipliers
+                    attempts = [*attempts[1:], attempts[0]]
+                statement = self._posed()
+                continue
+            # what may be the answer is judged once
+            narrow = _COARSE
+            if gap <= self._wanted(enough, best):
+                narrow = _CLOSE if self.of_mass else _JUDGED
+            point, promised = self._evaluated(u, min(self._width(enough, gap), narrow)), None
+            best = min(best, self._kept(point), key=self.figure)
+            gap = self.figure(best) - bound
+            if gap <= self._wanted(enough, best) or told(self.figure(best), bound):
+                break
+            if not self._learnt([(each,) for each in point.values.reached], u, matters):
+                proof = self._closed(proof, statement)
+                self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
+                attempts = attempts[1:]
+                continue
+            if lost:
+                attempts = [*attempts[1:], attempts[0]]
+            statement = self._posed()
+        else:
+            timed_out = self._late()
+        if promised is not None:
+            best = min(best, self._kept(self._evaluated(promised.unbalance, self._width(enough, gap))), key=self.figure)
+        return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
+
+    def _wanted(self, enough: float, best: Point) -> float:
+        """Gap that ends the search, in units of what is small.
+
+        Of a mass no more is to be had than what is paid for the room between what the solver keeps and what the bound
+        counts with: more rounds do not narrow it.
+        """
+        if not self.of_mass:
+            return enough
+        room = self.kept.counted - self.kept.most + self.margin
+        return enough * best.mass + float(np.sum(self.price * np.maximum(room, 0.0)))
+
+    def _late(self) -> bool:
+        return time.thread_time() >= self.until
+
+    def _posed(self) -> Statement:
+        """The program with the cuts that are known."""
+        return self.program.statement(self.pool.cuts)
+
+    def _closed(self, proof: Proof | None, statement: Statement) -> Proof | None:
+        """The better of a proof and of that by the floors of all that is known by now, which needs no solver."""
+        if self.of_mass:
+            return proof
+        began = time.perf_counter()
+        resting = resting_proof(self.program, self.pool.cuts, statement)
+        self.certify_s += time.perf_counter() - began
+        return resting if proof is None or resting.bound > proof.bound else proof
+
+    def _spare(self, enough: float) -> None:
+        """Keep back no more than costs a share of the gap that is asked for."""
+        least = _LEAST_MARGIN * self.program.units[: self.margin.size]
+        worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
+        self.margin = np.minimum(self.kept.margin, np.maximum(worth, least))
+
+    def _learnt(self, found: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+        """Whether a point has shown a cut that was not known."""
+        new = self.pool.add(found, u, matters)
+        self.pool.forget(u)
+        return new
+
+    def _promise(self, point: Point) -> float:
+        """What the best that is kept between a point and those inside comes to at least, and by convexity at most if
+        the point comes to no more than its values."""
+        over = self._excess(point.values)
+        if np.all(over <= 0.0):
+            return self.figure(point)
+        found = []
+        for inside in (self.inside, self.near):
+            if inside is not None:
+                step = min(_step(over, self._excess(inside.values)), 1.0)
+                found.append(self.figure(point) + step * (self.figure(inside) - self.figure(point)))
+        return min(found)
+
+    def _said(self, statement: Statement, u: Complex) -> Real:
+        """(goals,) what a point comes to by its statement."""
+        return self.program.of_goals(statement.largest(statement.rows(statement.norms.sizes(u))))
+
+    def figure(self, point: Point) -> float:
+        """What is minimised."""
+        return point.mass if self.of_mass else float(point.values.goals[-1])
+
+    def _width(self, enough: float, gap: float) -> float:
+        """Width of brackets that leaves open a share of what is asked, or of what is still open."""
+        size = self.program.units
+        # what is kept has to be told from what is not
+        share = float(np.min(self.margin / size[: self.margin.size], initial=np.inf))
+        if not self.of_mass:
+            share = min(share, max(enough, _OPEN * gap if np.isfinite(gap) else 0.0) / float(size[-1]))
+        if self.program.limited:
+            share = min(share, _LOWERED)
+        return min(_OPEN * share, _COARSE)
+
+    def _solved(self, statement: Statement, attempt: Attempt) -> tuple[Complex, list[Proof]] | None:
+        """The point of finitely many cuts, and what its multipliers prove."""
+        program, goal_of, case_of = self.program, self.program.goal_of, self.program.case_of
+        posed = times(statement, 1.0 / self.unit[goal_of])
+        mass = (self.inside.mass or 1.0) if self.of_mass else 1.0
+        lowered = -_RAISED if self.raised else attempt.margins * _LOWERED
+        largest = float(np.max(np.abs(posed.norms.constant)))
+        stage: CostStage = "mass" if self.of_mass else "objective"
+        data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
+        highest = posed.largest(posed.floor)
+        aimed = self.aimed = self.kept.most - attempt.margins * self.margin - self.missed
+
+        def sums(n: int, most: float) -> list[Target]:
+            """The sums of a goal, none above a level."""
+            chosen = [case_of == case for case in np.flatnonzero(program.goal_of_case == n)]
+            return [Target(case, (most - float(np.sum(highest[case]))) / scaling.objective) for case in chosen]
+
+        targets = [each for n, most in enumerate(aimed) for each in sums(n, most / self.unit[n])]
+        of_target = program.goal_of_case[program.goal_of_case < aimed.size]
+        last = len(program.goals) - 1
+        left = max(self.until - time.thread_time(), _LAST_S)
+        posed_as = data, attempt.tolerance, left, goal_of == last, targets, sums(last, 0.0)
+        about = self.about if attempt.boosted else None
+        found = solved(*posed_as, about, attempt.regularization)
+        if isinstance(found, NoPoint) and about is not None:
+            # what was boosted about another point may be worse than what was not
+            found = solved(*posed_as)
+        if isinstance(found, NoPoint):
+            self.about = None
+            return None
+        self.about = found.variables
+        worth = scaling.value / scaling.objective * (1.0 if self.of_mass else float(self.unit[-1]))
+        self.price = np.bincount(of_target, found.price, aimed.size) * worth / self.unit[: aimed.size]
+        u = program.limits.into(scaling.unbalance(posed, found.solution))
+        began = time.perf_counter()
+        multipliers = scaling.multipliers(posed, found.solution)
+        proven = list(proofs(program, self.pool.cuts, statement, u, multipliers, self.kept.counted))
+        self.certify_s += time.perf_counter() - began
+        return u, proven
+
+    def _matters(self, statement: Statement, u: Complex) -> Real:
+        """(quantities,) above which a quantity changes anything."""
+        program = self.program
+        least = np.full(len(program.quantities), np.inf)
+        level = statement.largest(statement.rows(statement.norms.sizes(u)))
+        for group, reached in zip(program.groups, level.tolist(), strict=True):
+            for each in group.weighed:
+                least[each.quantity] = min(least[each.quantity], (reached - each.offset) / each.weight)
+        for (q, cap), size in zip(program.limited, program.sizes[len(program.ceilings) :].tolist(), strict=True):
+            least[q] = min(least[q], cap + (0.0 if self.raised else -_LOWERED) * size)
+        return least
+
+    def _tidied(self, point: Point) -> Point:
+        """The point without its negligible counterweights, where it then still keeps all and is no worse."""
+        u = point.unbalance
+        small = np.abs(u) < NEGLIGIBLE * np.max(np.abs(u), initial=0.0)
+        if not self.of_mass or not np.any(small & (u != 0)):
+            return point
+        tidy = self._evaluated(np.where(small, 0.0, u), _CLOSE)
+        return point if np.any(self._excess(tidy.values) > 0) else tidy
+
+    def _evaluated(self, u: Complex, width: float) -> Point:
+        return Point(u, self.program.values(u, width), self._mass(u))
+
+    def _mass(self, u: Complex) -> float:
+        return float(np.sum(np.abs(u) / self.program.limits.radius))
+
+    def _kept(self, point: Point) -> Point:
+        """The best that is kept between a point and those inside; later points are moved towards the nearest."""
+        if np.all(self._excess(point.values) <= 0.0):
+            self.near = point
+            found = [point] if self.beyond is None else [point, self._moved(self.beyond, point)]
+        else:
+            self.beyond = point
+            found = [self._moved(point, inside) for inside in (self.inside, self.near) if inside is not None]
+        return min(found, key=self.figure)
+
+    def _moved(self, point: Point, inside: Point) -> Point:
+        """The point moved towards one inside just so far that all is kept; all of it is convex."""
+        for _ in range(4):
+            over, under = self._excess(point.values), self._excess(inside.values)
+            step = _step(over, under)
+            if step <= 0.0:
+                return point
+            step = min(1.0, step * (1.0 + 1e-9) + _NARROWEST)
+            u = point.unbalance + step * (inside.unbalance - point.unbalance)
+            point = self._evaluated(u, _CLOSE)
+        return inside
+
+    def _excess(self, values: Values) -> Real:
+        """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""
+        kept = self.kept.most
+        over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
+        return np.concatenate([over, values.over - self.allowed])
+
+
+def _step(over: Real, under: Real) -> float:
+    """How far from a point towards one inside all is kept, by the excess of both."""
+    worst = np.where(over > 0, over / np.maximum(over - under, np.finfo(float).tiny), 0.0)
+    return float(np.max(worst, initial=0.0))

@@ -1,0 +1,1 @@
+"""How one program, or many of one shape, are solved, and what is tried when."""

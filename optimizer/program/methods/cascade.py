@@ -1,0 +1,142 @@
+"""Which method is tried when: for one program that the compiled interior point leaves open (docs/mathematics.md, 9).
+
+Without ceilings, one after the other, each with what is known already: polish, reference solver, finer numbers.
+With ceilings it is first found out whether they can be kept, and with how much room:
+
+    out of reach             the proof of that is the answer
+    rest is an optimum       the answer, but for the tolerance of the ceilings
+    room below them          polish and reference solver, under the ceilings as they are
+    on the edge, or no proof all methods again, under the ceilings raised by the tolerance that they have
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex
+from optimizer.program.certificate import nothing_proven
+from optimizer.program.kernel.finer_numbers import finest
+from optimizer.program.methods.compiled import ENOUGH, TARGET, suits_kernel
+from optimizer.program.methods.feasibility_phase import (
+    AMPLE,
+    Unreachable,
+    at_rest,
+    proven_again,
+    raised,
+    smallest_excess,
+)
+from optimizer.program.methods.polish import lightened, polished
+from optimizer.program.methods.rounding import settled
+from optimizer.program.methods.single import Asked, Found, enough, interior_point
+from optimizer.program.points import points_at
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import CEILING_ROUNDING, Solution
+from optimizer.program.statement import Statement
+
+#: the smallest objective is sought this much more sharply than optima are told apart
+_SHARPNESS = 1e-4
+#: relative gap of the least mass that ends the search
+_MASS_GAP = 1e-6
+
+
+def cascade(statement: Statement, asked: Asked, solver: Solver, quick: Found) -> Solution | Unreachable:
+    """Certified optimum of one program whose webs can all carry something.
+
+    Parameters
+    ----------
+    quick : what the interior point has found, not certified.
+
+    Returns
+    -------
+    Solution, whose gap tells how far it is certified and whose excess whether the ceilings are kept
+    (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
+    """
+    find = _under_ceilings if statement.ceilings.names else _by_all
+    found = find(statement, asked, solver, quick)
+    if isinstance(found, Unreachable):
+        return found
+    if asked.least_mass and found.mass_multipliers is None:
+        # nothing is proven about the mass but that it is not below 0
+        found = replace(found, mass_multipliers=nothing_proven(statement), mass_target=found.objective + asked.share)
+    return _settled(statement, asked, found)
+
+
+def _settled(statement: Statement, asked: Asked, found: Solution) -> Solution:
+    """The same without dust, and at the limits that it touches."""
+    target = found.objective
+    if found.below_ceilings:
+        # what exceeds the ceilings is judged by a lower bound
+        share = (TARGET if asked.least_mass else ENOUGH) * asked.share
+        target = found.lower_bound + share - float(statement.rounding(found.unbalance))
+    bound = np.array([found.mass_lower_bound]) if asked.least_mass else None
+    alone = statement.alone()
+    points = settled(alone, points_at(alone, found.unbalance[None]), np.array([target]), bound)
+    return found.moved_to(statement, points.unbalance[0])
+
+
+def _under_ceilings(statement: Statement, asked: Asked, solver: Solver, quick: Found) -> Solution | Unreachable:
+    """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
+    nearest = smallest_excess(statement, solver)
+    if nearest.lower_bound > CEILING_ROUNDING:
+        assert nearest.multipliers is not None  # they are what proves the bound
+        return Unreachable(nearest.unbalance, nearest.objective, nearest.certify_s, nearest.multipliers)
+    if asked.least_mass and (rest := at_rest(statement, asked, quick.smallest)):
+        return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
+    if nearest.objective <= -AMPLE:
+        found = _by_all(statement, asked, solver, quick, nearest.unbalance, finer=False)
+        if enough(found, asked):
+            return replace(found, certify_s=found.certify_s + nearest.certify_s)
+    # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
+    higher = raised(statement)
+    quick = interior_point(higher, asked, inside=nearest.unbalance)
+    found = quick.lightest if quick.certified else _by_all(higher, asked, solver, quick, nearest.unbalance)
+    return proven_again(statement, replace(found, certify_s=found.certify_s + nearest.certify_s))
+
+
+def _by_all(
+    statement: Statement,
+    asked: Asked,
+    solver: Solver,
+    quick: Found,
+    inside: Complex | None = None,
+    finer: bool = True,
+) -> Solution:
+    """One method after the other, each with what is known already.
+
+    Parameters
+    ----------
+    inside : a point as far below the ceilings as there is.
+    finer : whether finer numbers are tried too.
+    """
+    quick = lightened(statement, asked, polished(statement, asked, quick, inside))
+    if quick.certified:
+        return quick.lightest
+    found = solver.smallest_objective(statement, _SHARPNESS * asked.share, quick.smallest)
+    if asked.least_mass and found.below_ceilings:
+        found = solver.least_mass(statement, found, asked.share, _MASS_GAP, quick.lightest)
+    precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
+    if precision is None or enough(found, asked):
+        return found
+    fine = polished(statement, asked, interior_point(statement, asked, precision, inside), inside)
+    fine = lightened(statement, asked, fine, precision)
+    return fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
+
+
+def _better_of(one: Solution, other: Solution, share: float) -> Solution:
+    """The better point with the better bound on the objective; of two optima the lighter one."""
+    one = one.bounded(other.lower_bound, other.multipliers)
+    if not other.below_ceilings:
+        return one
+    bound = one.lower_bound
+    both_optimal = max(one.objective, other.objective) - bound <= share
+    lighter = other.mass < one.mass
+    chosen = other if not one.below_ceilings or (lighter if both_optimal else other.objective < one.objective) else one
+    # a bound on the mass holds for its own first stage only, unless that stage was the worse one
+    heavier = other if other.mass_lower_bound > one.mass_lower_bound else one
+    proof = heavier if both_optimal else chosen
+    return replace(
+        chosen.bounded(bound, one.multipliers),
+        mass_lower_bound=proof.mass_lower_bound,
+        mass_multipliers=proof.mass_multipliers,
+        mass_target=proof.mass_target,
+    )

@@ -1,0 +1,340 @@
+"""The compiled interior point behind the certificate: many programs at once, each with its own proof."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real, mapped, plain
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
+from optimizer.program.kernel.finer_numbers import Precision, solve_in
+from optimizer.program.methods.rounding import settled
+from optimizer.program.multipliers import resting_multipliers
+from optimizer.program.points import Points, excess_at, points_at
+from optimizer.program.scaling import natural_reach
+from optimizer.program.solution import CEILING_ROUNDING, Solutions, joined
+from optimizer.program.statement import Statement
+
+if TYPE_CHECKING:
+    from optimizer.program.kernel.interior_point import Programs
+
+#: multiple of the natural reach beyond which limits are ignored
+_REACH = 10.0
+
+
+#: both stages, as :func:`optimizer.program.kernel.interior_point.solve`, of programs in units of their own
+Method = Callable[..., tuple[Any, ...]]
+
+
+class _Tolerances(NamedTuple):
+    """Gaps at which the stages end."""
+
+    sharpness: float  # first stage, as a share of what optima may differ by, between finest and coarsest
+    finest: float
+    coarsest: float
+    mass: float  # second stage, relative to the mass
+    ceilings: float  # share of their size by which ceilings are lowered, so that the answer keeps them
+
+
+_DOUBLE = _Tolerances(1e-5, 1e-12, 1e-9, 1e-7, 2e-12)
+#: what rounding ended early under ceilings mostly ends well when they are a hair elsewhere
+_ELSEWHERE = _DOUBLE._replace(ceilings=2e-11)
+#: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
+#: the answer and where the lightest is; and the largest relative gap of the mass
+ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
+#: optima reach this far into the share, which leaves room for rounding
+TARGET = 1.0 - 1e-7
+
+
+@dataclass(frozen=True)
+class BothStages(Solutions):
+    """Where both stages of N programs ended: of the points that they came upon the lightest that is an optimum."""
+
+    smallest: Complex  # (N, K) kg m, the smallest objective found, whatever its mass
+    certified: np.ndarray  # (N,) bool: nothing better is worth looking for
+
+
+def suits_kernel(statement: Statement) -> bool:
+    """Whether the compiled interior point takes such programs; others are cone programs.
+
+    They have one group, real influences, and no webs that are to be alike.
+    """
+    influences = (statement.norms.influence, statement.ceilings.norms.influence)
+    apart = statement.group[-1] == 0 and statement.limits.alike is None
+    return bool(apart and not any(np.iscomplexobj(each) for each in influences))
+
+
+def both_stages(
+    statement: Statement,
+    share: Real,
+    demand: Real,
+    least_mass: bool,
+    precision: Precision | None = None,
+    at_least: Real | float = 0.0,
+) -> BothStages:
+    """Both stages of N statements of one shape, one leading axis (N,).
+
+    What is found for one program does not depend on the others.
+
+    Parameters
+    ----------
+    share : (N,) how far above the smallest objective an optimum may be, in units of the objective.
+    demand : (N,) gap that is asked for; one above the share is met by less than the best.
+    precision : solve in finer numbers, interpreted: a thousand times slower.
+    at_least : (N,) what the objective is known to come to under the ceilings, which may be far more than at rest.
+    """
+    if precision is not None:
+        finest = precision.finest
+        finer = _Tolerances(1e-7, finest, 100 * finest, precision.mass, 0.1 * CEILING_ROUNDING)
+        solved = _solve(statement, share, least_mass, finer, _in(precision), at_least)
+        return _judged(statement, share, demand, least_mass, solved)
+    plain, level = np.flatnonzero(plain_discs(statement)), at_least + np.zeros(share.shape)
+    if not plain.size:
+        return _in_any_limits(statement, share, demand, least_mass, level)
+    part, wanted = statement.chosen(plain) if plain.size < share.size else statement, (share[plain], demand[plain])
+    quick = _judged(part, *wanted, least_mass, _solve(part, wanted[0], least_mass, _DOUBLE, _in_discs, level[plain]))
+    if quick.certified.all() and plain.size == share.size:
+        return quick
+    done = plain[quick.certified]
+    left = np.setdiff1d(np.arange(share.size), done)
+    rest = _in_any_limits(statement.chosen(left), share[left], demand[left], least_mass, level[left])
+    return joined([quick.chosen(quick.certified), rest], np.argsort(np.concatenate([done, left])))
+
+
+def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
+    """Where both stages of N statements end, a guess: whether it is near an optimum is not looked at.
+
+    Parameters are those of :func:`both_stages`.
+
+    Returns
+    -------
+    Unbalances (N, K) kg m, and multipliers (N, J + I) of the terms and ceilings in the last stage.
+    """
+    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs if plain_discs(statement).all() else None)
+    proof = found.mass_proof if least_mass else found.proof
+    prices = np.concatenate([proof.term, proof.ceiling], axis=-1)
+    return found.lightest if least_mass else found.smallest, prices
+
+
+def plain_discs(statement: Statement) -> np.ndarray:
+    """Programs that :mod:`optimizer.program.kernel.discs` takes (N,) bool: one row, no ceilings, sectors or budgets."""
+    norms, limits = statement.norms, statement.limits
+    shape = statement.floor.shape[-1] == 1 and 0 < norms.constant.shape[-1] < 3 and not statement.ceilings.names
+    if not shape or norms.scatter or any(norms.scalar) or limits.alike is not None or limits.radius.shape[-1] == 0:
+        return np.zeros(statement.floor.shape[:-1], bool)
+    return limits.free.all(axis=-1) & (np.add.reduce(limits.max_mass, axis=-1) <= limits.max_total_mass)
+
+
+def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: bool, at_least: Real) -> BothStages:
+    """Both stages of programs of any limits; under ceilings what is left is tried once more."""
+    solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
+    found = _judged(statement, share, demand, least_mass, solved)
+    if not statement.ceilings.names or found.certified.all():
+        return found
+    left = np.flatnonzero(~found.certified)
+    nearest = _solve(statement.chosen(left).excess(), np.full(left.size, CEILING_TOLERANCE), False, _DOUBLE).smallest
+    room = excess_at(statement.chosen(left), nearest) < 0
+    left, inside = left[room], nearest[room]
+    for tolerances in (_DOUBLE, _ELSEWHERE):
+        if not left.size:
+            break
+        part = statement.chosen(left)
+        if tolerances is _DOUBLE:
+            points = solved.chosen(left)
+        else:
+            points = _solve(part, share[left], least_mass, tolerances, at_least=part.objective(inside))
+        again = _judged(part, share[left], demand[left], least_mass, points.pulled(part, inside))
+        found.put(left[again.certified], again.chosen(again.certified))
+        left, inside = left[~again.certified], inside[~again.certified]
+    return found
+
+
+def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> BothStages:
+    """Of the points of both stages the ones to take, with their proofs."""
+    smallest, lightest = solved.smallest, solved.lightest
+    began = time.perf_counter()
+    lower_bound, proof = best_proof(statement, (solved.proof, *resting_multipliers(statement)))
+    certify_s = time.perf_counter() - began
+    rest, first, light = points_at(statement, np.array([np.zeros(smallest.shape), smallest, lightest])).each
+    best = _better(rest, first)
+    target = np.maximum(best.objective, lower_bound + TARGET * share - best.rounding)
+    counted, chosen = np.maximum(best.objective, lower_bound) + share, best
+    if not least_mass:
+        mass_proof, mass_bound = nothing_proven(statement), np.zeros(share.shape)
+    else:
+        # what can be kept up to rounding is not traded for their tolerance
+        kept = np.minimum(np.maximum(light.excess, CEILING_ROUNDING), CEILING_TOLERANCE)
+        nearer = _nearer(light, best, target)
+        for point in (light, points_at(statement, nearer), rest):
+            lighter = point.mass < chosen.mass
+            admitted = (point.objective <= target) & (point.excess <= kept)
+            chosen = chosen.where(~(lighter & admitted), point)
+        began = time.perf_counter()
+        mass_proof = solved.mass_proof
+        mass_bound = mass_lower_bound(statement, mass_proof, counted)
+        certify_s += time.perf_counter() - began
+    loose = (demand > share) & (chosen.objective - lower_bound <= demand)
+    enough = (ENOUGH_FOR_MASS if least_mass else ENOUGH) * share
+    certified = (loose | (best.objective - lower_bound <= enough)) & (chosen.excess <= CEILING_ROUNDING)
+    if least_mass:
+        # what counts as an optimum is told from a point that keeps the ceilings
+        certified &= (best.excess <= CEILING_ROUNDING) & (chosen.mass - mass_bound <= MASS_ENOUGH * chosen.mass)
+        chosen = settled(statement, chosen, target, mass_bound)
+    else:
+        chosen = settled(statement, chosen, lower_bound + ENOUGH * share, None)
+    return BothStages(
+        unbalance=chosen.unbalance,
+        objective=chosen.objective,
+        lower_bound=lower_bound,
+        mass=chosen.mass,
+        mass_lower_bound=mass_bound,
+        excess=chosen.excess,
+        multipliers=proof,
+        mass_multipliers=mass_proof,
+        mass_target=counted,
+        certify_s=np.full(share.shape, certify_s / max(share.size, 1)),
+        # its own, because others are put in place of some of either
+        smallest=best.unbalance.copy(),
+        certified=certified,
+    )
+
+
+@dataclass(frozen=True)
+class _Solved:
+    """Where the stages of N programs ended."""
+
+    smallest: Complex  # (N, K) kg m, the end of the first stage
+    lightest: Complex  # (N, K) kg m, the end of the second one
+    proof: Multipliers  # (N, ...), of the objective
+    mass_proof: Multipliers  # (N, ...), of the mass
+
+    def chosen(self, programs: np.ndarray) -> "_Solved":
+        return mapped(self, lambda array: array[programs])
+
+    def pulled(self, statement: Statement, inside: Complex) -> "_Solved":
+        points = pulled(statement, self.smallest, inside), pulled(statement, self.lightest, inside)
+        return _Solved(*points, self.proof, self.mass_proof)
+
+
+def _solve(
+    statement: Statement,
+    share: Real,
+    least_mass: bool,
+    tolerances: _Tolerances,
+    method: Method | None = None,
+    at_least: Real | float = 0.0,
+) -> _Solved:
+    if statement.limits.radius.shape[-1] == 0:
+        # nothing to choose
+        nothing, proof = np.zeros(statement.limits.radius.shape, complex), nothing_proven(statement)
+        return _Solved(nothing, nothing, proof, proof)
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    reach = np.minimum(limits.reach, (_REACH * natural_reach(statement))[:, None])
+    unit = np.add.reduce(np.abs(norms.constant), axis=-1)
+    reachable = np.add.reduce(np.abs(norms.influence) * reach[:, None, :], axis=(-2, -1))
+    # a level far above where the search starts is hardly found
+    unit = np.maximum(np.where(unit > 0, unit, np.where(reachable > 0, reachable, 1.0)), at_least)
+    v, cone, row, mass_unit = (method or _by_interior_point)(
+        statement,
+        reach,
+        unit,
+        tolerances.ceilings,
+        least_mass,
+        share / unit,
+        (tolerances.sharpness * share / unit).clip(tolerances.finest, tolerances.coarsest),
+        tolerances.mass,
+    )
+    points = reach * limits.centre * (v[:, :, 1] + 1j * limits.half_angle_sin * v[:, :, 2])
+    points = limits.into(points) if statement.flat is None else statement.flat.into(points)
+    # in units of what is minimised (the first is any), per unit of objective or response
+    value, terms = np.array([np.ones_like(share), mass_unit]), norms.constant.shape[-1]
+    vectors, worth = cone[..., 0] + 1j * cone[..., 1], (value / unit)[..., None]
+    parts = vectors[..., :terms] * worth, row * worth, vectors[..., terms:] * value[..., None] / ceilings.size
+    proofs = [Multipliers(*(part[stage] for part in parts)) for stage in range(2)]
+    return _Solved(points[0], points[1], *proofs)
+
+
+def pulled(statement: Statement, u: Complex, inside: Complex) -> Complex:
+    """Points above a ceiling, moved towards ones below it just so far; excesses are convex (..., K)."""
+    above, below = excess_at(statement, u), excess_at(statement, inside)
+    needed = above > CEILING_ROUNDING
+    step = np.where(needed, above / np.where(needed, above - np.minimum(below, 0.0), 1.0), 0.0)
+    return u + step[..., None] * (inside - u)
+
+
+def _better(old: Points, new: Points) -> Points:
+    """Of two points the one with the smaller objective, or the smaller excess where one breaks a ceiling."""
+    kept = old.excess <= CEILING_TOLERANCE, new.excess <= CEILING_TOLERANCE
+    smaller = new.objective < old.objective
+    better = np.where(kept[0] & kept[1], smaller, kept[1] | (~kept[0] & (new.excess < old.excess)))
+    return new.where(better, old)
+
+
+def _nearer(lightest: Points, smallest: Points, target: Real) -> Complex:
+    """The lightest moved towards the smallest just so far that the objective, which is convex, meets the target."""
+    over = lightest.objective - target + smallest.rounding
+    fall = lightest.objective - smallest.objective
+    needed = (over > 0) & (fall > over)
+    step = np.where(needed, over / np.where(needed, fall, 1.0), 0.0)
+    return lightest.unbalance + step[:, None] * (smallest.unbalance - lightest.unbalance)
+
+
+def _by_interior_point(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.interior_point import solve
+
+    return solve(_programs(statement, reach, unit, margin), *stages)
+
+
+def _in(precision: Precision) -> Method:
+    """Interpreted, in finer numbers, which warn where compiled ones end in a NaN, and the search with it."""
+
+    def method(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+        with np.errstate(all="ignore"):
+            found = solve_in(precision)(_programs(statement, reach, unit, margin), *stages)
+        return tuple(np.asarray(values, dtype=float) for values in found)
+
+    return method
+
+
+def _in_discs(statement: Statement, reach: Real, unit: Real, margin: float, *stages: Any) -> tuple[Any, ...]:
+    from optimizer.program.kernel.discs import Discs, solve
+
+    norms, radius = statement.norms, statement.limits.radius
+    influence = norms.influence / unit[:, None, None] * reach[:, None, :]
+    return solve(Discs(_parts(norms.constant / unit[:, None]), plain(influence), plain(reach / radius)), *stages)
+
+
+def _programs(statement: Statement, reach: Real, unit: Real, margin: float) -> "Programs":
+    from optimizer.program.kernel.interior_point import Programs
+
+    limits, norms, ceilings = statement.limits, statement.norms, statement.ceilings
+    constant = np.concatenate([norms.constant / unit[:, None], ceilings.norms.constant / ceilings.size], axis=-1)
+    influence = np.concatenate(
+        [norms.influence / unit[:, None, None], ceilings.norms.influence / ceilings.size[..., None]], axis=-2
+    )
+    cap = ceilings.cap / ceilings.size
+    mass = reach / limits.radius
+    highest = np.maximum.reduce(statement.floor, axis=-1)
+    budget = limits.max_total_mass[:, None]
+    programs = Programs(
+        row=statement.row.astype(np.int64),
+        floor=(statement.floor - highest[:, None]) / unit[:, None],
+        cap=cap - np.clip(cap, 0.0, margin),
+        constant=_parts(constant),
+        influence=influence * reach[:, None, :],
+        centre=_parts(limits.centre),
+        sine=limits.half_angle_sin,
+        cosine=limits.half_angle_cos,
+        sector=np.where(limits.free, 0.0, 1.0),
+        mass=mass,
+        budget=np.where(np.add.reduce(mass, axis=-1, keepdims=True) > budget, mass / budget, 0.0),
+    )
+    return Programs(*(plain(values) for values in programs))
+
+
+def _parts(vectors: Complex) -> Real:
+    return plain(vectors).view(float).reshape(*vectors.shape, 2)

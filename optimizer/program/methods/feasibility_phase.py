@@ -1,0 +1,82 @@
+"""On the edge of what can be reached: whether ceilings can be kept, and with how much room."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.certificate import (
+    Multipliers,
+    ceiling_allowance,
+    mass_lower_bound,
+    nothing_proven,
+    objective_lower_bound,
+)
+from optimizer.program.kernel.finer_numbers import EXTENDED
+from optimizer.program.methods.single import Asked, interior_point
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import CEILING_ROUNDING, Solution
+from optimizer.program.statement import Statement
+
+#: room below the ceilings, as a share of their size, from which on they are kept as they are
+AMPLE = 1e-8
+#: by which they are raised otherwise: what is left of their tolerance is for rounding
+_RAISED = CEILING_TOLERANCE - CEILING_ROUNDING
+#: gap of the smallest excess that is good enough
+_TOLD = 1e-13
+
+
+@dataclass(frozen=True)
+class Unreachable:
+    """Proof that no counterweights keep the ceilings, and those that come closest."""
+
+    closest: Complex  # (K,) kg m
+    excess: float  # largest relative excess over a ceiling of the closest
+    certify_s: float  # time spent on bounds
+    multipliers: Multipliers  # of the excess: rows and terms are those of the ceilings, each over its size
+
+
+def smallest_excess(statement: Statement, solver: Solver) -> Solution:
+    """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
+    program = statement.excess()
+    asked = Asked(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
+    found = interior_point(program, asked).smallest
+    if not _tells(found) and statement.limits.radius.size <= EXTENDED.most_webs:
+        # sharper than the reference solver, and less work than its tries
+        finer = interior_point(program, asked, EXTENDED).smallest
+        better, other = (finer, found) if finer.objective < found.objective else (found, finer)
+        found = better.bounded(other.lower_bound, other.multipliers)
+    return found if _tells(found) else solver.smallest_objective(program, _TOLD, found, _tells)
+
+
+def _tells(excess: Solution) -> bool:
+    return excess.lower_bound > CEILING_ROUNDING or excess.objective <= -AMPLE or excess.gap <= _TOLD
+
+
+def at_rest(statement: Statement, asked: Asked, known: Solution) -> Solution | None:
+    """No counterweights, where they are an optimum but for the tolerance of the ceilings: nothing is lighter."""
+    rest = known.moved_to(statement, np.zeros_like(known.unbalance))
+    if not rest.keeps_ceilings or rest.below_ceilings:
+        return None
+    rest = replace(rest, mass_lower_bound=0.0, mass_multipliers=nothing_proven(statement))
+    rest = replace(rest, mass_target=rest.objective + asked.share)
+    assert known.multipliers is not None  # those of rest, at least
+    allowance = ceiling_allowance(statement, known.multipliers, statement.ceilings.excess(rest.unbalance))
+    return rest if rest.gap + float(allowance) <= asked.share else None
+
+
+def raised(statement: Statement) -> Statement:
+    """The program with the ceilings raised by the tolerance that they have: there is always room below them."""
+    return replace(statement, ceilings=statement.ceilings.raised(_RAISED))
+
+
+def proven_again(statement: Statement, found: Solution) -> Solution:
+    """The same point with its bounds, both for the ceilings that were asked for."""
+    found = found.moved_to(statement, found.unbalance)
+    if found.multipliers is not None:
+        found = replace(found, lower_bound=float(objective_lower_bound(statement, found.multipliers)))
+    if found.mass_multipliers is not None:
+        target = np.asarray(found.mass_target)
+        found = replace(found, mass_lower_bound=float(mass_lower_bound(statement, found.mass_multipliers, target)))
+    return found

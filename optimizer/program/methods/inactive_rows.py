@@ -1,0 +1,83 @@
+"""Programs without the rows that are far below the largest: where the least mass is often found at once.
+
+Where the larger of force and moment counts, one may be far below the other at every optimum, as the force of an even
+layout is, and then the interior point of the least mass stalls. Without that row it does not; what is proven of the
+others is proven of all, and the point is as good where the row is still below.
+"""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import Real
+from optimizer.program.certificate import Multipliers
+from optimizer.program.methods.compiled import BothStages, both_stages
+from optimizer.program.norms import Norms
+from optimizer.program.points import points_at
+from optimizer.program.statement import Names, Statement
+
+#: a row that is below the largest by this share of it is far below it
+_FAR = 0.5
+
+
+def settle_without_slack_rows(
+    statement: Statement, share: Real, demand: Real, least_mass: bool, found: BothStages
+) -> None:
+    """Certify in place what both stages left open of N programs of one group, as far as fewer rows do.
+
+    Parameters
+    ----------
+    share, demand : (N,) as of :func:`optimizer.program.methods.compiled.both_stages`.
+    """
+    if statement.floor.shape[-1] < 2:
+        return
+    left = np.flatnonzero(~found.certified)
+    if not left.size:
+        return
+    rows = statement.chosen(left).rows(statement.chosen(left).norms.sizes(found.smallest[left]))
+    largest = np.max(rows, axis=-1, keepdims=True)
+    # never the largest itself, which may be below 0
+    far = largest - rows > _FAR * np.abs(largest)
+    for pattern in np.unique(far, axis=0):
+        programs = left[np.all(far == pattern, axis=-1)]
+        if not np.any(pattern):
+            continue
+        whole, terms = statement.chosen(programs), ~pattern[statement.row]
+        part = both_stages(_of_rows(whole, ~pattern, terms), share[programs], demand[programs], least_mass)
+        objective = points_at(whole, part.unbalance).objective
+        # no row that was left out has become the largest
+        kept = part.certified & (objective <= part.objective)
+        part = replace(
+            part,
+            multipliers=_over_all(whole, ~pattern, terms, part.multipliers),
+            mass_multipliers=_over_all(whole, ~pattern, terms, part.mass_multipliers),
+        )
+        found.put(programs[kept], part.chosen(kept))
+
+
+def _of_rows(statement: Statement, rows: np.ndarray, terms: np.ndarray) -> Statement:
+    """The program with some rows and their terms alone."""
+    norms, names = statement.norms, statement.names
+    return replace(
+        statement,
+        norms=Norms(
+            norms.constant[..., terms],
+            norms.influence[..., terms, :].copy(),
+            norms.scatter,
+            tuple(np.array(norms.scalar)[terms].tolist()) if norms.scalar else (),
+        ),
+        row=np.cumsum(rows)[statement.row[terms]] - 1,
+        group=statement.group[rows],
+        floor=statement.floor[..., rows],
+        names=Names(
+            tuple(name for name, here in zip(names.terms, terms, strict=True) if here),
+            tuple(name for name, here in zip(names.rows, rows, strict=True) if here),
+        ),
+    )
+
+
+def _over_all(statement: Statement, rows: np.ndarray, terms: np.ndarray, some: Multipliers) -> Multipliers:
+    """Multipliers of all rows and terms, 0 of those that were left out."""
+    term, row = np.zeros_like(statement.norms.constant), np.zeros_like(statement.floor)
+    term[..., terms], row[..., rows] = some.term, some.row
+    return replace(some, term=term, row=row)

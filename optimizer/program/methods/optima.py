@@ -1,0 +1,155 @@
+"""The way in: optima of many programs of one shape, each as if it were alone; one program is a batch of one.
+
+All are solved side by side by the compiled interior point; what it does not certify goes down the cascade one by one.
+"""
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+
+from optimizer.program.certificate import Multipliers, nothing_proven
+from optimizer.program.equal_unknowns import apart, united
+from optimizer.program.methods.cascade import cascade
+from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.inactive_rows import settle_without_slack_rows
+from optimizer.program.methods.single import Asked, interior_point, only
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import (
+    CLOSED_FORM,
+    CONE_PROGRAM,
+    INTERIOR_POINT,
+    OPTIMUM_SHARE,
+    Solution,
+    Solutions,
+    joined,
+)
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import yardstick
+
+
+@dataclass(frozen=True)
+class Optima(Solutions):
+    """Counterweights of N programs; of an unreachable one those that come closest to its ceilings."""
+
+    unreachable: np.ndarray  # (N,) bool: proven that no counterweights keep the ceilings
+    method: np.ndarray  # (N,) str
+    conflict: Multipliers  # (N, ...), those of the excess over the ceilings where they are unreachable, 0 elsewhere
+
+    def one(self, n: int = 0) -> Solution | Unreachable:
+        """One of them."""
+        u, spent = self.unbalance[n], float(self.certify_s[n])
+        if self.unreachable[n]:
+            return Unreachable(u, float(self.excess[n]), spent, self.conflict.chosen(n))
+        return Solution(
+            u,
+            float(self.objective[n]),
+            float(self.lower_bound[n]),
+            float(self.mass[n]),
+            float(self.mass_lower_bound[n]),
+            float(self.excess[n]),
+            str(self.method[n]),
+            spent,
+            self.multipliers.chosen(n),
+            self.mass_multipliers.chosen(n),
+            float(self.mass_target[n]),
+        )
+
+
+def optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
+    """Certified optima of N statements of one shape, one leading axis (N,); each as if it were alone.
+
+    Parameters
+    ----------
+    statement : programs whose limits are finite (:func:`optimizer.program.methods.implied_bounds.within_reach`).
+    relative_gap : asked gap, relative to the objective without counterweights.
+    least_mass : take the least total mass among the optima.
+    """
+    alike = statement.limits.alike
+    if alike is not None and alike.plain:
+        # no proof says otherwise: the terms are the same, and so are the multipliers
+        found = optima(united(statement, alike), relative_gap, least_mass, solver)
+        return replace(found, unbalance=apart(found.unbalance, alike))
+    carries = statement.limits.reach > 0
+    if carries.all():
+        return _optima(statement, relative_gap, least_mass, solver)
+    # webs that cannot carry anything are left out of their programs
+    patterns, which = np.unique(carries, axis=0, return_inverse=True)
+    parts, places = [], []
+    for k, webs in enumerate(patterns):
+        programs = np.flatnonzero(which.reshape(-1) == k)
+        part = _optima(statement.chosen(programs).only(webs), relative_gap, least_mass, solver)
+        everywhere = np.zeros((programs.size, webs.size), complex)
+        everywhere[:, webs] = part.unbalance
+        parts.append(replace(part, unbalance=everywhere))
+        places.append(programs)
+    return joined(parts, np.argsort(np.concatenate(places)))
+
+
+def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver: Solver) -> Optima:
+    """Of programs whose webs can all carry something."""
+    size = yardstick(statement)
+    share, demand = min(OPTIMUM_SHARE, relative_gap) * size, relative_gap * size
+    found = both_stages(statement, share, demand, least_mass) if suits_kernel(statement) else None
+    if found is not None:
+        settle_without_slack_rows(statement, share, demand, least_mass, found)
+    answer = _nothing(statement) if found is None else _compiled(statement, found)
+    for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
+        program, asked = statement.chosen(n), Asked(float(share[n]), float(demand[n]), least_mass)
+        quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
+        _put(answer, n, program, cascade(program, asked, solver, quick))
+    return answer
+
+
+def _compiled(statement: Statement, found: Solutions) -> Optima:
+    """What the compiled interior point has found."""
+    programs = found.objective.shape
+    method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
+    return Optima(
+        **{field.name: getattr(found, field.name) for field in fields(Solutions)},
+        unreachable=np.zeros(programs, bool),
+        method=np.full(programs, method, dtype=object),
+        conflict=_no_conflict(statement),
+    )
+
+
+def _no_conflict(statement: Statement) -> Multipliers:
+    shape = statement.ceilings.cap.shape
+    return Multipliers(np.zeros(shape, complex), np.zeros(shape), np.zeros((*shape[:-1], 0), complex))
+
+
+def _nothing(statement: Statement) -> Optima:
+    """Nothing found, nothing proven."""
+    webs = statement.limits.radius.shape
+    endless = np.full(webs[:-1], np.inf)
+    return Optima(
+        unbalance=np.zeros(webs, complex),
+        objective=endless,
+        lower_bound=-endless,
+        mass=endless.copy(),
+        mass_lower_bound=np.zeros(webs[:-1]),
+        excess=endless.copy(),
+        multipliers=nothing_proven(statement),
+        mass_multipliers=nothing_proven(statement),
+        mass_target=endless.copy(),
+        certify_s=np.zeros(webs[:-1]),
+        unreachable=np.zeros(webs[:-1], bool),
+        method=np.full(webs[:-1], CONE_PROGRAM, dtype=object),
+        conflict=_no_conflict(statement),
+    )
+
+
+def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreachable) -> None:
+    if isinstance(found, Unreachable):
+        answer.unreachable[n] = True
+        answer.conflict.put(n, found.multipliers)
+        # that ceilings cannot be kept is a finding of the reference solver alone
+        method = CONE_PROGRAM if found.closest.size else CLOSED_FORM
+        nowhere = Solution(found.closest, np.inf, -np.inf, np.inf, 0.0, np.inf, method, found.certify_s)
+        found = nowhere.moved_to(statement, found.closest)
+    for field in fields(Solution):
+        value = getattr(found, field.name)
+        if isinstance(value, Multipliers):
+            getattr(answer, field.name).put(n, value)
+        elif value is not None:
+            getattr(answer, field.name)[n] = value

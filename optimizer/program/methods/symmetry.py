@@ -1,0 +1,44 @@
+"""The most symmetric of equally good counterweights: the mean over what leaves the program as it is.
+
+Such a symmetry sends the unbalances to g u_p(k), or to their mirror images g conj(u)_p(k), with a permutation p of the
+webs and a turn g: among webs in one place, from end to end, and at the plane in which everything stands. Every term
+keeps its size and every counterweight its mass; sizes are convex, so that of the mean no term is larger, and neither is
+the mass (docs/mathematics.md section 9).
+"""
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, plain
+from optimizer.program.equal_unknowns import apart, united
+from optimizer.program.statement import Statement
+
+
+def symmetric(statement: Statement, u: Complex, kinds: np.ndarray | None = None) -> Complex:
+    """Counterweights that are no worse in any term, no heavier, and alike where the program is.
+
+    Parameters
+    ----------
+    statement : programs of one leading axis (N,).
+    u : (N, K) kg m, within the limits.
+    kinds : (K,) webs of different numbers are never alike, whatever their limits; None where the limits tell all.
+    """
+    alike = statement.limits.alike
+    if alike is not None and not alike.plain:
+        return u
+    if alike is not None:
+        of_units = None if kinds is None else kinds[alike.first]
+        return apart(symmetric(united(statement, alike), alike.means(u) * alike.count, of_units), alike)
+    influence = statement.every_influence
+    if u.shape[-1] < 2 or not u.size or np.iscomplexobj(influence):
+        return u
+    # the compiler is loaded when it is first needed
+    from optimizer.program.kernel.symmetries import Alike, means
+
+    limits = statement.limits
+    return means(
+        plain(statement.every_constant),
+        plain(influence),
+        Alike(*(plain(getattr(limits, name)) for name in Alike._fields)),
+        np.zeros(u.shape[-1], np.int64) if kinds is None else kinds.astype(np.int64),
+        plain(u),
+    )

@@ -1,0 +1,260 @@
+"""The waist over the whole turn: responses of all orders, seen from the shaft, where counterweights only shift them.
+
+Beside :mod:`optimizer.responses.response`, which knows one order at a time. A vector across the shaft, F(theta) on the
+frame, is
+d(theta) = e^{-j s theta} F(theta) as the shaft sees it. Counterweights turn with the shaft, so they add a constant:
+d(theta) + influence @ u. The peak over the turn is then the distance of a point from the farthest point of a fixed
+curve, convex in u, and its floor is the radius of the smallest circle around the curve.
+
+Everything is divided by omega^2, as in :class:`optimizer.responses.response.Response`: forces are kg m, moments kg m^2,
+and the influence of a counterweight is free of speed. Angles are shaft angles theta in rad, from 0 to the period.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple, Protocol
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.numerics.enclosing_circle import Circle, smallest_circle
+from optimizer.responses.added_harmonics import Harmonics, moved
+from optimizer.responses.curve_envelope import Outline, nearer
+from optimizer.responses.piecewise_cubics import Bracket, Index, Pieces
+from optimizer.responses.worst_masses import Parts
+
+#: points added to those of the pieces for the smallest circle around a curve, at most
+_MOST_POINTS = 50
+#: a circle this share of the curve's distance from the origin is a point
+_ROUNDING = 256 * np.finfo(float).eps
+
+
+class Curves(Protocol):
+    """J curves over one period that are evaluated together."""
+
+    @property
+    def period_deg(self) -> float:
+        """360, or 720 where the gas takes two turns."""
+
+    @property
+    def pieces(self) -> Pieces:
+        """The curves piece by piece, (J,)."""
+
+    @property
+    def mean(self) -> Complex:
+        """Means over the period (J,)."""
+
+    @property
+    def variance(self) -> Real:
+        """Means of |curve - mean|^2 over the period (J,)."""
+
+    @property
+    def rms_error(self) -> Real:
+        """What root mean squares of curve + constant, by this mean and variance, may be off by (J,)."""
+
+    @property
+    def parts(self) -> Parts:
+        """What the inertia of each row adds to the curves."""
+
+    def at(self, angle: Real) -> Complex:
+        """The curves at angles (n,) rad: (J, n); in the middle between the limits at a jump or one of them."""
+
+
+@dataclass(frozen=True)
+class TurnResponse:
+    """A response over the whole turn that is affine in the unbalance u of the counterweights.
+
+    name : what it is, unique among the responses of a program.
+    unit : of the response times omega^2: "N", "N m".
+    influence : (K,) change of the curve for one kg m on each web; real, or complex where a counterweight answers out
+        of line with itself. Constant over the turn.
+    curves, number : the curve without counterweights, over omega^2: one of several that are evaluated together.
+    turning : (K,) how often what each web adds turns, as the shaft sees it, while the shaft turns once: the influence
+        is then H_k e^{j n_k theta}. None where all of it stands still.
+    scalar : the curve is real, and of what counterweights add the real part counts: no vector across the shaft, but
+        one number at every angle. Something of it turns.
+    """
+
+    name: str
+    unit: str
+    influence: Real | Complex
+    curves: Curves
+    number: int
+    turning: Real | None = None
+    scalar: bool = False
+
+    @property
+    def period_deg(self) -> float:
+        return self.curves.period_deg
+
+    def offset(self, unbalance: Complex) -> complex:
+        """What counterweights (K,) kg m add to the curve."""
+        return complex(self.influence @ unbalance)
+
+    def influence_at(self, angle: float) -> Real | Complex:
+        """Influence (K,) at a shaft angle [rad]."""
+        return self.influence if self.turning is None else self.influence * np.exp(1j * self.turning * angle)
+
+    def added(self, unbalance: Complex, angle: Real) -> Complex | complex:
+        """What counterweights (K,) kg m add to the curve at angles (n,) rad; one for all where it stands still."""
+        moving = self.harmonics(unbalance)
+        return self.offset(unbalance) if moving is None else moving.at(angle)
+
+    def harmonics(self, unbalance: Complex) -> Harmonics | None:
+        """What counterweights (K,) kg m add to the curve, where some of it turns; None where it stands still."""
+        return None if self.turning is None else Harmonics(self.turning, self.influence * unbalance, self.scalar)
+
+    def at(self, angle: Real) -> Complex:
+        """The curve without counterweights at angles (n,) rad."""
+        return self.curves.at(angle)[self.number]
+
+    def peak(self, offset: complex, tolerance: float) -> Bracket:
+        """Peak of |curve + offset| over the period; shapes ().
+
+        Parameters
+        ----------
+        tolerance : of upper - lower, relative to lower.
+        """
+        found = self.curves.pieces.peaks(np.array([offset]), tolerance, np.array([self.number]))
+        return Bracket(*(each[0] for each in found))
+
+    @property
+    def mean(self) -> complex:
+        """Mean of the curve, the centre of its mean square."""
+        return complex(self.curves.mean[self.number])
+
+    @property
+    def variance(self) -> float:
+        """Mean of |curve - mean|^2: the mean square of curve + offset is this + |mean + offset|^2."""
+        return float(self.curves.variance[self.number])
+
+    @property
+    def rms_error(self) -> float:
+        """What sqrt(variance + |mean + offset|^2) may be off by, whatever the offset."""
+        return float(self.curves.rms_error[self.number])
+
+
+def peaks(responses: Sequence[TurnResponse], unbalance: Complex, tolerance: Reals) -> Bracket:
+    """Peaks (responses,) with counterweights (K,) kg m; those of the same curves are searched together.
+
+    Parameters
+    ----------
+    tolerance : (responses,) or one for all, of upper - lower, relative to lower.
+    """
+    offset = np.array([response.offset(unbalance) for response in responses], dtype=complex)
+    if all(response.turning is None for response in responses):
+        return peaks_about(responses, offset, tolerance)
+    # what turns makes another curve of each
+    asked = np.broadcast_to(tolerance, len(responses))
+    each = [
+        peaks_about([response], offset[k : k + 1], asked[k])
+        if response.turning is None
+        else _moving(response, unbalance, asked[k])
+        for k, response in enumerate(responses)
+    ]
+    return Bracket(*(np.concatenate(part) for part in zip(*each, strict=True)))
+
+
+def peaks_about(
+    responses: Sequence[TurnResponse], offset: Complex, tolerance: Reals, group: Index | None = None
+) -> Bracket:
+    """Peaks (responses,) with what is added to each curve (responses,); a response may stand there more than once.
+
+    Parameters
+    ----------
+    group : (responses,) from 0, each of one response, where only the largest of each group is asked for, which costs
+        less: peaks (groups,).
+    """
+    asked, sought = np.broadcast_to(tolerance, len(responses)), np.arange(len(responses)) if group is None else group
+    number: Index = np.array([response.number for response in responses], dtype=np.intp)
+    together: dict[int, list[int]] = {}
+    for k, response in enumerate(responses):
+        together.setdefault(id(response.curves), []).append(k)
+    groups, found = [], []
+    for some in together.values():
+        labels, of = np.unique(sought[some], return_inverse=True)
+        groups.append(labels)
+        found.append(responses[some[0]].curves.pieces.peaks(offset[some], asked[some], number[some], of))
+    order = np.argsort(np.concatenate(groups))
+    return Bracket(*(np.concatenate(part)[order] for part in zip(*found, strict=True)))
+
+
+def _moving(response: TurnResponse, unbalance: Complex, tolerance: Reals) -> Bracket:
+    """Peak (1,) of a curve to which counterweights add what turns; its value is that without them all the same."""
+    by = response.harmonics(unbalance)
+    assert by is not None  # that is what turns
+    found = moved(response.curves.pieces, response.number, by).peaks(np.zeros(1, dtype=complex), tolerance)
+    return found._replace(value=found.value - by.at(found.angle))
+
+
+class Floor(NamedTuple):
+    """What the peak of a curve comes to at least, whatever the counterweights."""
+
+    circle: Circle  # around some points of the curve; no constant brings the peak below its radius
+    angle: Real  # (support,) rad, of the points that hold it
+    value: Complex  # (support,) the curve there
+    upper: Real  # proven peak about the circle's centre, () : the floor is between the radius and this
+
+
+def floors(
+    curves: Curves, tolerance: float, numbers: Sequence[int] | None = None, group: Index | None = None
+) -> list[Floor]:
+    """The smallest circles around curves, each radius known to a tolerance relative to it.
+
+    Parameters
+    ----------
+    numbers : which curves, by default all.
+    group : (numbers,) from 0, where only the largest radius of each group is asked for: of the others no more is found
+        out than that they are smaller.
+    """
+    pieces = curves.pieces
+    number: Index = np.arange(len(pieces.half)) if numbers is None else np.array(numbers, dtype=np.intp)
+    if not number.size:
+        return []
+    together = np.arange(number.size) if group is None else group
+    outlines = [Outline(pieces, one) for one in number.tolist()]
+    rounding = np.array([_ROUNDING * each.size for each in outlines])
+    circles = [each.circle for each in outlines]
+    # the first points of a curve are those that hold its outline
+    places = [each.support for each in outlines]
+    of = np.repeat(np.arange(number.size), [where.size for where, _ in places])
+    where, at = (np.concatenate(part) for part in zip(*places, strict=True))
+    value = pieces.source.values(number[of], where, at)
+    angle, point = [at[of == k] for k in range(number.size)], [value[of == k] for k in range(number.size)]
+    upper, most = np.array([each.upper for each in outlines]), np.full(np.max(together) + 1, -np.inf)
+    np.maximum.at(most, together, [each.lower for each in outlines])
+    open_ = np.flatnonzero(upper >= most[together])
+    for k in np.flatnonzero(upper < most[together]).tolist():
+        circles[k] = smallest_circle(point[k])
+    for _ in range(_MOST_POINTS):
+        # all points that may hold a circle about this centre, not only the farthest
+        found = [outlines[k].farthest(circles[k].centre) for k in open_.tolist()]
+        of = np.repeat(open_, [where.size for where, _ in found])
+        where, near = (np.concatenate(part) for part in zip(*found, strict=True))
+        near = nearer(pieces, number[of], where, near, np.array([circles[k].centre for k in of]))
+        value = pieces.source.values(number[of], where, near)
+        for k in open_.tolist():
+            angle[k], point[k] = np.append(angle[k], near[of == k]), np.append(point[k], value[of == k])
+            circles[k] = smallest_circle(point[k])
+        peak = pieces.peaks(-np.array([circles[k].centre for k in open_]), 0.5 * tolerance, number[open_])
+        radius = np.array([circle.radius for circle in circles])
+        upper[open_] = peak.upper
+        most[:] = 0.0
+        np.maximum.at(most, together, radius)
+        beyond = peak.upper > radius[open_] * (1.0 + tolerance) + rounding[open_]
+        beyond &= peak.upper > most[together[open_]]
+        for n in np.flatnonzero(beyond).tolist():
+            k = int(open_[n])
+            angle[k], point[k] = np.append(angle[k], peak.angle[n]), np.append(point[k], peak.value[n])
+            circles[k] = smallest_circle(point[k])
+        open_ = open_[beyond]
+        if not open_.size:
+            break
+    return [
+        Floor(circle, angle[k][circle.support], point[k][circle.support], upper[k]) for k, circle in enumerate(circles)
+    ]
+
+
+def floor(response: TurnResponse, tolerance: float) -> Floor:
+    """The smallest circle around the curve of a response."""
+    return floors(response.curves, tolerance, [response.number])[0]

@@ -1,0 +1,268 @@
+"""Parts of the pieces of curves that may hold peaks, narrowed by their polynomials; compiled.
+
+A part is let go where its largest Bernstein coefficient, and what the polynomial leaves out, is no more than the best
+value found, but for what the bracket may leave open: then it is told in the bracket. Where several peaks of a group
+are asked for, the largest, all of them have one bracket.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.compiling import inner, inner_with_arrays, kernel
+from optimizer.numerics.polynomials import shifts, to_bernstein
+
+#: what may hold a peak is cut into so many parts: by its polynomial, or to be expanded anew, which leaves out 16^-4
+_FINE, _FINER = 4, 16
+#: a rest of this share of what the bracket may leave open is no longer what keeps it open
+ENOUGH = 0.125
+#: after so many cuts in a row the bracket is told as it is
+MOST_CUTS = 39
+#: and so it is where so many parts may hold peaks: what is so steep is not worth more time
+MOST_PARTS = np.int64(50_000)
+#: rad, by which an angle may be rounded within two turns
+_ANGLE_ROUNDING = 64 * np.finfo(float).eps
+
+_OF_SQUARES, _OF_CUBICS = to_bernstein(6), to_bernstein(3)
+(_FINE_PLACES, _TO_FINE), (_FINER_PLACES, _TO_FINER) = shifts(_FINE), shifts(_FINER)
+_CENTRE, _HALF, _REST, _FOURTH = range(4)
+
+
+class Known(NamedTuple):
+    """Pieces (J, P) of curves: as in :class:`optimizer.responses.piecewise_cubics.Pieces`, all complex."""
+
+    centre: Real
+    half: Real
+    cubic: Complex
+    rest: Real
+
+
+class Asked(NamedTuple):
+    """What is asked of M members, in G groups of which only the largest peak counts."""
+
+    curve: np.ndarray  # (M,)
+    group: np.ndarray  # (M,)
+    offset: Complex  # (M,)
+    share: Real  # (G,) of the peak that its bracket may leave open
+    rounding: Real  # (G,) that no bracket is narrower than
+    sign: float  # 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated
+
+
+class Best(NamedTuple):
+    """The best found of each of G peaks, and what nothing is above that was let go."""
+
+    lower: Real
+    upper: Real
+    angle: Real
+    piece: np.ndarray
+    member: np.ndarray
+
+
+class Parts(NamedTuple):
+    """Parts (n,) of pieces that may hold peaks."""
+
+    member: np.ndarray
+    piece: np.ndarray
+    place: Real  # (n, 4) centre, half width, what is left out, and that of an expansion about the centre over half^4
+    cubic: Complex  # (n, 4), offset included
+
+
+@inner_with_arrays
+def _none(count):  # type: ignore[no-untyped-def]
+    return Parts(
+        np.empty(count, np.int64),
+        np.empty(count, np.int64),
+        np.empty((count, 4)),
+        np.empty((count, 4), np.complex128),
+    )
+
+
+@inner
+def _place(parts, n, centre, half, rest, fourth):  # type: ignore[no-untyped-def]
+    place = parts.place
+    place[n, _CENTRE], place[n, _HALF], place[n, _REST], place[n, _FOURTH] = centre, half, rest, fourth
+
+
+@inner
+def _allowed(asked, best, group):  # type: ignore[no-untyped-def]
+    """How wide a bracket may be."""
+    return max(asked.share[group] * abs(best.lower[group]), asked.rounding[group])
+
+
+@inner
+def _open_above(asked, best, group):  # type: ignore[no-untyped-def]
+    """What has to be exceeded to be looked at closer."""
+    return best.lower[group] + _allowed(asked, best, group)
+
+
+@inner
+def _keep(best, group, value, angle, piece, member):  # type: ignore[no-untyped-def]
+    """Keep a value where it beats the best."""
+    if not value <= best.lower[group]:
+        best.lower[group], best.angle[group] = value, angle
+        best.piece[group], best.member[group] = piece, member
+
+
+@inner
+def _tell(best, group, most):  # type: ignore[no-untyped-def]
+    """What is let go is in the bracket; nan too."""
+    if most > best.upper[group] or most != most:
+        best.upper[group] = most
+
+
+@inner
+def _length(value):  # type: ignore[no-untyped-def]
+    """Magnitude; of a scalar for less."""
+    return abs(value.real) if value.imag == 0.0 else abs(value)
+
+
+@inner
+def _size(value, sign):  # type: ignore[no-untyped-def]
+    """What a peak is the largest of: a magnitude, or a value times a sign."""
+    return _length(value) if sign == 0.0 else sign * value.real
+
+
+@inner_with_arrays
+def _extremes(cubic, sign):  # type: ignore[no-untyped-def]
+    """What a polynomial is not above, and its values at both ends."""
+    if sign != 0.0:
+        most = -np.inf
+        for j in range(4):
+            value = 0.0
+            for k in range(4):
+                value += sign * cubic[k].real * _OF_CUBICS[k, j]
+            most = max(most, value)
+            if j == 0:
+                first = value
+        return most, first, value
+    square = np.zeros(7)
+    for i in range(4):
+        for k in range(4):
+            square[i + k] += cubic[i].real * cubic[k].real + cubic[i].imag * cubic[k].imag
+    most = 0.0
+    for j in range(7):
+        value = 0.0
+        for k in range(7):
+            value += square[k] * _OF_SQUARES[k, j]
+        value = max(value, 0.0)
+        most = max(most, value)
+        if j == 0:
+            first = value
+    return np.sqrt(most), np.sqrt(first), np.sqrt(value)
+
+
+@kernel
+def first_open(known, asked, best):  # type: ignore[no-untyped-def]
+    """The pieces that may hold a peak above the best value at a centre, by how far a cubic may be from it."""
+    members, pieces = asked.curve.size, known.half.shape[1]
+    most = np.empty((members, pieces))
+    for m in range(members):
+        curve, group = asked.curve[m], asked.group[m]
+        for p in range(pieces):
+            most[m, p] = -np.inf
+            if known.half[curve, p] > 0.0:
+                middle = _size(known.cubic[curve, p, 0] + asked.offset[m], asked.sign)
+                # how far the curve may be from the middle of a piece
+                most[m, p] = middle + known.rest[curve, p]
+                for i in range(1, 4):
+                    most[m, p] += _length(known.cubic[curve, p, i])
+                _keep(best, group, middle - known.rest[curve, p], known.centre[curve, p], p, m)
+    count = 0
+    for m in range(members):
+        above = _open_above(asked, best, asked.group[m])
+        for p in range(pieces):
+            if most[m, p] > above:
+                count += 1
+            else:
+                _tell(best, asked.group[m], most[m, p])
+    parts, n = _none(count), 0
+    for m in range(members):
+        curve, above = asked.curve[m], _open_above(asked, best, asked.group[m])
+        for p in range(pieces):
+            if most[m, p] > above:
+                half, rest = known.half[curve, p], known.rest[curve, p]
+                parts.member[n], parts.piece[n] = m, p
+                _place(parts, n, known.centre[curve, p], half, rest, rest / half**4)
+                for i in range(4):
+                    parts.cubic[n, i] = known.cubic[curve, p, i]
+                parts.cubic[n, 0] += asked.offset[m]
+                n += 1
+    return still_open(parts, asked, best, MOST_PARTS)
+
+
+@kernel
+def still_open(parts, asked, best, most_parts):  # type: ignore[no-untyped-def]
+    """Those that may hold a peak above the best found, theirs included, unless there are too many."""
+    number = parts.member.size
+    most = np.empty(number)
+    for n in range(number):
+        place, member = parts.place[n], parts.member[n]
+        largest, first, last = _extremes(parts.cubic[n], asked.sign)
+        most[n] = largest + place[_REST]
+        angle = place[_CENTRE] - place[_HALF] if first >= last else place[_CENTRE] + place[_HALF]
+        _keep(best, asked.group[member], max(first, last) - place[_REST], angle, parts.piece[n], member)
+    open_, count = np.empty(number, np.bool_), 0
+    for n in range(number):
+        open_[n] = most[n] > _open_above(asked, best, asked.group[parts.member[n]])
+        count += open_[n]
+    if count > most_parts:
+        count = 0
+        for n in range(number):
+            open_[n] = False
+    kept, k = _none(count), 0
+    for n in range(number):
+        if open_[n]:
+            kept.member[k], kept.piece[k] = parts.member[n], parts.piece[n]
+            for i in range(4):
+                kept.place[k, i], kept.cubic[k, i] = parts.place[n, i], parts.cubic[n, i]
+            k += 1
+        else:
+            rounding = _ANGLE_ROUNDING * abs(parts.cubic[n, 1]) / parts.place[n, _HALF]
+            _tell(best, asked.group[parts.member[n]], most[n] + rounding)
+    return kept
+
+
+@inner_with_arrays
+def _cut(parts, chosen, places, shift):  # type: ignore[no-untyped-def]
+    """Some parts, each in so many as there are places, by the same polynomial."""
+    share = places.size
+    count = 0
+    for n in range(chosen.size):
+        count += chosen[n]
+    found, k = _none(share * count), 0
+    for n in range(chosen.size):
+        if chosen[n]:
+            for p in range(share):
+                place = parts.place[n]
+                found.member[k], found.piece[k] = parts.member[n], parts.piece[n]
+                centre, half = place[_CENTRE] + place[_HALF] * places[p], place[_HALF] / share
+                _place(found, k, centre, half, place[_REST], place[_FOURTH])
+                for i in range(4):
+                    value = 0j
+                    for j in range(i, 4):
+                        value += parts.cubic[n, j] * shift[p, j, i]
+                    found.cubic[k, i] = value
+                k += 1
+    return found
+
+
+@kernel
+def narrowed(parts, asked, best, cuts):  # type: ignore[no-untyped-def]
+    """Cut what may hold peaks until none is left or some would have to be expanded anew: (cut, to be expanded, cuts).
+
+    Most of the latter are let go by what is known: an expansion costs far more.
+    """
+    while parts.member.size > 0 and cuts < MOST_CUTS:
+        coarse, any_coarse = np.empty(parts.member.size, np.bool_), False
+        for n in range(coarse.size):
+            group = asked.group[parts.member[n]]
+            coarse[n] = parts.place[n, _REST] > ENOUGH * _allowed(asked, best, group)
+            any_coarse = any_coarse or coarse[n]
+        fine = _cut(parts, ~coarse, _FINE_PLACES, _TO_FINE)
+        cuts += 1
+        if any_coarse:
+            coarser = _cut(parts, coarse, _FINER_PLACES, _TO_FINER)
+            return fine, still_open(coarser, asked, best, coarser.member.size), cuts
+        parts = still_open(fine, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
+    return parts, _none(0), cuts

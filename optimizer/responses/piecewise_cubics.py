@@ -1,0 +1,176 @@
+"""Curves over a period, piece by piece a cubic with a bound on what it leaves out, and their exact peaks.
+
+Between the angles at which it jumps or has a kink a curve d is smooth. On a piece of half width h about its centre the
+Taylor polynomial of degree 3 leaves out at most h^4/24 max|d''''|, the ``rest``. So the peak of |d + offset| over a
+piece is at most sqrt(max |cubic + offset|^2) + rest, and a polynomial is nowhere above the largest of its Bernstein
+coefficients, which close in on it fourfold with every halving. Pieces that cannot hold the peak are let go; those whose
+rest is too coarse are expanded anew about more centres. So a peak is bracketed as narrowly as wished, also where
+|d + offset| hardly changes over the turn, as it does at an optimum.
+
+Shapes: J curves of P pieces each. A vector across the shaft is complex, x + jy; a scalar is real.
+Source: R. T. Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012).
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.numerics.arrays import Complex, Real, Reals
+
+if TYPE_CHECKING:
+    from optimizer.responses.kernel.parts import Asked, Best, Known, Parts
+
+Index = NDArray[np.intp]
+#: real for scalars, complex across the shaft
+Vector = NDArray[Any]
+
+#: no bracket is narrower than this share of what is added up in it
+ROUNDING = 32 * np.finfo(float).eps
+#: rad, by which an angle may be rounded within two turns
+ANGLE_ROUNDING = 64 * np.finfo(float).eps
+
+
+class Bracket(NamedTuple):
+    """Peaks (...) and what is proven of them."""
+
+    angle: Real  # rad, where ``lower`` is attained
+    value: Complex  # of the curve there, without the offset; beside a jump the one-sided limit
+    lower: Real
+    upper: Real  # nothing over the whole period is above it
+
+    def where(self, known: NDArray[np.bool_]) -> "Bracket":
+        """The same, nan where nothing is known (...)."""
+        return self if np.all(known) else Bracket(*(np.where(known, each, np.nan) for each in self))
+
+
+class Source(Protocol):
+    """What the pieces of curves are made from."""
+
+    def cubics(self, curve: Index, piece: Index, centre: Real, half: Real) -> Complex:
+        """Taylor polynomials (m, 4) about other centres (m,) rad within given pieces."""
+
+    def rests(self, curve: Index, piece: Index, centre: Real, half: Real) -> Real:
+        """Bounds (m,) on what these leave out within half widths (m,) rad."""
+
+    def values(self, curve: Index, piece: Index, angle: Real) -> Complex:
+        """Values (m,) at angles (m,) rad within given pieces; at their ends the one-sided limits."""
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """J curves over one period.
+
+    centre, half : (J, P) rad; half is 0 where two breaks coincide.
+    cubic : (J, P, 4) coefficients of ((angle - centre) / half)^k; real for scalars.
+    rest : (J, P) bounds on what they leave out, half^4/24 times the largest fourth derivative.
+    size : (J,) of the terms that are added up in a curve: no bracket is narrower than their rounding.
+    source : of finer ones.
+    """
+
+    centre: Real
+    half: Real
+    cubic: Complex
+    rest: Real
+    size: Real
+    source: Source
+
+    @cached_property
+    def reach(self) -> Real:
+        """How far the curves may be from the middle of their pieces, (J, P)."""
+        return np.sum(np.abs(self.cubic[..., 1:]), axis=-1) + self.rest
+
+    @cached_property
+    def known(self) -> "Known":
+        """What is compiled takes them as."""
+        from optimizer.responses.kernel.parts import Known
+
+        centre, half, rest = (np.require(each, float, ("C", "W")) for each in (self.centre, self.half, self.rest))
+        return Known(centre, half, np.require(self.cubic, complex, ("C", "W")), rest)
+
+    def peaks(
+        self, offset: Vector, tolerance: Reals, curve: Index | None = None, group: Index | None = None
+    ) -> Bracket:
+        """Peaks (m,) of |d + offset| over the period.
+
+        Parameters
+        ----------
+        offset : (m,) in the unit of the curves; where it is nan there is no peak.
+        tolerance : (m,) or one for all, of upper - lower, relative to lower; rounding sets a limit to it.
+        curve : (m,) which curve each is asked of, by default all in turn.
+        group : (m,) from 0, where only the largest of each group is asked for, which costs less: peaks (groups,).
+        """
+        of_member = np.arange(offset.size) if curve is None else curve
+        sought = np.arange(offset.size) if group is None else group
+        known = np.isfinite(offset)
+        asked, count = np.broadcast_to(tolerance, offset.shape), int(np.max(sought, initial=-1)) + 1
+        if not np.all(known):
+            offset, of_member, asked, sought = offset[known], of_member[known], asked[known], sought[known]
+        return _bracketed(self, offset, of_member, sought, count, asked, 0.0)
+
+    def largest(self, sign: float, tolerance: float) -> Bracket:
+        """Largest values (J,) of scalars times a sign: 1 for their maxima, -1 for their minima, negated."""
+        every = np.arange(self.half.shape[0])
+        return _bracketed(self, np.zeros(every.size), every, every, every.size, np.full(every.size, tolerance), sign)
+
+
+def _bracketed(
+    pieces: Pieces, offset: Vector, of_member: Index, group: Index, count: int, tolerance: Real, sign: float
+) -> Bracket:
+    """Brackets (count,), nan where a peak has no member.
+
+    What is below the best found by less than the tolerance is let go, the rest looked at closer.
+
+    Parameters
+    ----------
+    offset, of_member, group, tolerance : (m,) of every member: its curve, and the peak to which it belongs.
+    sign : 0 for magnitudes; of scalars 1 for their maxima, -1 for their minima, negated.
+    """
+    from optimizer.responses.kernel.parts import (
+        MOST_CUTS,
+        MOST_PARTS,
+        Asked,
+        Best,
+        Parts,
+        first_open,
+        narrowed,
+        still_open,
+    )
+
+    if not group.size:
+        return Bracket(*(np.full(count, np.nan) for _ in range(4)))
+    scale, share = np.zeros(count), np.zeros(count)
+    np.maximum.at(scale, group, pieces.size[of_member] + np.abs(offset))
+    np.maximum.at(share, group, tolerance)
+    curve, peak = (np.require(each, np.int64, ("C", "W")) for each in (of_member, group))
+    asked = Asked(curve, peak, np.require(offset, complex, ("C", "W")), share, ROUNDING * scale, sign)
+    nowhere = np.zeros(count, np.int64)
+    best = Best(np.full(count, np.nan), np.full(count, -np.inf), np.zeros(count), nowhere, nowhere.copy())
+    parts, cuts = first_open(pieces.known, asked, best), 0
+    while parts.member.size:
+        fine, coarse, cuts = narrowed(parts, asked, best, cuts)
+        every = [fine, _expanded(pieces, asked, best, coarse)] if coarse.member.size else [fine]
+        parts = Parts(*map(np.concatenate, zip(*every, strict=True)))
+        parts = still_open(parts, asked, best, MOST_PARTS if cuts < MOST_CUTS else 0)
+    value = pieces.source.values(curve[best.member], best.piece, best.angle)
+    there = value + asked.offset[best.member]
+    lower = sign * there.real if sign else np.abs(there)
+    return Bracket(best.angle, value, lower, best.upper + asked.rounding).where(np.isin(np.arange(count), group))
+
+
+def _expanded(pieces: Pieces, asked: "Asked", best: "Best", parts: "Parts") -> "Parts":
+    """The same parts (n,) by polynomials of their own, and where that does not help enough by bounds of their own."""
+    from optimizer.responses.kernel.parts import ENOUGH, Parts
+
+    curve, peak = asked.curve[parts.member], asked.group[parts.member]
+    centre, half, _, fourth = parts.place.T
+    cubic = np.array(pieces.source.cubics(curve, parts.piece, centre, half), dtype=complex)
+    cubic[:, 0] += asked.offset[parts.member]
+    rest = fourth * half**4
+    steep = rest > ENOUGH * np.maximum(asked.share * np.abs(best.lower), asked.rounding)[peak]
+    if np.any(steep):
+        closer = pieces.source.rests(curve[steep], parts.piece[steep], centre[steep], half[steep])
+        rest[steep] = np.minimum(rest[steep], closer)
+    return Parts(parts.member, parts.piece, np.stack([centre, half, rest, rest / half**4], axis=-1), cubic)

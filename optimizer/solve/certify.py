@@ -1,0 +1,101 @@
+"""Certified counterweights of many designs of one shape; one request is a batch of one."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.formulate import formulate
+from optimizer.mechanics.fixed_weights import fixed_masses
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.methods.implied_bounds import within_reach
+from optimizer.program.methods.optima import Optima, optima
+from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.reference.solver import Solver
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import INFEASIBLE, Verdict, claim, verdict
+from optimizer.responses.response import Response
+from schemas.requests import OptimizeRequest
+
+
+@dataclass(frozen=True)
+class Certified:
+    """Counterweights of N designs as they are fitted, and what is proven of them."""
+
+    program: Statement  # (N,), over omega^2, with the limits that the proofs count with
+    omega_squared: Real  # (N,) rad^2/s^2
+    found: Optima
+    mass_kg: Real  # (N, K), those that are chosen, as all that follows
+    angle_deg: Real  # (N, K)
+    unbalance: Complex  # (N, K) kg m, of these masses and angles
+    verdict: Verdict
+    certificate: dict[str, np.ndarray]  # (N,) fields of the certificate, in the units of the answer; nan is null
+    status: np.ndarray  # (N,)
+    reason: np.ndarray  # (N,) a sentence
+    searched: bool = False  # whether a search chose them, so that of the mass nothing is proven
+
+
+def certified(
+    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+) -> Certified:
+    """Counterweights that minimise the objective, or those closest to ceilings that are out of reach.
+
+    Parameters
+    ----------
+    request : of columns (N,) or of numbers; its designs have one shape of program.
+    omega_squared : (N,) rad^2/s^2.
+    """
+    machine, goal = request.machine, request.objective
+    program = within_reach(formulate(machine, goal, responses, omega_squared), solver)
+    found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
+    if goal.symmetric:
+        found = replace(found, unbalance=symmetric(program, found.unbalance))
+    return judged(request, program, found, omega_squared)
+
+
+def judged(
+    request: OptimizeRequest,
+    program: Statement,
+    found: Optima,
+    omega_squared: Real,
+    alike: Callable[[Real, Real], tuple[Real, Real]] | None = None,
+) -> Certified:
+    """Counterweights as they are fitted, and what may be claimed of them.
+
+    Parameters
+    ----------
+    program : (N,), over omega^2, of the machine of the request.
+    alike : masses and angles as they are fitted of those that were found; None is as they were found.
+    """
+    machine, goal, square = request.machine, request.objective, omega_squared
+    mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
+    if alike is not None:
+        mass, angle = alike(mass, angle)
+    u = unbalance(mass, angle, program.limits.radius)
+    mass_bound = found.mass_lower_bound if goal.least_mass else None
+    claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
+    judged = verdict(claimed, request.accuracy.relative_gap)
+    of_mass = {
+        "mass_lower_bound_kg": judged.mass_lower_bound + np.add.reduce(fixed_masses(machine), axis=-1),
+        "mass_relative_gap": judged.mass_gap,
+        "mass_yardstick_kg": judged.mass_yardstick,
+        "mass_objective_limit": found.mass_target * square,
+    }
+    if not goal.least_mass:
+        of_mass = dict.fromkeys(of_mass, np.full(square.shape, np.nan))
+    certificate = {
+        "objective": claimed.value[:, 0] * square,
+        "lower_bound": judged.lower_bound[:, 0] * square,
+        "gap": judged.gap[:, 0] * square,
+        "relative_gap": judged.relative_gap,
+        "yardstick": claimed.yardstick[:, 0] * square,
+        "objective_without_counterweights": program.at_rest * square,
+        "method": found.method,
+        **of_mass,
+    }
+    status, reason = judged.status, judged.reason
+    if found.unreachable.any():
+        status = np.where(found.unreachable, "infeasible", status)
+        reason = np.where(found.unreachable, INFEASIBLE, reason)
+    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)

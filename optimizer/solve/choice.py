@@ -1,0 +1,214 @@
+"""Certified choices over the turn and in the worst of several scenarios: from a catalogue, or at least so heavy where
+they are fitted.
+
+The searches of one machine take the statement with finitely many cuts, and begin with what is proven of any masses.
+"""
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.construction import feasible_set
+from optimizer.choices.discrete.options import EQUAL
+from optimizer.choices.feasible_set import Choice
+from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.goals import Goals
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.layout import stacked
+from optimizer.numerics.arrays import Complex
+from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn
+from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.reference.solver import Solver
+from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
+from optimizer.solve.design import certified_one
+from optimizer.solve.infeasibility import out_of_reach, unreachable
+from optimizer.solve.outcome import Outcome
+from optimizer.solve.search_claims import continuous, told_ample, told_status
+from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.whole_turn import told
+from optimizer.solve.worst_case import certified_any_mass, with_worst_case
+from schemas.answers import Certificate, GoalReached
+from schemas.requests import OptimizeRequest
+
+#: width of the brackets by which choices are told apart, as a share of goals
+_CLOSE = 1e-10
+_EARLIER = (
+    "The last goal is within the asked gap under what those before it were left; of one of these the search ended with"
+    " a larger gap, which `goals` of the certificate tell."
+)
+
+
+def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:
+    """Of what can be chosen the best, over the turn and in the worst of all scenarios.
+
+    Parameters
+    ----------
+    in_full : with what misplaced counterweights may cost.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told, or webs of a group are unlike.
+    MissingInput
+        if a machine lacks what the objective needs.
+    """
+    if request.machine.semicontinuous:
+        free = certified_any_mass(request, scene, in_full)
+        if free.chosen is None or _heavy_enough(request, free.chosen):
+            return free
+    any_mass = continuous(request)
+    usual = any_mass.accuracy.model_copy(update={"time_limit_s": request.accuracy.time_limit_s})
+    any_mass = any_mass.model_copy(update={"accuracy": usual})
+    robust = Robust(any_mass, scene)
+    asked = robust.asked()
+    first = _of_any_mass(asked.program, any_mass.accuracy.relative_gap, robust)
+    if isinstance(first, Unkept):
+        return out_of_reach(any_mass, scene, asked, first)
+    stages = _in_order(request, robust, asked, first, solver)
+    last, picked = stages[-1], stages[-1].picked
+    found = last.found
+    best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
+    if not found.kept and found.lower_bound == np.inf:
+        shown = chosen(request, picked.mass, picked.angle)
+        status, reason = told_status(found, "infeasible", "", True)
+        answer = unreachable(any_mass, scene, asked, shown, best.limits, None)
+        return replace(answer, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
+    judged = any_mass.model_copy(update={"accuracy": request.accuracy})
+    if len(stages) < len(asked.program.goals):
+        return _without_ceilings(judged, robust, picked, found, in_full)
+    answer = told(judged, scene, asked, best, picked.mass, picked.angle, found.lower_bound, in_full)
+    certificate = answer.fields["certificate"]
+    assert isinstance(certificate, Certificate)
+    proven = certificate.lower_bound is not None
+    any_lower = (
+        min(max(best.proof.bound, 0.0) * scene.omega_squared, certificate.lower_bound or 0.0) if proven else None
+    )
+    certificate = certificate.model_copy(
+        update={
+            "continuous_lower_bound": any_lower,
+            "nodes": _nodes(stages),
+            "method": found.method,
+            "rounds": best.rounds + sum(stage.found.rounds for stage in stages),
+            "cuts": found.cuts,
+            "goals": _goals(certificate, stages, scene.omega_squared),
+        }
+    )
+    status, reason = told_status(found, answer.status, answer.reason, proven)
+    reason = told_ample(reason, found, best.proof.bound)
+    if status == "optimal" and not all(stage.closed for stage in stages):
+        status, reason = "inaccurate", _EARLIER
+    answer = replace(
+        answer,
+        status=status,
+        reason=reason,
+        method=found.method,
+        nodes=_nodes(stages),
+        # what holds those of any mass up says nothing of what can be chosen
+        fields={**answer.fields, "certificate": certificate},
+    )
+    if not request.robust:
+        return answer
+    return with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
+
+
+class _Stage(NamedTuple):
+    """A goal, the best choice for it under the goals before, and what is proven of all choices."""
+
+    best: Found  # of any masses at any angles, under the same
+    picked: Choice
+    found: Ended
+    closed: bool  # the gap is the asked one
+    contradicted: bool  # the choice comes to less than any is proven to
+
+
+def _of_any_mass(program: OverTurn, gap: float, robust: Robust) -> Found | Unkept:
+    """The first goal by itself."""
+    return over_turn(program.changed(goals=program.goals[:1]), gap, False, (), robust.left_s)
+
+
+def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> list[_Stage]:
+    """The goals one after the other, each with the most that those before it may come to."""
+    program, gap, stages = asked.program, robust.request.accuracy.relative_gap, list[_Stage]()
+    reached: list[Reached] = []
+    for n, goal in enumerate(program.goals):
+        so_far = program.changed(goals=program.goals[: n + 1])
+        if stages:
+            best = next_goal(so_far, reached, stages[-1].picked.unbalance, gap, robust.left_s)
+        size, later = float(program.units[n]), len(program.goals) - n - 1
+        kept_back = robust.left_s * later / (later + 1)
+        choices, asked_gap = feasible_set(request, best.limits, solver), request.accuracy.relative_gap
+        assert choices is not None  # else there would be nothing to search
+        closed, known = asked_gap * size, stages[-1].picked if stages else None
+        left_s = _left(robust, kept_back)
+        picked, found = in_rounds(so_far, best, choices, asked_gap, size, left_s, known)
+        value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
+        left = value - found.lower_bound
+        contradicted = found.kept and left < -EQUAL * size
+        stages.append(_Stage(best, picked, found, left <= max(closed, EQUAL * size), contradicted))
+        if later and not found.kept:
+            # counterweights that keep no ceilings are told by what any masses come to
+            break
+        # choices that are this near are equal, which leaves room for the brackets by which they are judged
+        most = max(value, found.lower_bound + asked.allowances[n] * size) + EQUAL * size if later else value
+        reached.append(Reached(goal.name, value, best.proof, most))
+    return stages
+
+
+def _left(robust: Robust, kept_back: float) -> Callable[[], float]:
+    """What is left of the time limit for a goal, for those after it some kept back."""
+    return lambda: max(robust.left_s - kept_back, 0.0)
+
+
+def _without_ceilings(request: OptimizeRequest, robust: Robust, picked: Choice, found: Ended, in_full: bool) -> Outcome:
+    """What is told where no choice was found that keeps the ceilings: nothing is proven of what goals come to in their
+    order."""
+    asked, best = robust.solved()
+    if isinstance(best, Unkept):
+        return out_of_reach(request, robust.scene, asked, best)
+    answer = told(request, robust.scene, asked, best, picked.mass, picked.angle, -np.inf, in_full)
+    certificate = answer.fields["certificate"]
+    assert isinstance(certificate, Certificate)
+    nothing = {"lower_bound": None, "gap": None, "relative_gap": None, "nodes": found.nodes, "method": found.method}
+    status, reason = told_status(found, answer.status, answer.reason, True)
+    fields = {**answer.fields, "certificate": certificate.model_copy(update=nothing)}
+    return replace(answer, status=status, reason=reason, method=found.method, nodes=found.nodes, fields=fields)
+
+
+def _nodes(stages: list[_Stage]) -> int:
+    """Nodes of the trees of all goals."""
+    return sum(stage.found.nodes for stage in stages)
+
+
+def _goals(certificate: Certificate, stages: list[_Stage], omega_squared: float) -> tuple[GoalReached, ...]:
+    """The goals before the last with what is proven of all choices, where anything is."""
+
+    def of(goal: GoalReached, stage: _Stage) -> GoalReached:
+        # above it by no more than rounding
+        bound = min(stage.found.lower_bound * omega_squared, goal.value)
+        return goal if goal.lower_bound is None else goal.model_copy(update={"lower_bound": bound})
+
+    return tuple(of(goal, stage) for goal, stage in zip(certificate.goals, stages, strict=False))
+
+
+def _heavy_enough(request: OptimizeRequest, u: Complex) -> bool:
+    webs = request.machine.webs
+    mass = np.abs(u) / stacked([web.radius_m for web in webs])
+    return bool(np.all((mass == 0) | (mass >= stacked([web.min_fitted_mass_kg or 0.0 for web in webs]))))
+
+
+def _nominal_choice(
+    request: OptimizeRequest, scene: Prepared, left_s: float, solver: Solver
+) -> tuple[Complex | None, bool]:
+    """The best choice for the machine as it is given, if it is found; whether the limit of time left it open."""
+    if left_s == 0.0:
+        return None, True
+    accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
+    alone = request.model_copy(update={"scenarios": (), "accuracy": accuracy})
+    if alone.objective.over_the_turn:
+        of_turn = certified_choice(alone, scene, solver, in_full=False)
+        return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"
+    _, best = certified_one(alone, scene.responses, np.array([scene.omega_squared]), solver)
+    status = str(best.status[0])
+    return best.unbalance[0] if status == "optimal" else None, status == "inaccurate"

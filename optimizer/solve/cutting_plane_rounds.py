@@ -1,0 +1,145 @@
+"""Choices for a program over the turn, in rounds: the best by finitely many cuts, what it truly comes to, and the cuts
+that tell the two apart.
+
+No choice comes to less than its cuts: what is proven of all choices by these holds over the turn. A choice whose own
+cuts are known is not found again for less than it comes to, so that rounds end with the gap that is asked.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.choices.discrete.options import EQUAL
+from optimizer.choices.feasible_set import Choice, FeasibleSet, SearchResult, Subproblem
+from optimizer.numerics.arrays import Complex
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.cuts.cut import Cut, Pool
+from optimizer.program.cuts.exact_penalty import under_levels
+from optimizer.program.cuts.optimum import Found
+from optimizer.program.cuts.row_generation import FEW, MANY, one_group
+from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.methods.discs import in_discs
+
+#: width of the brackets by which choices are told apart, as a share of goals and ceilings
+_CLOSE = 1e-10
+#: what a search may leave open of the gap that is asked, and of the gap that is left as long as that is more
+_ASKED, _LEFT = 0.5, 0.25
+#: share of the time left that a search has, unless the one before has shown nothing new
+_TURN = 0.3
+#: angles at which every peak has a cut from the start: what is chosen by few cuts is good at those alone
+_ANGLES = 24
+#: choices whose rows a tree is of
+_RECENT = 8
+#: share of the largest value of a quantity from which on its other maxima are cuts too
+_HIGH = 0.9
+#: prices of goals that come first: where programs are solved, and where choices are only judged
+_STEEP, _SHEER = 1e3, 1e9
+
+
+@dataclass(frozen=True)
+class Ended:
+    """Where the rounds ended, as a search does, by what is true over the turn."""
+
+    kept: bool
+    lower_bound: float
+    nodes: int
+    method: str
+    proven: bool
+    ended: str | None
+    rounds: int
+    cuts: int
+
+
+def in_rounds(
+    program: OverTurn,
+    best: Found,
+    choices: FeasibleSet,
+    relative_gap: float,
+    size: float,
+    left_s: Callable[[], float],
+    known: Choice | None = None,
+) -> tuple[Choice, Ended]:
+    """The best choice, and what is proven of all that may be chosen.
+
+    Parameters
+    ----------
+    program : whose last goal is to be small.
+    best : its optimum of any masses at any angles, with the most that the goals before it may come to.
+    relative_gap : that is asked.
+    size : what gaps are relative to, in units of the goal.
+    left_s : what is left of the time limit.
+    known : a choice that keeps ceilings and goals; there has to be one where goals come first.
+    """
+    gap, resolution = relative_gap * size, EQUAL * size
+    pool, points, case_of = Pool(_known(program), program.scatter), best.point.unbalance[None], program.case_of
+    most = np.array([goal.most for goal in best.goals[:-1]])
+    kinds = program.goal_of_case
+    bound, least, chosen, stuck = best.proof.bound, np.inf, known, not program.quantities
+    if known is not None:
+        points = np.concatenate([points, known.unbalance[None]])
+        least = float(program.values(known.unbalance, _CLOSE).goals[-1])
+    for point in points:
+        _learn(program, pool, point)
+    at_rest, nodes, rounds = float(program.at_rest.goals[-1]), 0, 0
+
+    def ended(found: SearchResult, proven: bool, early: str | None) -> Ended:
+        lower = np.inf if found.lower_bound == np.inf else bound
+        return Ended(chosen is not None, lower, nodes, found.method, proven, early, rounds, pool.count())
+
+    while True:
+        rounds += 1
+        posed = replace(program.statement(pool.cuts), limits=best.limits)
+        recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
+        loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
+        below = one_group(loose, case_of, recent, FEW, kinds)
+        if choices.solved:
+            # what comes to less than is known keeps the goals that come first
+            whole = in_discs(under_levels(posed, program, most, least, _STEEP), choices.reach, inside=True)
+            whole = one_group(whole, case_of, recent, FEW, kinds)
+        else:
+            whole = under_levels(posed, program, most, bound, _SHEER)
+            # a statement is of one sum
+            whole = one_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
+        wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, at_rest) - bound))
+        left = left_s() * (1.0 if stuck else _TURN)
+        last = choices.best(Subproblem(whole, points, bound, wanted / size, size, left, below))
+        found, nodes = last.found, nodes + last.found.nodes
+        if found.lower_bound == np.inf:
+            # none keeps the cuts of the ceilings
+            return last, ended(found, False, None)
+        before, bound = (bound, least), max(bound, found.lower_bound)
+        values = program.values(last.unbalance, _CLOSE)
+        value, kept = float(values.goals[-1]), bool(np.all(values.goals[:-1] <= most))
+        if kept and values.excess <= CEILING_TOLERANCE and value <= least + resolution:
+            least, chosen = min(value, least), last
+        closed = least - bound <= max(gap, resolution)
+        learnt = _learn(program, pool, last.unbalance)
+        if most.size:
+            # levels are told apart the better the closer both are
+            learnt |= bound > before[0] + resolution or least < before[1] - resolution
+        if closed or left_s() <= 0.0 or (stuck and not learnt):
+            all_compared = closed and chosen is last and found.proven
+            early = None if closed else found.ended or ("time" if left_s() <= 0.0 else "cuts")
+            return chosen or last, ended(found, all_compared, early)
+        stuck, points = not learnt, np.concatenate([points, last.unbalance[None]])
+
+
+def _known(program: OverTurn) -> list[list[Cut]]:
+    """Cuts to begin with."""
+    angle = np.linspace(0.0, 2.0 * np.pi, _ANGLES, endpoint=False)
+    known = [list(cuts) for cuts in program.first]
+    for cuts, quantity in zip(known, program.quantities, strict=True):
+        if quantity.measure == "peak":
+            values = zip(angle.tolist(), quantity.response.at(angle).tolist(), strict=True)
+            cuts += [quantity.cut(at, value) for at, value in values]
+    return known
+
+
+def _learn(program: OverTurn, pool: Pool, u: Complex) -> bool:
+    """Take the cuts that tell what an unbalance (K,) comes to; whether any is new."""
+    reached = program.values(u, _CLOSE).reached
+    _, places = program.seen(u, _HIGH * np.array([each.lower for each in reached]))
+    all_of_them = np.full(len(reached), -np.inf)
+    new = pool.add([(each,) for each in reached], u, all_of_them)
+    return pool.add(places, u, all_of_them) or new

@@ -1,0 +1,176 @@
+"""Ceilings over the turn that no counterweights keep: which conflict, and what comes closest."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.formulation.balance_shafts import Fitted, chosen, posed
+from optimizer.formulation.counterweights import masses_and_angles
+from optimizer.formulation.formulate import RESPONSES, given_ceilings
+from optimizer.formulation.formulate import limited as limited_responses
+from optimizer.formulation.goals import Goals
+from optimizer.formulation.simulation import Prepared
+from optimizer.outputs.first_order import first_order, smallest_peaks, smallest_proofs
+from optimizer.program.cuts.dominance import Group, Weighed
+from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.limits import Limits
+from optimizer.program.rows import Row, weighted_peak
+from optimizer.program.verdict import INFEASIBLE
+from optimizer.solve.outcome import Outcome, multipliers_of
+from optimizer.solve.proof import implied_max_mass, named_excess
+from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
+from schemas.proof import InfeasibilityMultipliers
+from schemas.requests import OptimizeRequest
+
+#: relative gap of the smallest peaks by themselves
+_ALONE = 1e-7
+#: share of the largest multiplier of a conflict from which on a ceiling takes part in it
+_TAKES_PART = 1e-6
+#: so many responses of a conflict are looked at by themselves
+_MOST_AT_FAULT = 6
+
+
+def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> Outcome:
+    """Which ceilings conflict, what each peak comes to by itself, and the best compromise."""
+    mass, angle = masses_and_angles(posed(request).machine, found.closest.unbalance, found.limits)
+    return unreachable(request, scene, asked, chosen(request, mass, angle), found.limits, found)
+
+
+def unreachable(
+    request: OptimizeRequest,
+    scene: Prepared,
+    asked: Goals,
+    shown: Fitted,
+    within: Limits,
+    found: Unkept | None,
+) -> Outcome:
+    """The same of what is shown as closest, with the proof by multipliers where there is one."""
+    machine, square = posed(request).machine, scene.omega_squared
+    alone = asked.program.changed(ceilings=(), limited=())
+    groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
+    components = [name for name in groups if name not in RESPONSES]
+    # of quantities those that the conflict is about, all that are limited where that is not told
+    at_fault = _under_ceilings(request, asked) if found is None else _at_fault(found)
+    limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
+    limited = {name: each for name, each in limited.items() if name in at_fault}
+    for name in limited:
+        of_name = {each.quantity: each for each in asked.limited if alone.quantities[each.quantity].name == name}
+        groups[name] = Group(weighed=tuple(Weighed(q, each.omega_squared / square) for q, each in of_name.items()))
+    # one reach for all that is proven here
+    least = {name: _least(alone, group) for name, group in groups.items()}
+    most = np.max([within.max_mass, *(each.limits.max_mass for each in least.values())], axis=0)
+    if np.any(most != alone.limits.max_mass):
+        alone = alone.changed(limits=replace(alone.limits, max_mass=most))
+        least = {name: _least(alone, group) for name, group in groups.items()}
+    value = {name: each.goals[0].value * square for name, each in least.items()}
+    bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
+    # of all orders the ceilings are among what is limited over the turn
+    given = given_ceilings(request.objective) if request.objective.orders == "first" else []
+    both = dict.fromkeys(
+        (name, each.field, each.ceiling)
+        for each in asked.limited
+        for name in [alone.quantities[each.quantity].name]
+        if name in limited
+    )
+    peaks = tuple(
+        SmallestPeak(
+            response=name,
+            ceiling_field=field,
+            ceiling=ceiling,
+            smallest=value[name],
+            lower_bound=bound[name],
+            multipliers=multipliers_of(least[name], square),
+        )
+        for name, field, ceiling in (
+            *((each.name, each.field, allowed) for each, allowed in given if each.name in components),
+            *both,
+        )
+    )
+    exact = {ceiling.name: ceiling.field for ceiling, _ in given}
+    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
+    impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
+    together = [field for name, field in exact.items() if name in at_fault] + [field for _, field, _ in both]
+    closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
+    conflict, scenarios = None, tuple[str, ...]()
+    if found is not None:
+        scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
+        conflict = named_excess(proof.statement, proof.multipliers, scales, square)
+        scenarios = _scenarios(asked.program, found)
+    fields: dict[str, object] = {
+        "counterweights": (),
+        "total_mass_kg": None,
+        "certificate": None,
+        "infeasibility": Infeasibility(
+            conflict=tuple(dict.fromkeys(impossible or together or exact.values())),
+            **smallest_peaks(value, bound),
+            smallest=peaks,
+            implied_max_mass_kg=implied_max_mass(machine, most[None])[0],
+            scenarios=scenarios,
+            closest=Closest(
+                counterweights=shown.counterweights, balance_shafts=shown.balance_shafts, first_order=closest
+            ),
+            multipliers=InfeasibilityMultipliers(
+                conflict=conflict,
+                **smallest_proofs({name: multipliers_of(least[name], square) for name in RESPONSES}),
+            ),
+        ),
+    }
+    spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
+    return Outcome("infeasible", INFEASIBLE, None, None, None, spent, METHOD, 0, fields)
+
+
+def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict[str, tuple[Row, ...]]:
+    """Peaks of the first order, and components with a ceiling, by themselves: the largest of all cases."""
+    rows: dict[str, list[Row]] = {}
+    for case in asked.cases:
+        for responses in case.variants:
+            limited = limited_responses(responses, request.objective) if request.objective.orders == "first" else ()
+            components = [each for each, _ in limited if each.name not in RESPONSES]
+            for each in (*responses, *components):
+                of_name = rows.setdefault(each.name, [])
+                name = f"{each.name} {len(of_name)}" if of_name else each.name
+                of_name.append(Row(name, (weighted_peak(each, case.omega_squared / omega_squared),)))
+    return {name: tuple(each) for name, each in rows.items()}
+
+
+def _scenarios(program: OverTurn, found: Unkept) -> tuple[str, ...]:
+    """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
+    statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
+    leant = row[statement.row] > _TAKES_PART * np.sum(row)
+    terms = zip(statement.names.terms, leant.tolist(), strict=True)
+    names = tuple(dict.fromkeys(term.scenario for term, counts in terms if counts and term.scenario is not None))
+    if len(names) < 2:
+        return names
+    return tuple(name for name in names if isinstance(_under(program, name), Unkept)) or names
+
+
+def _under(program: OverTurn, scenario: str) -> Found | Unkept:
+    """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
+    ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
+    limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
+    return over_turn(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, ())
+
+
+def _at_fault(found: Unkept) -> list[str]:
+    """Responses whose ceilings conflict, those first that the proof leans on most."""
+    statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
+    share: dict[str, float] = {}
+    for term, owner in zip(statement.names.terms, statement.row.tolist(), strict=True):
+        share[term.response] = share.get(term.response, 0.0) + float(row[owner] / np.sum(row))
+    leant = [name for name, part in share.items() if part > _TAKES_PART]
+    return sorted(leant, key=lambda name: -share[name])[:_MOST_AT_FAULT]
+
+
+def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
+    """Responses that have a ceiling, the first of them."""
+    given = given_ceilings(request.objective) if request.objective.orders == "first" else ()
+    limited = (asked.program.quantities[each.quantity].name for each in asked.limited)
+    return list(dict.fromkeys((*(each.name for each, _ in given), *limited)))[:_MOST_AT_FAULT]
+
+
+def _least(program: OverTurn, group: Group) -> Found:
+    """The smallest value of one group."""
+    found = over_turn(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, ())
+    assert isinstance(found, Found)  # without ceilings nothing is out of reach
+    return found

@@ -1,0 +1,117 @@
+"""Of the sets that can be chosen and keep the ceilings the lightest, with a certified gap."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.choices.construction import feasible_set
+from optimizer.choices.feasible_set import Subproblem
+from optimizer.formulation.formulate import formulate
+from optimizer.formulation.simulation import Prepared
+from optimizer.numerics.arrays import Real
+from optimizer.program.cuts.dominance import Group
+from optimizer.program.cuts.optimum import METHOD, Unkept, over_turn
+from optimizer.program.cuts.semi_infinite import Goal
+from optimizer.program.methods.implied_bounds import within_reach
+from optimizer.program.methods.optima import optima
+from optimizer.program.norms import Norms
+from optimizer.program.reference.solver import Solver
+from optimizer.program.rows import total_mass
+from optimizer.program.statement import Names, Statement, Term
+from optimizer.responses.response import Response
+from optimizer.solve.cutting_plane_rounds import in_rounds
+from optimizer.solve.search_claims import continuous, ended, told_ample
+from optimizer.solve.uncertain_program import Robust
+from schemas.requests import OptimizeRequest
+
+#: gap of the least mass of any masses at any angles, which the search begins with
+_SHARP = 1e-6
+
+
+@dataclass(frozen=True)
+class Lightest:
+    """The lightest set that was found, and what is proven; of those that keep the ceilings."""
+
+    mass_kg: Real  # (K,), those that are chosen
+    angle_deg: Real  # (K,)
+    lower_bound: float  # kg, inf where it is proven that none keeps the ceilings
+    status: str
+    reason: str
+    nodes: int
+    method: str
+
+
+def certified_light(
+    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+) -> Lightest:
+    """The lightest set that can be chosen and keeps the ceilings.
+
+    Parameters
+    ----------
+    omega_squared : (1,) rad^2/s^2.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told.
+    """
+    gap = request.accuracy.relative_gap
+    program = within_reach(formulate(request.machine, request.objective, responses, omega_squared), solver)
+    weighed = _weighed(program.chosen(0))
+    choices = feasible_set(request, weighed.limits, solver)
+    assert choices is not None  # else there would be nothing to search
+    best = optima(weighed.alone(), _SHARP, False, solver)
+    if best.unreachable[0]:
+        nothing = np.zeros(weighed.limits.radius.shape)
+        return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, str(best.method[0]))
+    least = float(best.lower_bound[0])
+    size = max(float(best.objective[0]), least)
+    subproblem = Subproblem(weighed, best.unbalance[:1], least, gap, size, request.accuracy.time_limit_s)
+    mass, angle, _, found = choices.best(subproblem)
+    bound = max(least, found.lower_bound)
+    status = "optimal" if found.kept and float(np.sum(mass)) - bound <= gap * float(np.sum(mass)) else "inaccurate"
+    if not found.kept and bound == np.inf:
+        status = "infeasible"
+    return Lightest(mass, angle, bound, status, ended(found), found.nodes, found.method)
+
+
+def _weighed(program: Statement) -> Statement:
+    """The program that makes the total mass small under the same ceilings and limits: a term for each web, kg."""
+    webs = program.limits.radius.size
+    return replace(
+        program,
+        norms=Norms(np.zeros(webs, complex), np.diag(1.0 / program.limits.radius)),
+        row=np.zeros(webs, int),
+        group=np.zeros(1, int),
+        floor=np.zeros(1),
+        names=Names((Term("mass", "co"),) * webs, ("mass",)),
+    )
+
+
+def certified_light_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
+    """The same under ceilings over the whole turn.
+
+    Raises
+    ------
+    OutOfRange
+        where the options of a web cannot be told.
+    """
+    any_mass, gap = continuous(request), request.accuracy.relative_gap
+    robust = Robust(any_mass.model_copy(update={"accuracy": request.accuracy}), scene)
+    program = robust.asked().program
+    weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
+    best = over_turn(weighed, _SHARP, False, (), robust.left_s)
+    if isinstance(best, Unkept):
+        nothing = np.zeros(program.limits.radius.shape)
+        return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, METHOD)
+    size = max(best.point.mass, best.proof.bound) or 1.0
+    choices = feasible_set(request, best.limits, solver)
+    assert choices is not None  # else there would be nothing to search
+    picked, found = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
+    value = float(np.sum(picked.mass))
+    status = "optimal" if found.kept and value - found.lower_bound <= gap * value else "inaccurate"
+    if not found.kept and found.lower_bound == np.inf:
+        status = "infeasible"
+    reason = told_ample(ended(found), found, best.proof.bound)
+    return Lightest(picked.mass, picked.angle, found.lower_bound, status, reason, found.nodes, found.method)

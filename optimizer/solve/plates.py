@@ -1,0 +1,216 @@
+"""Certified counterweights that are cut from plates, whose mass is no multiple of their unbalance.
+
+The mass m(U) of a plate is convex. Tangents of it are webs in one plane, each with a radius and a largest mass of its
+own, which together are no heavier than what is cut: what is proven of them is proven of the plate. What they call for
+is cut, and is the answer, but for a budget: then chords are, such webs too and no lighter, so that what they find keeps
+it. Both are laid about where the answer is guessed to be, and closer about what the tangents call for, until the gap is
+as asked.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from time import thread_time
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.equal_plates import Cut, alike, total_mass
+from optimizer.choices.plate_guess import guessed
+from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
+from optimizer.formulation.formulate import formulate
+from optimizer.formulation.limits import limits
+from optimizer.mechanics.plates import Plates
+from optimizer.mechanics.shapes import fitted, plates
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import mass_lower_bound
+from optimizer.program.limits import Limits
+from optimizer.program.methods.implied_bounds import within_reach
+from optimizer.program.methods.optima import Optima, optima
+from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import MASS_GAP, mass_resolution, yardstick
+from optimizer.responses.response import Response
+from optimizer.solve.certify import Certified, certified, judged
+from schemas.requests import OptimizeRequest
+
+#: how often nodes are laid
+_ROUNDS = 12
+#: how often it is guessed where
+_GUESSES = 3
+#: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
+#: the centre of half a disc is at 0.42 of its radius
+_NEARER = 2.5
+#: openings that agree this closely, relative, are equal: what rounding leaves
+_EQUAL = 1e-14
+
+
+def certified_shapes(
+    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+) -> tuple[OptimizeRequest, Certified]:
+    """Certified counterweights of one request, and the request with the radii that they come to.
+
+    Parameters
+    ----------
+    omega_squared : (1,) rad^2/s^2.
+    """
+    cut = plates(request.machine)
+    if cut is None:
+        return request, certified(request, responses, omega_squared, solver)
+    end = thread_time() + request.accuracy.time_limit_s
+    closed = fitted(request.machine, np.zeros(cut.webs.size))
+    whole = within_reach(formulate(closed, request.objective, responses, omega_squared), solver)
+    task = _Task(request, whole, cut, omega_squared, solver)
+    nodes, tried = task.guessed(first_nodes(cut)), []
+    for _ in range(_ROUNDS):
+        found = task.round(nodes)
+        tried.append(found)
+        if not task.too_heavy(found):
+            asked, best = task.judged_alike(found, nodes)
+            if best.status[0] != "inaccurate":
+                return asked, best
+        if thread_time() > end:
+            break
+        nodes = closer_nodes(nodes, task.opened(found.called_for))
+    # of those that are equally near the last
+    return min((task.judged(found.proven, found.cut) for found in reversed(tried)), key=lambda each: _gap(each[1]))
+
+
+def _gap(found: Certified) -> float:
+    """What is left open of mass and objective, for rounds to be compared; inf where nothing is proven."""
+    return float(np.nan_to_num(found.verdict.relative_gap[0] + found.verdict.mass_gap[0], nan=np.inf))
+
+
+class _Round(NamedTuple):
+    """What is found with what tangents prove."""
+
+    proven: Optima
+    cut: Cut
+    called_for: Complex  # (K,) unbalances that the tangents call for, kg m
+
+
+@dataclass(frozen=True)
+class _Task:
+    request: OptimizeRequest
+    whole: Statement  # (1,), whose limits are how far the plates reach
+    plates: Plates
+    omega_squared: Real  # (1,) rad^2/s^2
+    solver: Solver
+
+    @cached_property
+    def kinds(self) -> np.ndarray:
+        """Webs (K,) with the same plate have the same number, those without one another."""
+        kinds = np.full(len(self.request.machine.webs), -1)
+        kinds[self.plates.webs] = self.plates.kinds
+        return kinds
+
+    @cached_property
+    def size(self) -> Real:
+        """Yardstick of the objective (1,)."""
+        return yardstick(self.whole)
+
+    def opened(self, u: Complex) -> Real:
+        """Half-angles (P,) of what is cut for unbalances (K,), of alike webs alike, rad."""
+        angle, among = self.plates.opened(np.abs(u[self.plates.webs])), self.whole.limits.alike
+        if among is None:
+            return angle
+        return angle[np.searchsorted(self.plates.webs, np.array(among.leader)[self.plates.webs])]
+
+    def guessed(self, nodes: Real) -> Real:
+        """Nodes about what is guessed from those of tangents."""
+        goal = self.request.objective
+        share = min(OPTIMUM_SHARE, self.request.accuracy.relative_gap) * self.size
+        # under a budget coarse tangents reach further than plates do
+        for _ in range(_GUESSES if np.isfinite(self.whole.limits.max_total_mass[0]) else 1):
+            angle = guessed(self.whole, self.plates, nodes, share, goal.least_mass)
+            if angle is None:
+                break
+            nodes = closer_nodes(nodes, angle)
+        return nodes
+
+    def round(self, nodes: Real) -> _Round:
+        """What tangents and, under a budget, chords between half-angles (n, P) come to."""
+        goal, whole = self.request.objective, self.whole
+        of_tangents, proven = self._optimum(tangents(self.plates, nodes))
+        called_for = u = of_tangents.carried(proven.unbalance[0])
+        spent = proven.certify_s
+        if np.isfinite(whole.limits.max_total_mass[0]) and not proven.unreachable[0]:
+            # what tangents call for may be heavier than the budget, what chords find is not
+            of_chords, feasible = self._optimum(chords(self.plates, nodes))
+            u = of_chords.carried(feasible.unbalance[0])
+            proven = _up_to(of_tangents.program, proven, whole.objective(u) + whole.rounding(u))
+            spent = spent + feasible.certify_s
+        if goal.symmetric:
+            # no worse in any term, so that what is proven of those that were found holds
+            u = symmetric(whole, u[None], self.kinds)[0]
+        angle = self.opened(u)
+        mass = float(total_mass(whole, self.plates, u, angle))
+        return _Round(replace(proven, certify_s=spent), Cut(u, angle, mass), called_for)
+
+    def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
+        laid, asked = pieces(self.whole, self.plates, webs), self.request.accuracy.relative_gap
+        return laid, optima(laid.program, asked, self.request.objective.least_mass, self.solver)
+
+    def too_heavy(self, found: _Round) -> bool:
+        """Whether what would be cut is not the lightest, so that it need not be judged."""
+        if not self.request.objective.least_mass or found.proven.unreachable[0]:
+            return False
+        mass = found.cut.mass
+        size = np.maximum(mass, _NEARER * mass_resolution(self.whole, self.size[..., None])[0])
+        return bool(mass - found.proven.mass_lower_bound[0] > MASS_GAP * size)
+
+    def judged_alike(self, found: _Round, nodes: Real) -> tuple[OptimizeRequest, Certified]:
+        """What is cut, with plates opened alike where what is proven still holds."""
+        cut = self._alike(found, nodes)
+        if cut is not found.cut:
+            asked, best = self.judged(found.proven, cut)
+            if best.status[0] == "optimal":
+                return asked, best
+        return self.judged(found.proven, found.cut)
+
+    def _alike(self, found: _Round, nodes: Real) -> Cut:
+        goal, proven = self.request.objective, found.proven
+        if proven.unreachable[0]:
+            return found.cut
+        lower_bound = float(proven.lower_bound[0])
+        largest = lower_bound + float(self.request.accuracy.relative_gap * self.size[0])
+        least_mass = np.inf
+        if goal.least_mass:
+            largest, least_mass = min(largest, float(proven.mass_target[0])), float(proven.mass_lower_bound[0])
+        return alike(self.whole, self.plates, nodes, found.cut, (lower_bound, largest), least_mass)
+
+    def judged(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified]:
+        """The request with the radii of what is cut, and what may be claimed of it."""
+        angle = cut.angle
+        same = np.arange(self.kinds.size)
+        # plates that differ by what rounding leaves are the same to the last digit
+        near = np.abs(angle[:, None] - angle) <= _EQUAL * angle
+        first = np.argmax(near & (self.plates.kinds[:, None] == self.plates.kinds), axis=1)
+        same[self.plates.webs] = self.plates.webs[first]
+        machine = fitted(self.request.machine, angle[first])
+        asked = self.request.model_copy(update={"machine": machine})
+        stated = limits(machine, self.omega_squared.shape)
+        program = replace(self.whole, limits=_limits(stated, self.whole.limits, self.plates))
+        found = replace(proven, unbalance=cut.unbalance[None])
+        return asked, judged(asked, program, found, self.omega_squared, lambda mass, angle: (mass[..., same], angle))
+
+
+def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:
+    """What is proven of the mass of all up to an objective (1,): under a budget chords may reach no smaller one.
+
+    Any target proves a bound with the same multipliers; a larger one a smaller bound.
+    """
+    if np.all(objective <= proven.mass_target):
+        return proven
+    target = np.maximum(proven.mass_target, objective)
+    bound = np.minimum(mass_lower_bound(program, proven.mass_multipliers, target), proven.mass_lower_bound)
+    return replace(proven, mass_target=target, mass_lower_bound=bound)
+
+
+def _limits(stated: Limits, reached: Limits, plates: Plates) -> Limits:
+    """Limits of webs with the radii that were found; what the others may reach at most is as it was proven."""
+    most = reached.max_mass.copy()
+    most[..., plates.webs] = stated.max_mass[..., plates.webs]
+    return replace(stated, max_mass=most)

@@ -1,0 +1,221 @@
+"""Multipliers of the program by name and in the units of the answer: the proof that leaves the house.
+
+The program is in mass-radius products, forces over omega^2. A multiplier of the objective is the same in either; one
+of the mass, or of a ceiling alone, is per newton and so divided by omega^2. Webs that cannot carry anything have no
+multipliers of their own, so none is missing where the program went without them.
+"""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from optimizer.formulation.limits import largest_mass
+from optimizer.numerics.arrays import Complex, Real, Reals
+from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, proves, together
+from optimizer.program.methods.optima import Optima
+from optimizer.program.statement import Statement
+from schemas.machine import Machine
+from schemas.proof import BoundMultipliers
+
+#: |y| <= lambda holds for the printed numbers too, whatever the rounding of the division by omega^2
+_INSIDE = 1.0 - 4 * np.finfo(float).eps
+
+Bounded = Literal["objective", "mass", "parameter"]
+
+
+@dataclass(frozen=True)
+class PhysicalMultipliers:
+    """Multipliers in N, N m and kg; leading axes are programs."""
+
+    term: Complex  # (..., J)
+    row: Real  # (..., rows)
+    ceiling: Complex  # (..., I)
+    budget: Real  # (...)
+
+    def chosen(self, program: int) -> "PhysicalMultipliers":
+        """Those of one program of one leading axis."""
+        return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])
+
+
+def physical(
+    statement: Statement, multipliers: Multipliers, bounded: Bounded, omega_squared: Reals
+) -> PhysicalMultipliers:
+    """Multipliers of a bound in the units of the answer.
+
+    Parameters
+    ----------
+    statement : (...) programs, over omega^2.
+    bounded : "objective": in units of the objective, the rows sum to 1; "mass": in kg; "parameter": a plain number.
+    omega_squared : (...) rad^2/s^2.
+    """
+    (found,) = _physical(statement, {bounded: multipliers}, omega_squared)
+    return found
+
+
+def _physical(
+    statement: Statement, bounds: Mapping[Bounded, Multipliers], omega_squared: Reals
+) -> Iterator[PhysicalMultipliers]:
+    """The same of several bounds on the same programs at once, in their order."""
+    usable = together(bounds.values()).admissible(statement)
+    price = usable.price(statement)
+    of_price, per_newton = 1.0 / np.where(proves(price), price, 1.0), 1.0 / np.asarray(omega_squared)
+    scaled = usable.times(
+        np.array([of_price[n] if name == "objective" else per_newton for n, name in enumerate(bounds)])
+    )
+    term = _no_longer(scaled.term, scaled.row[..., statement.row])
+    for n, name in enumerate(bounds):
+        if name == "objective":
+            budget = budget_price(statement, scaled.chosen(n), 0.0) * omega_squared
+        else:
+            budget = budget_price(statement, usable.chosen(n), 1.0 if name == "mass" else 0.0)
+        yield PhysicalMultipliers(term[n], scaled.row[n], scaled.ceiling[n], budget)
+
+
+def conflict(statement: Statement, excess: Multipliers, omega_squared: Reals) -> PhysicalMultipliers:
+    """Multipliers that prove that the ceilings cannot be kept, in 1/N and 1/(N m).
+
+    Parameters
+    ----------
+    excess : of the program whose terms and rows are the ceilings, each over its size.
+    """
+    scale = 1.0 / statement.ceilings.size
+    row = np.maximum(excess.row, 0.0) * scale
+    ceiling = _no_longer(excess.term * scale, row)
+    alone = replace(nothing_proven(statement), ceiling=ceiling)
+    per_newton = 1.0 / np.asarray(omega_squared)[..., None]
+    price = budget_price(statement, alone, 0.0)
+    return PhysicalMultipliers(alone.term, row * per_newton, ceiling * per_newton, price)
+
+
+class Proofs(NamedTuple):
+    """What is printed of the proofs of one design."""
+
+    objective: BoundMultipliers | None  # null where the ceilings are out of reach
+    mass: BoundMultipliers | None
+    conflict: BoundMultipliers | None
+
+
+class PhysicalProofs(NamedTuple):
+    """Multipliers of both bounds on N designs (N, ...)."""
+
+    objective: PhysicalMultipliers
+    mass: PhysicalMultipliers
+
+
+def physical_proofs(statement: Statement, found: Optima, omega_squared: Real) -> PhysicalProofs:
+    """Those of N programs, one leading axis (N,)."""
+    bounds: dict[Bounded, Multipliers] = {"objective": found.multipliers, "mass": found.mass_multipliers}
+    return PhysicalProofs(*_physical(statement, bounds, omega_squared))
+
+
+def named_proofs(
+    statement: Statement, found: Optima, proofs: PhysicalProofs, omega_squared: Real, least_mass: bool
+) -> Iterator[Proofs]:
+    """The proofs of N programs, one leading axis (N,), one by one."""
+    for n, unreachable in enumerate(found.unreachable.tolist()):
+        if unreachable:
+            alone = statement.chosen(n)
+            against = conflict(alone, found.conflict.chosen(n), omega_squared[n])
+            yield Proofs(None, None, named_conflict(alone, against))
+        else:
+            of_mass = named(statement, proofs.mass.chosen(n)) if least_mass else None
+            yield Proofs(named(statement, proofs.objective.chosen(n)), of_mass, None)
+
+
+def implied_max_mass(machine: Machine, most: Real) -> list[dict[str, float]]:
+    """Limits (N, K) that the proofs of N designs count with, in place of those of the machine, kg."""
+    smaller = most < largest_mass(machine)
+    if not smaller.any():
+        return [{} for _ in most]
+    return [
+        {web.name: mass for web, mass, counts in zip(machine.webs, *of_design, strict=True) if counts}
+        for of_design in zip(most.tolist(), smaller.tolist(), strict=True)
+    ]
+
+
+def named(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
+    """Multipliers of a bound on one program (no leading axes of theirs) by the names of its terms, rows, ceilings."""
+    terms, rows = statement.names
+    # one validation of the whole takes half the time of one of each
+    return BoundMultipliers.model_validate(
+        {
+            "terms": tuple(
+                {
+                    "response": term.response,
+                    "part": term.part,
+                    "row": rows[row],
+                    "angle_deg": term.angle_deg,
+                    "scenario": term.scenario,
+                    "x": y.real,
+                    "y": y.imag,
+                }
+                for term, row, y in zip(terms, statement.row.tolist(), multipliers.term.tolist(), strict=True)
+            ),
+            **_shared(rows, statement, multipliers),
+        }
+    )
+
+
+def named_conflict(statement: Statement, multipliers: PhysicalMultipliers) -> BoundMultipliers:
+    """Multipliers of :func:`conflict`, one program: its rows are the ceilings."""
+    names = statement.ceilings.names
+    return BoundMultipliers.model_validate({"terms": (), **_shared(names, statement, multipliers)})
+
+
+def named_excess(excess: Statement, multipliers: Multipliers, scales: Real, omega_squared: float) -> BoundMultipliers:
+    """Multipliers that prove that ceilings cannot be kept, by the program of their excess: a row for each ceiling.
+
+    Parameters
+    ----------
+    scales : (rows,) what each ceiling is divided by in that program.
+    """
+    usable, _ = normalised(excess, multipliers)
+    row = usable.row / scales / omega_squared
+    terms = _no_longer(usable.term / scales[excess.row] / omega_squared, row[excess.row])
+    price = budget_price(excess, usable, 0.0)
+    names = excess.names
+    return BoundMultipliers.model_validate(
+        {
+            "terms": (),
+            "rows": tuple({"name": name, "value": value} for name, value in zip(names.rows, row.tolist(), strict=True)),
+            "budget": float(price),
+            "ceilings": tuple(
+                {
+                    "response": term.response,
+                    "part": "co",
+                    "angle_deg": term.angle_deg,
+                    "scenario": term.scenario,
+                    "x": p.real,
+                    "y": p.imag,
+                }
+                for term, p in zip(names.terms, terms.tolist(), strict=True)
+            ),
+        }
+    )
+
+
+def _no_longer(vectors: Complex, allowed: Real) -> Complex:
+    """Vectors that are no longer than allowed, whatever the rounding of what is done to both."""
+    size, allowed = np.abs(vectors), allowed * _INSIDE
+    return vectors * np.where(size > allowed, allowed / np.where(size > 0, size, 1.0), 1.0)
+
+
+def _shared(names: tuple[str, ...], statement: Statement, multipliers: PhysicalMultipliers) -> dict[str, Any]:
+    """What every bound has: rows of these names, a budget and ceilings."""
+    ceilings = statement.ceilings
+    nothing = (None,) * len(ceilings.names)
+    angles, scenarios = ceilings.angles_deg or nothing, ceilings.scenarios or nothing
+    return {
+        "rows": tuple(
+            {"name": name, "value": value} for name, value in zip(names, multipliers.row.tolist(), strict=True)
+        ),
+        "budget": float(multipliers.budget),
+        "ceilings": tuple(
+            {"response": name, "part": "co", "angle_deg": angle, "scenario": scenario, "x": p.real, "y": p.imag}
+            for name, angle, scenario, p in zip(
+                ceilings.names, angles, scenarios, multipliers.ceiling.tolist(), strict=True
+            )
+        ),
+    }

@@ -1,0 +1,122 @@
+"""What may be claimed of counterweights that a search has found, beside what is proven of any mass at any angle."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.choices.discrete.search import EXHAUSTED
+from optimizer.choices.feasible_set import SearchResult
+from optimizer.formulation.counterweights import unbalance
+from optimizer.numerics.arrays import Real
+from optimizer.program.verdict import claim, verdict
+from optimizer.solve.certify import Certified
+from schemas.requests import Accuracy, OptimizeRequest
+
+_ALL = (
+    "Every set of counterweights that can be chosen was compared: none within the limits has a smaller objective, and"
+    " of those with the same one none is lighter."
+)
+_LIGHTEST = "Every set of counterweights that can be chosen was compared: none that keeps the ceilings is lighter."
+_TREE = "The gap to the proven lower bound of all sets that can be chosen is within the asked one."
+#: why a search left a gap
+LATE = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
+_SIZE = "The search ended because its tree had grown too large: the gap to the proven lower bound is what was reached."
+_CUTS = (
+    "The search ended because its last choices have shown nothing new of the whole turn: the gap to the proven lower"
+    " bound is what was reached."
+)
+_WHY = {"time": LATE, "size": _SIZE, "cuts": _CUTS}
+#: beside any of these, where the tree has proven nothing of its own
+_AMPLE = (
+    " So far it is that of any masses at any angles: of an ample choice, which comes near to what those reach, nothing"
+    " closer can be proven."
+)
+_NONE = "No set of counterweights that can be chosen keeps the ceilings: {proof}."
+_BY = {True: "all were compared", False: "a tree of bounds over all of them proves it"}
+_NONE_FOUND = (
+    "No set of counterweights that keeps the ceilings was found before the search ended, nor is it proven that there"
+    " is none: the one closest to them is shown."
+)
+
+
+def ended(found: SearchResult | None) -> str:
+    """What is said of the lightest set that keeps the ceilings; None: none of any masses does."""
+    if found is None:
+        return _NONE.format(proof="none of any masses does")
+    if not found.kept:
+        return _NONE.format(proof=_BY[found.method == EXHAUSTED]) if found.lower_bound == np.inf else _NONE_FOUND
+    if found.ended is not None:
+        return _WHY[found.ended]
+    return _LIGHTEST if found.proven else _TREE
+
+
+def continuous(request: OptimizeRequest) -> OptimizeRequest:
+    """The request without its catalogue: any mass at any angle within the limits of the webs."""
+    goal = request.objective.model_copy(update={"least_mass": False})
+    return request.model_copy(update={"objective": goal, "accuracy": Accuracy()})
+
+
+def searched(best: Certified, found: SearchResult, mass: Real, angle: Real, relative_gap: float) -> Certified:
+    """What was found, and what may be claimed of it.
+
+    Parameters
+    ----------
+    best : the same machine with any mass at any angle, whose bound holds too.
+    mass, angle : (1, K) kg and degrees.
+    relative_gap : that is asked.
+    """
+    omega_squared = best.omega_squared
+    u = unbalance(mass, angle, best.program.limits.radius)
+    # what any counterweights are held above holds for those that exceed ceilings by no more than these
+    free = claim(best.program, u, np.sum(mass, axis=-1), best.found.lower_bound, best.found.multipliers, None)
+    of_sets = np.array([[found.lower_bound if np.isfinite(found.lower_bound) else -np.inf]])
+    claimed = replace(free, lower_bound=np.maximum(free.lower_bound, of_sets))
+    judged = verdict(claimed, relative_gap)
+    proven = ~np.isnan(judged.relative_gap)
+    certificate = best.certificate | {
+        "objective": claimed.value[:, 0] * omega_squared,
+        "lower_bound": judged.lower_bound[:, 0] * omega_squared,
+        "gap": judged.gap[:, 0] * omega_squared,
+        "relative_gap": judged.relative_gap,
+        "continuous_lower_bound": np.where(proven, free.lower_bound[:, 0], np.nan) * omega_squared,
+        "nodes": np.array([found.nodes]),
+        "method": np.array([found.method], dtype=object),
+    }
+    status, reason = told_status(found, str(judged.status[0]), str(judged.reason[0]), bool(proven[0]))
+    reason = told_ample(reason, found, float(free.lower_bound[0, 0]))
+    return replace(
+        best,
+        mass_kg=mass,
+        angle_deg=angle,
+        unbalance=u,
+        verdict=judged,
+        certificate=certificate,
+        status=np.array([status], dtype=object),
+        reason=np.array([reason], dtype=object),
+        searched=True,
+    )
+
+
+def told_status(found: SearchResult, status: str, reason: str, proven: bool) -> tuple[str, str]:
+    """What may be said of a set, from what the search and the verdict say."""
+    if not proven:
+        return status, reason
+    if not found.kept:
+        if found.lower_bound == np.inf:
+            return "infeasible", _NONE.format(proof=_BY[found.method == EXHAUSTED])
+        return "inaccurate", _NONE_FOUND
+    if status == "optimal":
+        return status, _ALL if found.proven else _TREE
+    if found.ended is not None:
+        return status, _WHY[found.ended]
+    return status, reason
+
+
+def told_ample(reason: str, found: SearchResult, of_any: float) -> str:
+    """The same with what is said of a choice of which nothing is proven but what holds for any masses at any angles.
+
+    Parameters
+    ----------
+    of_any : lower bound of these, over omega^2.
+    """
+    return reason + _AMPLE if reason in _WHY.values() and not found.lower_bound > of_any else reason

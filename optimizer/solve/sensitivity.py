@@ -1,0 +1,56 @@
+"""What one degree, or one per cent, on all counterweights together may cost."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex
+from optimizer.program.cuts.cut import EXACT
+from optimizer.program.cuts.misplacement import largest_last_goals
+from optimizer.program.cuts.semi_infinite import OverTurn, Values
+from optimizer.program.misplacement import farthest_by_angle, farthest_by_mass
+from optimizer.program.statement import Statement
+from schemas.robust import Sensitivity
+
+_DEGREE, _PERCENT = float(np.deg2rad(1.0)), 0.01
+#: width of the brackets of what counterweights come to as they should be
+_CLOSE = 1e-10
+
+
+def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Sensitivity:
+    """Of one program of vectors (no leading axes, or axes of length 1) with counterweights (..., K) kg m.
+
+    Parameters
+    ----------
+    statement : over omega^2.
+    """
+    norms = statement.norms
+    middle, vectors = norms.at(u), norms.influence * u[..., None, :]
+    worst = farthest_by_angle(norms.constant, vectors, _DEGREE), farthest_by_mass(middle, vectors, _PERCENT)
+    # of a sum of peaks no less than they come to together
+    objectives = statement.objective_of(np.array([np.abs(middle), *worst]))
+    as_it_is, by_angle, by_mass = objectives.reshape(3).tolist()
+    return _rises(as_it_is, by_angle, by_mass, omega_squared)
+
+
+def over_turn(program: OverTurn, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
+    """Of the last goal of a program over the turn.
+
+    Parameters
+    ----------
+    values : what the program comes to with counterweights (K,) kg m.
+    """
+    if program.scatter != EXACT:
+        # of the counterweights as they should be, whatever they are allowed to be off by
+        program = replace(program, scatter=EXACT)
+        values = program.values(u, _CLOSE)
+    by_angle, by_mass = largest_last_goals(program, u, values.reached, _DEGREE, _PERCENT)
+    return _rises(float(values.goals[-1]), by_angle, by_mass, omega_squared)
+
+
+def _rises(objective: float, by_angle: float, by_mass: float, omega_squared: float) -> Sensitivity:
+    # what is above is so but for rounding: there are no errors among the errors
+    return Sensitivity(
+        objective_rise_per_deg=max(by_angle - objective, 0.0) * omega_squared,
+        objective_rise_per_percent=max(by_mass - objective, 0.0) * omega_squared,
+    )

@@ -1,0 +1,204 @@
+"""The program of several machines with counterweights that may be a little off: scenarios and tolerances.
+
+Scenarios are cases of one program. What counterweights are off by is part of it. Of reciprocating masses that scatter
+the worst corner of every peak is known once the counterweights are; such corners are added as variants of their case
+until the counterweights have none that is worse: then the program is that of all corners.
+"""
+
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.errors import MissingInput
+from optimizer.formulation.formulate import RESPONSES, given_ceilings, responses, weights
+from optimizer.formulation.goals import Case, Goals, goals
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
+from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.registry import prepare
+from optimizer.outputs.requirements import effects_of_objective, missing
+from optimizer.program.cuts.cut import EXACT, Scatter
+from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.responses.response import Phasors, Response
+from optimizer.solve.whole_turn import whole_turn_of
+from schemas.base import FieldProblem
+from schemas.requests import OptimizeRequest
+from schemas.scenarios import Tolerances, machine_of
+from schemas.target import pointer
+
+#: a corner that is worse by less than this share is as good as known
+_ALIKE = 1e-12
+#: times that corners are added before it ends with what is proven
+_MOST_ROUNDS = 60
+
+
+class Measure(NamedTuple):
+    """A peak of the first order: of a response by its place, with the weights of its components."""
+
+    response: int
+    weight_x: float
+    weight_y: float
+
+
+def scatter_of(tolerances: Tolerances | None) -> Scatter:
+    """What counterweights may be off by: the farthest point of what mass and angle may make of a unit vector."""
+    if tolerances is None:
+        return EXACT
+    angle = min(np.deg2rad(tolerances.angle_deg), np.pi)
+    # |(1 + d) e^{ja} - 1|, without the digits that the difference of nearly equal numbers would lose
+    shares = (tolerances.mass_relative, -tolerances.mass_relative)
+    ends = [np.hypot(share, 2.0 * np.sqrt(1.0 + share) * np.sin(0.5 * angle)) for share in shares]
+    return Scatter(float(max(ends)), tolerances.unbalance_kg_m)
+
+
+@dataclass(frozen=True)
+class Machine:
+    """The machine as it is given, or that of a scenario, with reciprocating masses that scatter."""
+
+    request: OptimizeRequest  # with its machine
+    scene: Prepared
+    scenario: str | None
+    weight: float
+    share: float  # by which its reciprocating masses may be off
+
+    @cached_property
+    def nominal(self) -> tuple[Response, ...]:
+        """Responses with the masses as they should be."""
+        return tuple(replace(each, scenario=self.scenario) for each in self.scene.responses)
+
+    @cached_property
+    def parts(self) -> tuple[Phasors, ...]:
+        """What every row adds to the responses, (rows,) each."""
+        return tuple(each.baseline for each in responses(self.scene.layout, row_parts(self.scene.layout)))
+
+    @property
+    def scatters(self) -> bool:
+        return self.share > 0.0 and self.scene.layout.reciprocating.mass.size > 0
+
+    def corners(self, measure: Measure) -> Real:
+        """Signs of the changes of all masses (corners, rows), among which a peak has its largest."""
+        if not self.scatters:
+            return np.zeros((1, self.parts[measure.response].co.size))
+        return worst_signs(self.parts[measure.response], measure.weight_x, measure.weight_y)
+
+    def sizes(self, measure: Measure, signs: Real, u: Complex) -> Real:
+        """Peaks (corners,) with changes of these signs, counterweights as they should be; over omega^2."""
+        r, weight_x, weight_y = measure
+        vector = self.nominal[r].to(u) + changed(self.parts[r], signs, self.share)
+        return weighted(vector, weight_x, weight_y).peak
+
+    @cached_property
+    def turn(self) -> WholeTurn:
+        """The forces of its rows over the turn."""
+        return whole_turn_of(self.scene)
+
+    def case(self, known: Sequence[Real] = ()) -> Case:
+        """What the program asks of it, with the masses as they should be or with changes of these signs (rows,)."""
+        variants = tuple(
+            tuple(
+                replace(each, baseline=each.baseline + changed(part, signs, self.share))
+                for each, part in zip(self.nominal, self.parts, strict=True)
+            )
+            for signs in known
+        )
+        turn = self.turn if self.request.objective.over_the_turn else None
+        masses = self.share if self.scatters else 0.0
+        named = self.scenario, self.weight, masses
+        return Case(self.request, self.scene.laden, variants or (self.nominal,), turn, *named)
+
+
+class Robust:
+    """The program of one request with scenarios or tolerances, as far as the worst masses are known."""
+
+    def __init__(self, request: OptimizeRequest, scene: Prepared) -> None:
+        """Prepare the machines of all scenarios.
+
+        Raises
+        ------
+        MissingInput
+            if one of them lacks what the objective needs.
+        """
+        self.request, self.scene = request, scene
+        tolerances = request.tolerances
+        self.scatter = scatter_of(tolerances)
+        share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
+        self.machines = list(_scenarios(request, share)) or [Machine(request, scene, None, 1.0, share)]
+        for machine in self.machines:
+            if machine.scene is not scene:
+                scene.simulated.join(machine.scene.simulated, "scenarios")
+        self._measures = list(dict.fromkeys(_measures(request)))
+        self._until = time.thread_time() + request.accuracy.time_limit_s
+        #: signs of the changes of masses that are known of every machine
+        self._known: list[list[Real]] = [[] for _ in self.machines]
+        self.learnt(np.zeros(len(request.machine.webs), complex))
+
+    @property
+    def left_s(self) -> float:
+        """What is left of the time limit."""
+        return max(self._until - time.thread_time(), 0.0)
+
+    def asked(self) -> Goals:
+        """The program with the changes of masses that are known."""
+        cases = [machine.case(known) for machine, known in zip(self.machines, self._known, strict=True)]
+        apart = any(machine.scatters for machine in self.machines)
+        return goals(self.request, cases, self.scene.omega_squared, self.scatter, apart)
+
+    def learnt(self, u: Complex) -> bool:
+        """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""
+        new = [list(self._worse(machine, known, u)) for machine, known in zip(self.machines, self._known, strict=True)]
+        for known, more in zip(self._known, new, strict=True):
+            known += more
+        return any(new)
+
+    def _worse(self, machine: Machine, known: Sequence[Real], u: Complex) -> Iterator[Real]:
+        found: list[Real] = []
+        for measure in self._measures if machine.scatters else ():
+            corners, so_far = machine.corners(measure), [*known, *found]
+            size = machine.sizes(measure, corners, u)
+            if not so_far or np.max(size) > (1.0 + _ALIKE) * np.max(machine.sizes(measure, np.stack(so_far), u)):
+                found.append(corners[np.argmax(size)])
+        yield from found
+
+    def solved(self) -> tuple[Goals, Found | Unkept]:
+        """The program with all changes of masses that matter, and its proof."""
+        objective, gap = self.request.objective, self.request.accuracy.relative_gap
+        for _ in range(_MOST_ROUNDS):
+            asked = self.asked()
+            found = over_turn(asked.program, gap, objective.least_mass, asked.allowances, self.left_s)
+            if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
+                return asked, found
+        # judged by all that is known: the gap tells what is left open
+        return self.asked(), found
+
+
+def _scenarios(request: OptimizeRequest, share: float) -> Iterator[Machine]:
+    for i, scenario in enumerate(request.scenarios):
+        made = request.model_copy(
+            update={"machine": machine_of(request, scenario), "scenarios": (), "tolerances": None, "outputs": ()}
+        )
+        lacking = list(missing(made))
+        if lacking:
+            place = ("scenarios", i, "changes")
+            raise MissingInput(FieldProblem(place, f"{pointer(path)}: {message}") for path, message in lacking)
+        scene = prepare(made, ("residual",), effects_of_objective(made))
+        yield Machine(made, scene, scenario.name, scenario.weight, share)
+
+
+def _measures(request: OptimizeRequest) -> Iterator[Measure]:
+    """Peaks of the first order that count or are limited."""
+    objective = request.objective
+    if objective.orders == "all":
+        return
+    across, wanted = objective.direction_weights, weights(request.machine, objective)
+    for r, name in enumerate(RESPONSES):
+        if wanted[name] > 0:
+            yield Measure(r, across.x, across.y)
+    names = list(RESPONSES)
+    for ceiling, _ in given_ceilings(objective):
+        response = names.index(ceiling.name.partition(":")[0])
+        yield Measure(response, float(ceiling.axis != "y"), float(ceiling.axis != "x"))

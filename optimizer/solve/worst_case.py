@@ -1,0 +1,167 @@
+"""Certified counterweights of any mass, of a machine as it is given or in the worst case of several, and what the worst
+case costs."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from optimizer.formulation.formulate import RESPONSES
+from optimizer.formulation.goals import Goals, bearing_responses, goals
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.shaft_curves import shaking
+from optimizer.numerics.arrays import Complex
+from optimizer.program.cuts.brackets import Brackets
+from optimizer.program.cuts.cut import Quantity
+from optimizer.program.cuts.optimum import Found, Unkept, over_turn
+from optimizer.responses.curve import TurnResponse
+from optimizer.solve.infeasibility import out_of_reach
+from optimizer.solve.outcome import Outcome
+from optimizer.solve.uncertain_program import Machine, Measure, Robust
+from optimizer.solve.whole_turn import certified_turn, fitted
+from schemas.answers import Certificate
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import OptimizeRequest
+from schemas.robust import PriceOfRobustness, WorstCase
+
+#: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
+_CLOSE, _ABOUT = 1e-10, 1e-2
+_NO_PRICE = " The time limit left the nominal optimum in price_of_robustness open."
+
+
+def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:
+    """Counterweights of any mass that are optimal, in the worst of all cases where there are several.
+
+    Parameters
+    ----------
+    in_full : with prices of the limits and what misplaced counterweights may cost.
+
+    Raises
+    ------
+    MissingInput
+        if a machine lacks what the objective needs.
+    """
+    return certified_robust(request, scene) if request.robust else certified_turn(request, scene, in_full)
+
+
+def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
+    """Counterweights that are optimal in the worst of all cases, each as far off as it may be.
+
+    Raises
+    ------
+    MissingInput
+        if a machine lacks what the objective needs.
+    """
+    robust = Robust(request, scene)
+    asked, found = robust.solved()
+    if isinstance(found, Unkept):
+        return out_of_reach(request, scene, asked, found)
+    told = fitted(request, scene, asked, found)
+    assert told.chosen is not None
+    return with_worst_case(robust, told, *_nominal_optimum(robust))
+
+
+def with_worst_case(robust: Robust, told: Outcome, nominal: Complex | None, late: bool) -> Outcome:
+    """What is told of counterweights, with what the worst case costs.
+
+    Parameters
+    ----------
+    nominal : (K,) kg m, the best counterweights of the machine as it is given, if any are known.
+    late : the limit of time left them open.
+    """
+    u, certificate = told.chosen, told.fields["certificate"]
+    assert u is not None
+    assert isinstance(certificate, Certificate)
+    price = _price(robust, u, nominal)
+    worst = {"worst_case": _worst_case(robust, u, certificate.objective), "price_of_robustness": price}
+    return replace(told, reason=f"{told.reason}{_NO_PRICE if late else ''}", fields={**told.fields, **worst})
+
+
+def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
+    """The same fields where tolerances are stated and all are 0: the worst case is what counterweights (K,) come to."""
+    return {
+        "worst_case": _worst_case(Robust(request, scene), u, objective),
+        "price_of_robustness": PriceOfRobustness(
+            nominal=objective, nominal_optimum=objective, nominal_optimum_worst_case=objective
+        ),
+    }
+
+
+def _worst_case(robust: Robust, u: Complex, objective: float) -> WorstCase:
+    """Peaks in the worst case, each by itself, with counterweights (K,) kg m."""
+    force, moment = (
+        max(_external(robust, machine, response, u) for machine in robust.machines)
+        for response in range(len(RESPONSES))
+    )
+    bearings = robust.machines if robust.request.objective.of_the_shaft else []
+    loads = [_peak(robust, machine, list(_bearing_responses(machine)), u) for machine in bearings]
+    return WorstCase(
+        force_peak_N=force,
+        moment_peak_Nm=moment,
+        bearing_peak_N=max(loads) if loads else None,
+        objective=objective,
+    )
+
+
+def _external(robust: Robust, machine: Machine, response: int, u: Complex) -> float:
+    """A peak on the frame: of the first order, or of all where these count."""
+    if robust.request.objective.orders == "all":
+        return _peak(robust, machine, [shaking(machine.turn, machine.scene.laden)[response]], u)
+    measure = Measure(response, 1.0, 1.0)
+    off = robust.scatter.of(machine.nominal[response].influence, u)
+    return (float(np.max(machine.sizes(measure, machine.corners(measure), u))) + off) * machine.scene.omega_squared
+
+
+def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u: Complex) -> float:
+    """The largest of the peaks of several responses: closely of those alone that may have it."""
+    masses = machine.share if machine.scatters else 0.0
+    quantities = [Quantity(each, "peak", machine.scenario, masses) for each in responses]
+    most = np.inf
+    for width in (_ABOUT, _CLOSE):
+        no = [False] * len(quantities)
+        found = Brackets(quantities, no, robust.scatter).found(u, np.full(len(quantities), width))
+        least = max(each.lower for each in found)
+        # a narrow bracket that is not reached may be wider than one that was
+        most = min(most, max(each.upper for each in found))
+        quantities = [quantity for quantity, each in zip(quantities, found, strict=True) if each.upper >= least]
+    return float(most) * machine.scene.omega_squared
+
+
+def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
+    made, scene = machine.request.machine, machine.scene
+    assert isinstance(made, ReciprocatingMachine)  # no other has bearings
+    yield from bearing_responses(made, machine.request.fidelity, scene.laden, machine.turn)
+
+
+def _nominal_optimum(robust: Robust) -> tuple[Complex | None, bool]:
+    """The best counterweights (K,) of the machine as it is given, if any keep its ceilings; whether the limit of time,
+    of which the search has what is left, leaves that open."""
+    nominal, asked, left = _nominal(robust), robust.request, robust.left_s
+    if left == 0.0:
+        return None, True
+    least = asked.objective.least_mass
+    found = over_turn(nominal.program, asked.accuracy.relative_gap, least, nominal.allowances, left)
+    late = isinstance(found, Found) and found.timed_out
+    return found.point.unbalance if isinstance(found, Found) and not late else None, late
+
+
+def _price(robust: Robust, u: Complex, best: Complex | None) -> PriceOfRobustness:
+    """What the worst case costs nominally, and the best of the machine as it is given in the worst case."""
+    program, square = _nominal(robust).program, robust.scene.omega_squared
+    return PriceOfRobustness(
+        nominal=float(program.values(u, _CLOSE).goals[-1]) * square,
+        nominal_optimum=None if best is None else float(program.values(best, _CLOSE).goals[-1]) * square,
+        nominal_optimum_worst_case=None if best is None else _objective(robust, best),
+    )
+
+
+def _nominal(robust: Robust) -> Goals:
+    """The program of the machine as it is given, with nothing off."""
+    exact = robust.request.model_copy(update={"scenarios": (), "tolerances": None})
+    return goals(exact, [Machine(exact, robust.scene, None, 1.0, 0.0).case()], robust.scene.omega_squared)
+
+
+def _objective(robust: Robust, u: Complex) -> float:
+    """The last goal in the worst case, with any counterweights."""
+    robust.learnt(u)
+    return float(robust.asked().program.values(u, _CLOSE).goals[-1]) * robust.scene.omega_squared

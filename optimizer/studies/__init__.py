@@ -1,0 +1,1 @@
+"""Many problems: sweeps, fronts, matching, and what accuracy costs."""

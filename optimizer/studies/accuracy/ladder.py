@@ -1,0 +1,167 @@
+"""Times and true errors of methods on one program.
+
+First every method runs at every position of its grid: that gives errors and set-up times. Then come rounds,
+in which each method runs once, at the position of its largest error, so that a slow moment of the machine
+meets them all.
+"""
+
+import statistics
+import time
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import numpy as np
+
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.studies.accuracy.methods import Found, Method, Run, Task
+
+Answer = TypeVar("Answer")
+
+#: what one method may hand to its solver; beyond it a single solve takes many seconds
+MAX_ENTRIES = 600_000
+#: one solve of a method that knows a limit of time, s
+SOLVE_S = 5.0
+#: all timed rounds of one method, s; its median is then over fewer runs
+ROUNDS_S = 3.0
+#: the whole ladder, s; what has not begun by then is skipped
+LADDER_S = 60.0
+
+
+@dataclass(frozen=True)
+class Judged:
+    """One run, evaluated by the statement; in units of the objective."""
+
+    position: float
+    objective: float
+    excess: float
+    claimed: float | None
+    bound: float
+
+
+@dataclass
+class Trial:
+    """A method and what has been seen of it."""
+
+    method: Method
+    run: Run
+    judged: list[Judged] = field(default_factory=list)
+    first_s: float | None = None  # of the whole run, whatever it solves at once; likewise below
+    times_s: list[float] = field(default_factory=list)
+    skipped: str | None = None
+
+    @property
+    def worst(self) -> Judged:
+        """The run with the largest objective; broken ceilings are worse than any objective."""
+        return max(self.judged, key=lambda one: (one.excess > CEILING_TOLERANCE, one.objective))
+
+
+@dataclass(frozen=True)
+class Clock:
+    """When the work has to end."""
+
+    end_s: float
+
+    @classmethod
+    def of(cls, seconds: float) -> "Clock":
+        return cls(time.perf_counter() + seconds)
+
+    @property
+    def left_s(self) -> float:
+        return self.end_s - time.perf_counter()
+
+
+def survey(task: Task, methods: Iterable[Method], clock: Clock) -> list[Trial]:
+    """Every method once at each position of its grid."""
+    return [_tried(task, method, clock) for method in methods]
+
+
+def time_rounds(task: Task, trials: Sequence[Trial], repeats: int, clock: Clock) -> None:
+    """Rounds in which every method that has an answer runs once."""
+    for _ in range(repeats):
+        for trial in trials:
+            if trial.skipped or sum(trial.times_s) > ROUNDS_S or (clock.left_s <= 0 and trial.times_s):
+                continue
+            # the clock of the ladder ends rounds, not solves: each method is timed at least once
+            start = time.perf_counter()
+            outcome = trial.run(task, trial.worst.position, SOLVE_S)
+            elapsed = time.perf_counter() - start
+            if isinstance(outcome, Found):
+                trial.times_s.append(elapsed)
+
+
+def _tried(task: Task, method: Method, clock: Clock) -> Trial:
+    trial = Trial(method, method.prepare())
+    entries = method.entries(task)
+    if entries > MAX_ENTRIES:
+        trial.skipped = f"too large: {entries} entries, at most {MAX_ENTRIES} are tried"
+        return trial
+    for position in method.positions:
+        if clock.left_s <= 0:
+            trial.skipped = f"the {LADDER_S:.0f} s of the whole ladder were used up"
+            return trial
+        start = time.perf_counter()
+        outcome = trial.run(task, position, min(SOLVE_S, clock.left_s))
+        elapsed = time.perf_counter() - start
+        if isinstance(outcome, str):
+            trial.skipped = outcome
+            return trial
+        trial.first_s = elapsed if trial.first_s is None else trial.first_s
+        trial.judged.append(_judge(task, position, outcome))
+    return trial
+
+
+def _judge(task: Task, position: float, found: Found) -> Judged:
+    statement = task.statement
+    return Judged(
+        position,
+        objective=float(statement.objective(found.unbalance)),
+        excess=float(np.max(statement.ceilings.excess(found.unbalance), initial=-np.inf)),
+        claimed=found.claimed,
+        bound=found.prove(),
+    )
+
+
+def timed(ways: Sequence[Callable[[], Answer]], repeats: int) -> tuple[list[Answer], list[float], list[list[float]]]:
+    """What each way comes to, time of its first run and of every later one [s]; the ways take turns.
+
+    After the first round there are only as many as the time of one method allows.
+    """
+    found: list[Answer] = []
+    first: list[float] = []
+    times: list[list[float]] = [[] for _ in ways]
+    for way in ways:
+        start = time.perf_counter()
+        found.append(way())
+        first.append(time.perf_counter() - start)
+    clock = Clock.of(ROUNDS_S)
+    for rounds in range(repeats):
+        if rounds and clock.left_s <= 0:
+            break
+        for taken, way in zip(times, ways, strict=True):
+            start = time.perf_counter()
+            way()
+            taken.append(time.perf_counter() - start)
+    return found, first, times
+
+
+def median_ms(times_s: Sequence[float], programs: int = 1) -> float | None:
+    """Median for one of the programs that a run solves."""
+    return statistics.median(times_s) * 1e3 / programs if times_s else None
+
+
+def frontier(points: Sequence[tuple[float, float] | None], resolution: float) -> list[bool]:
+    """Which (time, error) no other point beats: none is as good in both and better in one.
+
+    Parameters
+    ----------
+    points : None is no candidate.
+    resolution : errors below it are the same.
+    """
+    known = [None if one is None else (one[0], max(one[1], resolution)) for one in points]
+    candidates = [one for one in known if one is not None]
+
+    def beaten(point: tuple[float, float]) -> bool:
+        return any(other != point and other[0] <= point[0] and other[1] <= point[1] for other in candidates)
+
+    return [one is not None and not beaten(one) for one in known]

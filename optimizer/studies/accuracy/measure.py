@@ -1,0 +1,208 @@
+"""From request to the ladders: what each method finds, how far it is off, and what it takes."""
+
+import logging
+import os
+import platform
+import time
+from importlib.metadata import version
+
+import numpy as np
+
+from optimizer.formulation.formulate import formulate, limited, weights
+from optimizer.formulation.simulation import Prepared
+from optimizer.outputs.registry import prepare
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.implied_bounds import within_reach
+from optimizer.program.methods.optima import optima
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import Solution
+from optimizer.program.statement import Statement
+from optimizer.studies.accuracy.effects import effects_ladder
+from optimizer.studies.accuracy.ladder import LADDER_S, Clock, Trial, frontier, median_ms, survey, time_rounds
+from optimizer.studies.accuracy.methods import POSITIONS, Task, methods
+from optimizer.studies.accuracy.peaks import peaks_ladder
+from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
+from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference, Status
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.version import package_version
+
+_LOG = logging.getLogger(__name__)
+#: gap asked of the reference
+_SHARPEST = 1e-9
+#: relative rounding of objectives and bounds of some hundred terms; nothing below it is told apart
+_ROUNDING = 1e-13
+_PACKAGES = ("numpy", "numba", "scipy", "clarabel", "cvxpy")
+
+
+def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
+    """The ladders of methods and of simulations for a machine; least mass is off, whatever was asked."""
+    start = time.perf_counter()
+    # outputs play no part: what they would miss must not refuse the ladder
+    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
+    solver = Solver()
+    whole = within_reach(formulate(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
+    usable = whole.limits.reach > 0
+    statement = whole.only(usable)
+    task = Task(statement, _turn(request, scene).only(usable))
+
+    status: Status = "measured"
+    reference: Reference | None = None
+    rows: tuple[AccuracyRow, ...] = ()
+    rest = float(statement.objective(np.zeros(statement.limits.radius.shape, complex)))
+    best = optima(statement.alone(), _SHARPEST, False, solver).one()
+    if isinstance(best, Unreachable):
+        status = "infeasible"
+    elif rest == 0.0 or not np.any(usable):
+        status = "nothing_to_choose"
+        reference, _ = _judged(task, [], best, rest, scene.omega_squared)
+    else:
+        reference, rows = _judged(task, _run(task, request.repeats), best, rest, scene.omega_squared)
+    if reference is None and status != "infeasible":
+        status = "contradicted"
+    return AccuracyAnswer(
+        status=status,
+        reference=reference,
+        size=_size(request, statement),
+        repeats=request.repeats,
+        positions=len(POSITIONS),
+        ladder=rows,
+        effects_ladder=effects_ladder(request.machine, scene.layout, request.repeats),
+        peaks_ladder=peaks_ladder(request.machine, scene.layout, request.repeats),
+        environment=_environment(),
+        total_ms=(time.perf_counter() - start) * 1e3,
+    )
+
+
+def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
+    """The peaks and ceilings of :func:`optimizer.formulation.formulate.formulate`, as they pass over the turn."""
+    wanted, across = weights(request.machine, request.objective), request.objective.direction_weights
+    return OverTheTurn(
+        peaks=tuple(
+            WeightedResponse(response, float(wanted[response.name]), across.x, across.y)
+            for response in scene.responses
+            if wanted[response.name] > 0
+        ),
+        combine=request.objective.combine,
+        ceilings=tuple(
+            (WeightedResponse(response, 1.0), allowed / scene.omega_squared)
+            for response, allowed in limited(scene.responses, request.objective)
+        ),
+    )
+
+
+def _run(task: Task, repeats: int) -> list[Trial]:
+    clock = Clock.of(LADDER_S)
+    trials = survey(task, methods(), clock)
+    time_rounds(task, trials, repeats, clock)
+    return trials
+
+
+def _proven(statement: Statement, best: Solution, bounds: list[float], objective: float, excess: float) -> float:
+    """The sharpest bound; NaN where a value that was found is below it.
+
+    A value is known to its rounding, and counterweights that exceed ceilings within the tolerance may gain what these
+    cost, so a bound above the value by no more is lowered to it (docs/mathematics.md, section 5).
+    """
+    bound, slack = max(bounds), float(statement.rounding(best.unbalance))
+    if best.multipliers is not None:
+        over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
+        slack += float(ceiling_allowance(statement, best.multipliers, over))
+    if bound <= objective + slack:
+        return min(bound, objective)
+    _LOG.error("a lower bound is above the value of an answer: %.17g above %.17g", bound, objective)
+    return np.nan
+
+
+def _judged(
+    task: Task, trials: list[Trial], best: Solution, rest: float, square: float
+) -> tuple[Reference | None, tuple[AccuracyRow, ...]]:
+    kept = [one for trial in trials for one in trial.judged if one.excess <= CEILING_TOLERANCE]
+    objective = min([best.objective, *(one.objective for one in kept)])
+    bounds = [best.lower_bound, *(one.bound for trial in trials for one in trial.judged)]
+    excess = max([best.excess, *(one.excess for one in kept)])
+    bound = _proven(task.statement, best, bounds, objective, excess)
+    if np.isnan(bound):
+        return None, ()
+    reference = _reference(objective, bound, rest, square)
+    rows = [_row(trial, bound, rest, bool(task.statement.ceilings.names)) for trial in trials]
+    points = [
+        # a batch answers no single request in the time of one of its programs
+        None
+        if row.programs > 1
+        or row.time_ms is None
+        or row.relative_error is None
+        or (row.excess or 0.0) > CEILING_TOLERANCE
+        else (row.time_ms, row.relative_error)
+        for row in rows
+    ]
+    fastest = frontier(points, reference.resolution)
+    return (
+        reference,
+        tuple(row.model_copy(update={"on_frontier": on}) for row, on in zip(rows, fastest, strict=True)),
+    )
+
+
+def _row(trial: Trial, bound: float, rest: float, has_ceilings: bool) -> AccuracyRow:
+    method, answered = trial.method, trial.skipped is None
+    first_ms = None if trial.first_s is None or not answered else trial.first_s * 1e3 / method.programs
+    row = AccuracyRow(
+        method=method.name,
+        setting=method.setting,
+        time_ms=median_ms(trial.times_s, method.programs) if answered else None,
+        first_ms=first_ms,
+        relative_error=None,
+        as_drawn_error=None,
+        certified_gap=None,
+        claim_error=None,
+        excess=None,
+        programs=method.programs,
+        on_frontier=False,
+        runs=len(trial.times_s) if answered else 0,
+        skipped=trial.skipped,
+    )
+    if not answered:
+        return row
+    gaps = [(one.objective - one.bound) / rest for one in trial.judged]
+    claims = [(one.claimed - one.objective) / rest for one in trial.judged if one.claimed is not None]
+    figures = {
+        "relative_error": (trial.worst.objective - bound) / rest,
+        "as_drawn_error": (trial.judged[0].objective - bound) / rest,
+        "certified_gap": max(gaps) if np.all(np.isfinite(gaps)) else None,
+        "claim_error": max(claims, key=abs, default=None),
+        "excess": max(one.excess for one in trial.judged) if has_ceilings else None,
+    }
+    return row.model_copy(update=figures)
+
+
+def _reference(objective: float, bound: float, rest: float, square: float) -> Reference:
+    return Reference(
+        objective=objective * square,
+        lower_bound=bound * square,
+        objective_without_counterweights=rest * square,
+        resolution=max((objective - bound) / rest, _ROUNDING) if rest > 0 else _ROUNDING,
+    )
+
+
+def _size(request: AccuracyRequest, statement: Statement) -> ProgramSize:
+    machine = request.machine
+    return ProgramSize(
+        webs=statement.limits.radius.size,
+        norm_terms=statement.norms.constant.size,
+        ceilings=len(statement.ceilings.names),
+        sectors=int(np.sum(~statement.limits.free)),
+        mass_budget=machine.max_total_mass_kg is not None,
+        rows=sum(len(throw.rows) for throw in machine.throws) if isinstance(machine, ReciprocatingMachine) else 0,
+    )
+
+
+def _environment() -> Environment:
+    return Environment(
+        versions={
+            "python": platform.python_version(),
+            "counterweight": package_version(),
+            **{name: version(name) for name in _PACKAGES},
+        },
+        cpus=os.cpu_count() or 1,
+    )

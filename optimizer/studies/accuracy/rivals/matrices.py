@@ -1,0 +1,72 @@
+"""The exact cone program as matrices, without a modelling layer, and what the programs of the ladder share."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.certificate import Multipliers
+from optimizer.program.reference.assembled import Assembly, NoPoint, dense, solved
+from optimizer.program.scaled_program import ScaledData, ScaledSolution
+from optimizer.program.scaling import Scaling, natural_reach, scale
+from optimizer.program.statement import Statement
+
+#: limits beyond this multiple of the natural reach cannot bind
+_REACH = 10.0
+
+
+@dataclass(frozen=True)
+class Point:
+    """What a program found, unjudged: the certificate decides what it is worth."""
+
+    unbalance: Complex  # (K,) kg m, within the limits
+    multipliers: Multipliers
+    claimed: float | None  # objective that the program itself sees, where it shows it
+
+
+def scaled(statement: Statement, ceiling_margin: float) -> tuple[ScaledData, Scaling]:
+    """The scaled first stage of a statement, as the reference solver poses it in its first attempt.
+
+    Parameters
+    ----------
+    ceiling_margin : share of their size by which ceilings are lowered.
+    """
+    clip = min(_REACH * float(natural_reach(statement)), float(np.max(statement.limits.reach)))
+    return scale(statement, "objective", clip, ceiling_margin)
+
+
+def add_rows(program: Assembly, statement: Statement, data: ScaledData, norms: int, value: int) -> slice:
+    """Rows value >= floor + sum of the norms of the row, from the columns of norms and value."""
+    above = np.ones((data.floor.size, 1))
+    return program.nonnegative(-data.floor, dense(norms, -statement.membership), dense(value, above))
+
+
+def point(
+    statement: Statement, scaling: Scaling, v: Real, claimed: float, row: Real, term: Complex, ceiling: Complex
+) -> Point:
+    """Scaled variables and multipliers in physical units; the point is brought into the limits.
+
+    Parameters
+    ----------
+    claimed : objective that the program sees, scaled.
+    """
+    webs = scaling.reach.size
+    found = ScaledSolution(v[:webs], v[webs : 2 * webs], row, term, ceiling, "")
+    unbalance = statement.limits.into(scaling.unbalance(statement, found))
+    return Point(unbalance, scaling.multipliers(statement, found), claimed * scaling.objective)
+
+
+def exact(statement: Statement, tolerance: float, time_limit_s: float) -> Point | NoPoint:
+    """The exact cone program of :class:`optimizer.program.reference.modelling.ConeProgram`, first stage, as matrices.
+
+    Parameters
+    ----------
+    tolerance : of the solver; ceilings are lowered by the same share.
+    """
+    data, scaling = scaled(statement, tolerance)
+    found = solved(data, tolerance, time_limit_s)
+    if isinstance(found, NoPoint):
+        return found
+    claimed = float(np.sum(found.level) + np.sum(statement.largest(statement.floor)) / scaling.objective)
+    unbalance = statement.limits.into(scaling.unbalance(statement, found.solution))
+    return Point(unbalance, scaling.multipliers(statement, found.solution), claimed * scaling.objective)

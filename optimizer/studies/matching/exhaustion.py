@@ -1,0 +1,180 @@
+"""All assignments that may be better than the best one known, by halves.
+
+The sums of half the classes lie in a tree, those of the others are looked up in it: of two sums only those matter whose
+vectors nearly cancel (a ball: a sum of lengths is no less than the length of all together) or that are on the near side
+of a plane. What either leaves over is evaluated one by one, so nothing better is missed.
+"""
+
+from itertools import combinations
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrangements import arrangements
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.studies.matching.bound import Plane, plane
+from optimizer.studies.matching.problem import Minorants, Places, Problem
+
+#: sums in a half, and pairs of sums that are looked at
+_SUMS = 100_000
+_PAIRS = 5_000_000
+#: pairs that are evaluated at once
+_CHUNK = 200_000
+#: sums that are looked up to guess how many pairs there are
+_SAMPLE = 200
+
+
+class Half(NamedTuple):
+    """All arrangements of some classes."""
+
+    classes: tuple[int, ...]
+    masses: tuple[Real, ...]  # (N_c, n_c) of every class, masses at its rows, place by place
+    sums: Complex  # (N, J) what they add to the vectors, the last class changing fastest
+
+    def mass(self, number: int) -> dict[int, Real]:
+        """Masses at the rows of every class of one arrangement."""
+        which = np.unravel_index(number, [len(each) for each in self.masses])
+        return {c: each[k] for c, each, k in zip(self.classes, self.masses, which, strict=True)}
+
+
+def _arranged(each: Places) -> Real | None:
+    """All different arrangements of a class (N, rows), masses row by row; None where there are too many."""
+    masses, times = np.unique(each.mass, return_counts=True)
+    found = arrangements(times, int(np.sum(each.row >= 0)), _SUMS)
+    return None if found is None else masses[found]
+
+
+def halves(problem: Problem) -> tuple[Half, Half] | None:
+    """The classes in two halves of as equal size as can be; None where there are too many arrangements."""
+    found = [_arranged(each) for each in problem.classes]
+    masses = [each for each in found if each is not None]
+    if len(masses) < len(found):
+        return None
+    sizes, every = [float(len(each)) for each in masses], range(len(masses))
+    splits = [some for count in range(len(masses)) for some in combinations(every, count)]
+    one = min(splits, key=lambda some: max(np.prod([sizes[c] for c in some]), _rest(sizes, some)))
+    other = tuple(c for c in every if c not in one)
+    if max(np.prod([sizes[c] for c in one]), np.prod([sizes[c] for c in other])) > _SUMS:
+        return None
+    return _half(problem, one, masses), _half(problem, other, masses)
+
+
+def _rest(sizes: list[float], some: tuple[int, ...]) -> float:
+    return float(np.prod([size for c, size in enumerate(sizes) if c not in some]))
+
+
+def _half(problem: Problem, classes: tuple[int, ...], masses: list[Real]) -> Half:
+    sums = np.zeros((1, problem.start.size), complex)
+    for c in classes:
+        on = problem.classes[c].row
+        added = masses[c] @ problem.of_row[:, on[on >= 0]].T
+        sums = (sums[:, None, :] + added[None, :, :]).reshape(-1, problem.start.size)
+    return Half(classes, tuple(masses[c] for c in classes), sums)
+
+
+def candidates(problem: Problem, minorants: Minorants, value: float, cut: Plane) -> tuple[Real, Real] | None:
+    """Every assignment (N, T) whose largest minorant is below a value, with that (N,), in rising order.
+
+    None where there are too many to look at.
+
+    Parameters
+    ----------
+    cut : a plane below the minorants.
+    """
+    parts = halves(problem)
+    if parts is None:
+        return None
+    one, other = parts
+    base = problem.start + other.sums
+    pairs = _pairs(problem, minorants, value, cut, one.sums, base)
+    if pairs is None:
+        return None
+    first, second = pairs
+    kept, values = [], []
+    for at in range(0, first.size, _CHUNK):
+        part = slice(at, at + _CHUNK)
+        found = minorants.at(one.sums[first[part]] + base[second[part]])
+        below = np.flatnonzero(found < value)
+        kept.append(below + at)
+        values.append(found[below])
+    chosen, worth = np.concatenate([*kept, np.zeros(0, int)]), np.concatenate([*values, np.zeros(0)])
+    # of one that is exactly the best known many may be equal: those are no better, and not here
+    order = np.argsort(worth, kind="stable")[:_CHUNK]
+    if chosen.size > _CHUNK:
+        return None
+    masses = [
+        _assignment(problem, one.mass(int(first[n])) | other.mass(int(second[n]))) for n in chosen[order].tolist()
+    ]
+    return np.array(masses).reshape(-1, problem.listed.size), worth[order]
+
+
+def _assignment(problem: Problem, by_class: dict[int, Real]) -> Real:
+    """Masses at all places (T,) of masses at rows; what is left over lies beside the machine."""
+    found = []
+    for c, each in enumerate(problem.classes):
+        on = each.row >= 0
+        mass = np.empty_like(each.mass)
+        mass[on] = by_class[c]
+        kinds, left = np.unique(each.mass, return_counts=True)
+        left = left - np.array([np.sum(by_class[c] == kind) for kind in kinds])
+        mass[~on] = np.repeat(kinds, left)
+        found.append(mass)
+    return np.concatenate(found)
+
+
+def _pairs(
+    problem: Problem, minorants: Minorants, value: float, cut: Plane, one: Complex, other: Complex
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Pairs of sums, numbers of the first and of the second, among which all are that come below the value."""
+    if len(one) * len(other) <= _CHUNK:
+        return tuple(np.indices((len(one), len(other))).reshape(2, -1))  # type: ignore[return-value]
+    # a margin for the rounding of what is compared
+    margin = problem.rounding
+    near = _beyond_plane(value + margin, cut, one, other)
+    if near is not None:
+        return near
+    for each in minorants.each():
+        within = _in_ball(problem, each, value + margin, one, other)
+        if within is not None:
+            return within
+    return None
+
+
+def _beyond_plane(value: float, cut: Plane, one: Complex, other: Complex) -> tuple[np.ndarray, np.ndarray] | None:
+    """Pairs whose plane is no higher than the value."""
+    height, rest = np.real(one @ np.conj(cut.slope)), cut.constant + np.real(other @ np.conj(cut.slope))
+    order = np.argsort(height, kind="stable")
+    count = np.searchsorted(height[order], value - rest, side="right")
+    if np.sum(count, dtype=float) > _PAIRS:
+        return None
+    second = np.repeat(np.arange(len(other)), count)
+    place = np.arange(second.size) - np.repeat(np.cumsum(count) - count, count)
+    return order[place], second
+
+
+def _in_ball(
+    problem: Problem, each: Minorants, value: float, one: Complex, other: Complex
+) -> tuple[np.ndarray, np.ndarray] | None:
+    """Pairs whose weighted vectors together are no longer than the value leaves to their lengths."""
+    from scipy.spatial import cKDTree
+
+    weight = each.weight[0]
+    flat, _ = plane(problem, float(each.constant[0]), each.slope[0])
+    radius = value - flat.least
+    if radius < 0 or not np.any(weight > 0):
+        return None
+    first, second = (_real(part[:, weight > 0] * weight[weight > 0]) for part in (one, -other))
+    tree = cKDTree(first)
+    # counting takes long where much is near: a few tell
+    few = second[:: max(1, len(second) // _SAMPLE)]
+    if np.sum(tree.query_ball_point(few, radius, return_length=True)) > 2.0 * _PAIRS * len(few) / len(second):
+        return None
+    rest = cKDTree(second)
+    if tree.count_neighbors(rest, radius) > _PAIRS:
+        return None
+    found = tree.sparse_distance_matrix(rest, radius, output_type="ndarray")
+    return found["i"], found["j"]
+
+
+def _real(vectors: Complex) -> Real:
+    return np.concatenate([vectors.real, vectors.imag], axis=1)

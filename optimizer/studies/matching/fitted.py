@@ -1,0 +1,117 @@
+"""The best assignment with the counterweights as they are: search, bound, exhaustion, as far as the time goes."""
+
+import time
+from collections.abc import Callable
+from dataclasses import replace
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.numerics.arrays import Real
+from optimizer.studies.matching.bound import Plane, best_plane, plane
+from optimizer.studies.matching.exhaustion import candidates
+from optimizer.studies.matching.four_lists import near_to_nothing
+from optimizer.studies.matching.problem import Places, Problem
+from optimizer.studies.matching.row_halves import MOST, exhausted
+from optimizer.studies.matching.search import searched
+
+#: sets of parts of a class that are looked at before it is another's turn
+_SETS = 400
+#: share of the time that is spent on parts without nuts
+_BARE = 0.25
+_SEED = 17
+
+
+class Best(NamedTuple):
+    """Where a search ended."""
+
+    mass: Real  # (T,) masses at places
+    lower_bound: float  # over omega squared
+    exhausted: bool
+    late: bool = False  # its time was over before the asked gap was reached
+
+
+def as_fitted(problem: Problem, near: float, seconds: float, has_nuts: bool) -> Best:
+    """The best assignment with the counterweights as they are.
+
+    Parameters
+    ----------
+    near : a bound so near to its value is good enough.
+    seconds : of this thread's own time, after which it ends with what it has.
+    has_nuts : the last class is that of nuts.
+    """
+    until = time.thread_time() + seconds
+    peaks, listed = problem.peaks, problem.listed
+    # not as they are listed, so that the order of the list changes nothing
+    begun = np.concatenate([np.sort(listed[part]) for part in problem.slices])
+    known = [begun]
+    if has_nuts and len(problem.classes) > 1:
+        bare = as_fitted(replace(problem, classes=problem.classes[:-1]), near, _BARE * seconds, False)
+        known.append(np.concatenate([bare.mass, problem.classes[-1].mass]))
+    mass = min([searched(problem, peaks, np.array(known))[0], listed], key=lambda one: _value(problem, one))
+    value = _value(problem, mass)
+    cut = best_plane(problem, peaks, value, near)
+    bound, all_counted = cut.least, False
+
+    def spent() -> bool:
+        return time.thread_time() >= until
+
+    if value - bound > near or few(problem):
+        better = candidates(problem, peaks, value, cut)
+        if better is not None:
+            found, values = better
+            mass, value = (found[0], float(values[0])) if values.size else (mass, value)
+            bound, all_counted = value, True
+        elif len(problem.classes) == 1 and listed.size <= MOST:
+            ended = exhausted(problem, cut, value, near, spent)
+            mass, value = (mass, value) if ended.mass is None else (ended.mass, ended.value)
+            bound, all_counted = max(bound, ended.lower_bound), ended.complete
+        else:
+            mass, value = _improved(problem, cut, mass, bound + near, spent)
+            if bound <= problem.rounding:
+                mass = near_to_nothing(problem, mass, bound + near, spent)
+                value = _value(problem, mass)
+    return Best(mass, bound - problem.rounding, all_counted, value - bound > near and spent())
+
+
+def few(problem: Problem) -> bool:
+    """So few assignments that all are looked at in no time."""
+    return problem.rows <= 5 and len(problem.classes) <= 2
+
+
+def _value(problem: Problem, mass: Real) -> float:
+    return float(problem.peaks.at(problem.vectors(mass)))
+
+
+def _improved(problem: Problem, cut: Plane, mass: Real, enough: float, spent: Callable[[], bool]) -> tuple[Real, float]:
+    """An assignment and its value, made better class by class, some places of it at a time, until it is good enough.
+
+    It ends as well where no class was made better.
+    """
+    chance = np.random.default_rng(_SEED)
+    value, before = _value(problem, mass), np.inf
+    while enough < value < before and not spent():
+        before = value
+        for each, part in zip(problem.classes, problem.slices, strict=True):
+            # of more than so many places some
+            places = np.sort(chance.permutation(each.mass.size)[:MOST])
+            free = part.start + places
+            alone = _alone(problem, each, mass, places, free)
+            low = plane(alone, cut.constant, cut.slope)[0]
+            found = exhausted(alone, low, value, max(enough - low.least, 0.0), spent, _SETS)
+            if found.mass is not None:
+                tried = mass.copy()
+                tried[free] = found.mass
+                mass = min((mass, tried), key=lambda one: _value(problem, one))
+                value = _value(problem, mass)
+    return mass, value
+
+
+def _alone(problem: Problem, each: Places, mass: Real, places: np.ndarray, free: np.ndarray) -> Problem:
+    """The problem with only these places of a class free, all other parts where they are."""
+    held = mass.copy()
+    held[free] = 0.0
+    names = tuple(each.names[k] for k in places.tolist())
+    some = Places(each.kind, names, mass[free], each.row[places])
+    sizes = problem.start_size + problem.size_of_row @ problem.row_masses(held)
+    return replace(problem, start=problem.vectors(held), classes=(some,), start_size=sizes)

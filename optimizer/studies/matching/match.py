@@ -1,0 +1,261 @@
+"""From weighed parts to rows: parts -> vectors -> assignments -> bound -> answer."""
+
+import time
+from collections.abc import Mapping
+from typing import Any, NamedTuple, cast
+
+import numpy as np
+
+from optimizer.analyze import analyze
+from optimizer.formulation.counterweights import as_given, unbalance
+from optimizer.formulation.formulate import formulate, responses
+from optimizer.mechanics.inertia import reciprocating, rotating
+from optimizer.mechanics.layout import layout
+from optimizer.numerics.arrays import Real
+from optimizer.optimize import optimize
+from optimizer.program.verdict import Claim, verdict
+from optimizer.solve.process_solver import own_solver
+from optimizer.solve.search_claims import LATE
+from optimizer.studies.matching.bound import best_plane
+from optimizer.studies.matching.chosen import Chosen, with_masses
+from optimizer.studies.matching.exhaustion import candidates
+from optimizer.studies.matching.fitted import Best, as_fitted, few
+from optimizer.studies.matching.problem import Minorants, Problem, stated
+from optimizer.studies.matching.search import searched
+from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Timing
+from schemas.first_order import FirstOrder, Residual
+from schemas.fitted import GivenCounterweight
+from schemas.match import MatchRequest
+from schemas.match_answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
+from schemas.reciprocating import ReciprocatingMachine
+from schemas.requests import Accuracy, AnalyzeRequest, OptimizeRequest
+
+#: rounds of a search with counterweights, and programs in one of them
+_ROUNDS = 12
+_PROGRAMS = 16
+#: candidates that are solved to prove that none is better
+_CANDIDATES = 2_000
+_LEFT = (
+    "No exchange that the search tried is better, and too many assignments are left to compare all of them: the gap to"
+    " the proven lower bound is what was reached, and more time would change nothing."
+)
+
+
+def match(request: MatchRequest) -> MatchAnswer:
+    """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
+    start = time.perf_counter()
+    fitted, angle = as_given(request.machine, request.counterweights)
+    problem = stated(request, fitted, angle)
+    searching = time.perf_counter()
+    choice = request.choose_counterweights and any(web.max_mass_kg != 0 for web in request.machine.webs)
+    near = request.accuracy.relative_gap * float(problem.peaks.at(problem.vectors(problem.listed)))
+    if choice:
+        best = _with_chosen(request, problem, near)
+    else:
+        best = as_fitted(problem, near, request.accuracy.time_limit_s, bool(request.balance_nuts_kg))
+    reporting = time.perf_counter()
+    fields = _answer(request, problem, best)
+    end = time.perf_counter()
+    return MatchAnswer(
+        **fields,
+        timing=Timing(
+            total_ms=(end - start) * 1e3,
+            solve_ms=(reporting - searching) * 1e3,
+            mechanics_ms=(searching - start) * 1e3,
+            certificate_ms=0.0,
+            report_ms=(end - reporting) * 1e3,
+        ),
+    )
+
+
+def _with_chosen(request: MatchRequest, problem: Problem, near: float) -> Best:
+    """The best assignment with the counterweights that are best for it: planes below what they reach, one by one."""
+    chosen, listed = Chosen(request, problem, own_solver()), problem.listed[None]
+    until = time.thread_time() + request.accuracy.time_limit_s
+    value, bound, below = chosen.at(listed)
+    known = {_key(problem, listed[0]): (float(value[0]), float(bound[0]), listed[0])}
+    cut = best_plane(problem, below, float(value[0]), near)
+    for _ in range(_ROUNDS):
+        if time.thread_time() >= until:
+            break
+        best, _, mass = min(known.values(), key=lambda one: one[0])
+        tried = searched(problem, below, mass[None])
+        new = _unknown(problem, known, tried[below.at(problem.vectors(tried)) < best])
+        if not new.size:
+            break
+        below = _solved(problem, chosen, known, new, below)
+    best, _, mass = min(known.values(), key=lambda one: one[0])
+    cut = best_plane(problem, below, best, near)
+    if (best - cut.least <= near and not few(problem)) or time.thread_time() >= until:
+        return Best(mass, cut.least - problem.rounding, False, best - cut.least > near)
+    return _proven(problem, chosen, known, below, cut.least, until)
+
+
+def _proven(
+    problem: Problem,
+    chosen: Chosen,
+    known: dict[bytes, tuple[float, float, Real]],
+    below: Minorants,
+    bound: float,
+    until: float,
+) -> Best:
+    """The best of all assignments whose minorants leave room for a better one, where they are not too many.
+
+    Parameters
+    ----------
+    bound : what is proven of all already.
+    until : of this thread's own time, when no more are solved.
+    """
+    best, _, mass = min(known.values(), key=lambda one: one[0])
+    cut = best_plane(problem, below, best, 0.0)
+    left = candidates(problem, below, best, cut)
+    if left is None or len(left[0]) > _CANDIDATES:
+        return Best(mass, max(bound, cut.least) - problem.rounding, False)
+    remaining = left[0]
+    while len(remaining):
+        best = min(one[0] for one in known.values())
+        # what has been solved has cut off others
+        open_still = remaining[below.at(problem.vectors(remaining)) < best]
+        new = _unknown(problem, known, open_still)
+        if not new.size:
+            break
+        if time.thread_time() >= until:
+            _, _, mass = min(known.values(), key=lambda one: one[0])
+            return Best(mass, max(bound, cut.least) - problem.rounding, False, True)
+        below = _solved(problem, chosen, known, new, below)
+        remaining = open_still
+    best, _, mass = min(known.values(), key=lambda one: one[0])
+    # every other assignment has a minorant that is no better than the best
+    return Best(mass, min(best, *(one[1] for one in known.values())) - problem.rounding, True)
+
+
+def _solved(
+    problem: Problem, chosen: Chosen, known: dict[bytes, tuple[float, float, Real]], mass: Real, below: Minorants
+) -> Minorants:
+    """Solve some assignments, put them among the known ones, and add what they prove."""
+    values, bounds, more = chosen.at(mass)
+    for one, value, bound in zip(mass, values.tolist(), bounds.tolist(), strict=True):
+        known[_key(problem, one)] = (value, bound, one)
+    return below.plus(more)
+
+
+def _unknown(problem: Problem, known: Mapping[bytes, Any], mass: Real) -> Real:
+    """The first of some assignments (N, T) that are not known yet, each once."""
+    new = {_key(problem, one): one for one in mass}
+    return np.array([one for key, one in new.items() if key not in known][:_PROGRAMS])
+
+
+def _key(problem: Problem, mass: Real) -> bytes:
+    return problem.row_masses(mass).tobytes()
+
+
+def _answer(request: MatchRequest, problem: Problem, best: Best) -> dict[str, Any]:
+    """Names for masses, and every figure evaluated anew by the mechanics."""
+    machine = request.machine
+    before = _evaluated(request, with_masses(machine, problem.row_masses(problem.listed)))
+    heavier = with_masses(machine, problem.row_masses(best.mass))
+    after = _evaluated(request, heavier)
+    omega_squared = (machine.speed_rpm * np.pi / 30.0) ** 2
+    value, size = after.objective, before.at_rest if request.choose_counterweights else before.objective
+    judged = verdict(
+        Claim(
+            value=np.array([value]),
+            # a sum of lengths is no less than nothing
+            lower_bound=np.array([max(best.lower_bound, 0.0) * omega_squared]),
+            rounding=np.array([after.rounding + problem.rounding * omega_squared]),
+            yardstick=np.array([size]),
+            excess=np.asarray(-np.inf),
+            mass=np.asarray(0.0),
+            mass_resolution=np.asarray(0.0),
+            mass_lower_bound=None,
+        ),
+        request.accuracy.relative_gap,
+    )
+    assignments, spares = _named(request, problem, best.mass)
+    nothing = bool(np.isnan(judged.relative_gap))
+    rows = [row for throw in heavier.throws for row in throw.rows]
+    return {
+        "status": str(judged.status),
+        "status_reason": _reason(best, str(judged.status), str(judged.reason)),
+        "assignments": assignments,
+        "spares": spares,
+        "rows": tuple(
+            MatchedRow(throw=at.throw, row=at.row, name=row.name, reciprocating_mass_kg=row.reciprocating_mass_kg)
+            for at, row in zip(request.places, rows, strict=True)
+        ),
+        "counterweights": after.answer.counterweights,
+        "total_mass_kg": after.answer.total_mass_kg,
+        "residual": Matched(before=before.first_order, after=after.first_order),
+        "certificate": MatchCertificate(
+            objective=value,
+            objective_as_listed=before.objective,
+            lower_bound=None if nothing else float(judged.lower_bound[0]),
+            gap=None if nothing else float(judged.gap[0]),
+            relative_gap=None if nothing or not np.isfinite(judged.relative_gap) else float(judged.relative_gap),
+            yardstick=size,
+            method="exhaustion" if best.exhausted else "sorting",
+        ),
+    }
+
+
+def _reason(best: Best, status: str, judged: str) -> str:
+    """Why the answer is what it is: a gap that is left is the search's, or of the arithmetic if all were compared."""
+    if status != "inaccurate" or best.exhausted:
+        return judged
+    return LATE if best.late else _LEFT
+
+
+class _Evaluated(NamedTuple):
+    """A machine with its parts, and the counterweights that are on it or best for it."""
+
+    answer: AnalyzeAnswer | OptimizeAnswer
+    first_order: FirstOrder
+    objective: float
+    at_rest: float  # the objective without counterweights
+    rounding: float  # of the objective
+
+
+def _evaluated(request: MatchRequest, machine: ReciprocatingMachine) -> _Evaluated:
+    goal = request.objective
+    answer: AnalyzeAnswer | OptimizeAnswer
+    if request.choose_counterweights:
+        close = {"relative_gap": min(request.accuracy.relative_gap, 1e-6)}
+        answer = optimize(OptimizeRequest(machine=machine, objective=goal, accuracy=Accuracy(**close)))
+    else:
+        given = tuple(GivenCounterweight(**one.model_dump()) for one in request.counterweights)
+        answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
+    plan = layout(machine)
+    first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+    square = plan.omega**2
+    program = formulate(machine, goal, first, square)
+    fitted = answer.counterweights
+    u = unbalance(
+        np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted]), plan.webs.radius
+    )
+    residual = cast(Residual, answer.residual)
+    return _Evaluated(
+        answer,
+        cast(FirstOrder, residual.after),
+        float(program.objective(u) * square),
+        float(program.at_rest * square),
+        float(program.rounding(u) * square),
+    )
+
+
+def _named(request: MatchRequest, problem: Problem, mass: Real) -> tuple[tuple[Assignment, ...], tuple[Spare, ...]]:
+    """Parts for masses: of equal ones the first that is listed goes to the first row."""
+    assignments, spares, rows = [], [], [place.model_dump() for place in request.places]
+    for each, part in zip(problem.classes, problem.slices, strict=True):
+        free = list(range(each.mass.size))
+        for row, weight in zip(each.row.tolist(), mass[part].tolist(), strict=True):
+            which = next(k for k in free if each.mass[k] == weight)
+            free.remove(which)
+            name = each.names[which]
+            if name is None:
+                continue
+            fields = {"kind": each.kind, "part": name, "mass_kg": weight}
+            if row < 0:
+                spares.append(Spare(**fields))
+            else:
+                assignments.append(Assignment(**fields, **rows[row]))
+    return tuple(assignments), tuple(spares)

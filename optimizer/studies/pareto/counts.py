@@ -1,0 +1,190 @@
+"""How many counterweights, or part numbers, against what they come to at least: a search for each number."""
+
+import time
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+
+from optimizer.choices.catalogue_options import part_numbers, stock
+from optimizer.errors import MissingInput
+from optimizer.formulation.counterweights import counterweights, unbalance
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.mechanics.layout import stacked
+from optimizer.numerics.arrays import Real
+from optimizer.outputs.requirements import missing
+from optimizer.program.reference.solver import Solver
+from optimizer.program.verdict import CONTRADICTED
+from optimizer.solve.choice import certified_choice
+from optimizer.solve.design import certified_one
+from optimizer.solve.minimum_mass import certified_light, certified_light_over_turn
+from schemas.answers import Certificate
+from schemas.catalogue import Catalogue
+from schemas.counterweights import Counterweight
+from schemas.counts import Counted, CountFront, CountPoint, CountTrade
+from schemas.machine import Machine
+from schemas.pareto import ParetoRequest
+from schemas.requests import OptimizeRequest
+
+#: of a mass, relative: by which sums of masses are rounded
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class _Best:
+    """The best set of a search, and what is proven of it."""
+
+    mass_kg: Real  # (K,), with the weights that are fixed
+    angle_deg: Real  # (K,)
+    value: float
+    lower_bound: float  # nan where nothing is proven
+    relative_gap: float  # likewise
+    status: str
+    reason: str
+    nodes: int
+    method: str
+
+
+def count_front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> CountFront:
+    """The front under one limit of the total mass; all its searches together end at the time asked."""
+    asked, half = request.counts, 0.5 * request.accuracy.time_limit_s
+    assert asked is not None  # else it would be another front
+    whole = OptimizeRequest(
+        machine=machine, objective=request.objective, accuracy=request.accuracy, fidelity=request.fidelity
+    )
+    lacking = list(missing(whole))
+    if lacking:
+        raise MissingInput(lacking)
+
+    def point(number: int | None, seconds: float) -> CountPoint:
+        accuracy = whole.accuracy.model_copy(update={"time_limit_s": max(seconds, 1e-3)})
+        within = machine if number is None else at_most(machine, asked.of, number)
+        one = whole.model_copy(update={"machine": within, "accuracy": accuracy})
+        return _point(one, scene, asked, number, solver)
+
+    # what is limited by no number says how many are of any use; it may take half of the time, and the others the other
+    last = point(None, half)
+    until = time.monotonic() + half
+    used = last.weights if asked.of == "weights" else last.part_numbers
+    if used is None:
+        points = [last.model_copy(update={"at_most": _most(machine, asked.of)})]
+    else:
+        fewer = np.unique(np.round(np.linspace(0, used, min(request.points, used + 1))).astype(int)).tolist()[:-1]
+        points = [point(number, until - time.monotonic()) for number in fewer]
+        points.append(last.model_copy(update={"at_most": used}))
+    exact = all(one.status in ("optimal", "infeasible") for one in points)
+    none = all(one.status == "infeasible" for one in points)
+    return CountFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        of=asked.of,
+        least=asked.least,
+        status="infeasible" if none else "optimal" if exact else "inaccurate",
+        points=tuple(points),
+    )
+
+
+def at_most(machine: Machine, of: Counted, number: int) -> Machine:
+    """The machine with no more counterweights, or part numbers, than a number."""
+    if of == "weights" or number == 0:
+        return machine.model_copy(update={"max_counterweights": number})
+    catalogue = machine.catalogue or Catalogue()
+    return machine.model_copy(update={"catalogue": catalogue.model_copy(update={"max_part_numbers": number})})
+
+
+def _most(machine: Machine, of: Counted) -> int:
+    """The largest number that means anything."""
+    options = stock(machine).options
+    if of == "weights":
+        return int(np.sum(options.webs[np.any(options.mass > 0, axis=-1)]))
+    return int(np.max(options.part, initial=-1)) + 1
+
+
+def _point(
+    request: OptimizeRequest, scene: Prepared, asked: CountTrade, number: int | None, solver: Solver
+) -> CountPoint:
+    best = (_smallest if asked.least == "objective" else _lightest)(request, scene, solver)
+    found = best.status != "infeasible"
+    machine = request.machine
+    u = unbalance(best.mass_kg, best.angle_deg, stacked([web.radius_m for web in machine.webs]))
+    after = scene.first_order(u)
+    return CountPoint(
+        at_most=number or 0,
+        status=best.status,
+        status_reason=best.reason,
+        value=best.value if found else None,
+        lower_bound=_or_none(best.lower_bound) if found else None,
+        relative_gap=_or_none(best.relative_gap) if found else None,
+        weights=int(np.sum(best.mass_kg[_chosen(machine)] > 0)) if found else None,
+        part_numbers=part_numbers(best.mass_kg[_chosen(machine)]) if found else None,
+        total_mass_kg=float(np.sum(best.mass_kg)) if found else None,
+        force_peak_N=float(after.force.peak) if found else None,
+        moment_peak_Nm=float(after.moment.peak) if found else None,
+        counterweights=counterweights(machine, best.mass_kg, best.angle_deg) if found else (),
+        nodes=best.nodes,
+        method=best.method,
+    )
+
+
+def _chosen(machine: Machine) -> np.ndarray:
+    """Webs whose weights are not fixed (K,)."""
+    return np.array([web.fixed is None for web in machine.webs], dtype=bool)
+
+
+def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
+    """The smallest objective, as a single answer has it."""
+    if request.objective.over_the_turn:
+        return _smallest_over_turn(request, scene, solver)
+    _, best = certified_one(request, scene.responses, np.array([scene.omega_squared]), solver)
+    mass, angle = beside(request.machine, best.mass_kg[0], best.angle_deg[0])
+    figures = {name: column[0] for name, column in best.certificate.items()}
+    return _Best(
+        mass,
+        angle,
+        float(figures["objective"]),
+        float(figures["lower_bound"]),
+        float(figures["relative_gap"]),
+        str(best.status[0]),
+        str(best.reason[0]),
+        int(figures.get("nodes", 0)),
+        str(figures["method"]),
+    )
+
+
+def _smallest_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
+    best = certified_choice(request, scene, solver, in_full=False)
+    proof, fitted = best.fields["certificate"], cast(tuple[Counterweight, ...], best.fields["counterweights"])
+    if not isinstance(proof, Certificate):
+        nothing = np.zeros(len(request.machine.webs))
+        return _Best(nothing, nothing, np.nan, np.nan, np.nan, best.status, best.reason, best.nodes, best.method)
+    return _Best(
+        np.array([each.mass_kg for each in fitted]),
+        np.array([each.angle_deg for each in fitted]),
+        proof.objective,
+        np.nan if proof.lower_bound is None else proof.lower_bound,
+        np.nan if proof.relative_gap is None else proof.relative_gap,
+        best.status,
+        best.reason,
+        best.nodes,
+        best.method,
+    )
+
+
+def _lightest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
+    """The least total mass of all that keep the ceilings."""
+    if request.objective.over_the_turn:
+        best = certified_light_over_turn(request, scene, solver)
+    else:
+        best = certified_light(request, scene.responses, np.array([scene.omega_squared]), solver)
+    mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
+    value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(request.machine)))
+    bound, status, reason = best.lower_bound + fixed, best.status, best.reason
+    if np.isfinite(bound) and bound > value * (1.0 + _ROUNDING):
+        bound, status, reason = np.nan, "inaccurate", CONTRADICTED
+    bound = min(bound, value)
+    gap = (value - bound) / value if value > 0 else 0.0
+    return _Best(mass, angle, value, bound, gap, status, reason, best.nodes, best.method)
+
+
+def _or_none(figure: float) -> float | None:
+    return figure if np.isfinite(figure) else None

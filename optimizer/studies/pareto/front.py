@@ -1,0 +1,321 @@
+"""The front of two peaks: its ends, and points spread evenly between them, each with its proof.
+
+The peaks are convex in the unbalance, so the points that nobody beats in both make a convex falling curve.
+A line that rises in both peaks meets it once, where the larger of the two scaled excesses over the line's
+anchor is smallest (normal-boundary intersection, Das and Dennis 1998): one program of optimizer.program,
+whose lower bound t_low proves that no counterweights reach below the corner anchor + t_low unit in both.
+"""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.program.ceilings import CEILING_TOLERANCE
+from optimizer.program.certificate import Multipliers, ceiling_allowance, normalised
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.implied_bounds import within_reach
+from optimizer.program.methods.optima import optima
+from optimizer.program.reference.solver import Solver
+from optimizer.program.solution import OPTIMUM_SHARE, Solution
+from optimizer.program.statement import Statement
+from optimizer.program.verdict import MASS_GAP
+from optimizer.studies.pareto.trade import Trade
+
+#: a smallest peak by itself is sought to this share of its size
+_SHARPNESS = 1e-9
+#: a front that is narrower than this share of the sizes is a single point
+_NARROW = 1e-9
+#: at an end the peak that counts first may exceed its smallest value by this share of the asked gap, without which
+#: nothing could be proven about the other
+_END_SLACK = 0.1
+#: the least mass at an end may give away this part of what it may elsewhere
+_END_SHARE = 0.3
+#: most lines that find an end
+_END_STEPS = 12
+#: parts of the asked share of t, each tried where the least mass could not be certified with the one before
+_ALLOWANCES = (1.0, 0.5, 0.2)
+#: where webs have no limit, peaks are looked into up to so many times those at the ends
+_ROOM = 2.0
+#: most limits that are tried until what is found lies within
+_REACHES = 4
+#: intersections that show where the front bends before its points are spread
+_SOUNDINGS = 16
+#: share of the range to which they do
+_SOUNDED = 1e-3
+
+
+@dataclass(frozen=True)
+class Point:
+    """Counterweights on the front; the figures are evaluated from ``solution.unbalance``."""
+
+    solution: Solution
+    corner: Real  # (2,) proven: no counterweights are below this in both peaks
+    proof: Multipliers  # of the corner, one row for each peak, of which the corner is what they weigh
+    mass_proof: Multipliers | None  # of the mass likewise; None where the least mass was not asked for
+    mass_limit: Real  # (2,) largest peaks that the bound of the mass allows
+
+
+@dataclass(frozen=True)
+class Front:
+    """Points in the order of rising force; a single one where both smallest peaks are reached together."""
+
+    points: tuple[Point, ...]
+    ideal: Real  # (2,) proven: no counterweights have a smaller force, none a smaller moment
+    size: Real  # (2,) what gaps are relative to (:func:`_size`)
+    ideal_proofs: tuple[Multipliers, Multipliers]  # of the ideal's parts, each with one row
+    trade: Trade  # within the limits that every proof counts with
+    undecided: bool = False  # the ceilings are on the very boundary; the point comes closest to keeping them
+
+
+class _Undecided(Exception):
+    """Ceilings that were kept within their tolerance are out of reach by less than that."""
+
+
+def front(trade: Trade, count: int, relative_gap: float, least_mass: bool, solver: Solver) -> Front | Unreachable:
+    """The front of a trade.
+
+    Parameters
+    ----------
+    count : number of points, at least 2.
+    relative_gap : asked gap of every point, relative to the sizes.
+    least_mass : take the least total mass at every point.
+
+    Returns
+    -------
+    Front, or the proof that the ceilings cannot be kept.
+    """
+    smallest = _smallest(trade, solver)
+    if isinstance(smallest, Unreachable):
+        return smallest
+    trade, alone = smallest
+    ideal = np.array([_bound(each, found) for each, found in zip(trade.alone, alone, strict=True)])
+    proofs = _of_ends(trade, alone)
+    size = _size(trade, np.array([one.unbalance for one in alone]))
+    try:
+        if not all(one.keeps_ceilings for one in alone):
+            raise _Undecided
+        points = _between(trade, ideal, proofs, size, count, min(OPTIMUM_SHARE, relative_gap), least_mass, solver)
+    except _Undecided:
+        points = (_closest(trade, alone, ideal, proofs, least_mass),)
+        return Front(points, ideal, size, proofs, trade, undecided=True)
+    return Front(points, ideal, size, proofs, trade)
+
+
+def _smallest(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
+    """What makes each peak smallest, and the trade within the reach in which all of its front is proven.
+
+    A corner of one line is held against the points of all, so they are all to be within the same limits: those in which
+    each peak is smallest, and those in which everything lies that is no worse than twice what is found there.
+    """
+    if not trade.far:
+        return _alone(trade, solver)
+    force, moment = (within_reach(program, solver).limits.max_mass for program in trade.alone)
+    within = trade.within(np.maximum(force, moment), np.zeros(2))
+    for _ in range(_REACHES):
+        found = _alone(within, solver)
+        if isinstance(found, Unreachable):
+            return found
+        u = np.array([one.unbalance for one in found[1]])
+        peaks = np.max([*trade.peaks(u), _size(trade, u)], axis=0)
+        if np.all(peaks <= within.known):
+            break
+        within = trade.within(np.maximum(within.both.limits.max_mass, trade.reach(_ROOM * peaks)), _ROOM * peaks)
+    return found
+
+
+def _alone(trade: Trade, solver: Solver) -> tuple[Trade, list[Solution]] | Unreachable:
+    found: list[Solution] = []
+    for program in trade.alone:
+        one = optima(program.alone(), _SHARPNESS, True, solver).one()
+        if isinstance(one, Unreachable):
+            return one
+        found.append(one)
+    return trade, found
+
+
+def _of_ends(trade: Trade, alone: list[Solution]) -> tuple[Multipliers, Multipliers]:
+    """Proofs of the smallest peaks, as of the program of both."""
+    force, moment = alone
+    # rest, at least, proves a bound
+    assert force.multipliers is not None
+    assert moment.multipliers is not None
+    usable = normalised(trade.alone[0], force.multipliers)[0], normalised(trade.alone[1], moment.multipliers)[0]
+    return trade.of_one(0, usable[0]), trade.of_one(1, usable[1])
+
+
+def _closest(
+    trade: Trade, alone: list[Solution], ideal: Real, proofs: tuple[Multipliers, Multipliers], least_mass: bool
+) -> Point:
+    """Of the counterweights that make a peak smallest those that come closest to keeping the ceilings."""
+    which = min((0, 1), key=lambda each: alone[each].excess)
+    found = alone[which]
+    # its mass is the least of those that make this peak as small, whatever the other
+    limit = np.where(np.arange(2) == which, found.mass_target, trade.peaks(found.unbalance))
+    of_mass = None
+    if least_mass and found.mass_multipliers is not None:
+        of_mass = trade.of_one(which, found.mass_multipliers.admissible(trade.alone[which]))
+    return Point(found, ideal, proofs[which], of_mass, np.minimum(limit, trade.known))
+
+
+def _between(
+    trade: Trade,
+    ideal: Real,
+    proofs: tuple[Multipliers, Multipliers],
+    size: Real,
+    count: int,
+    share: float,
+    least_mass: bool,
+    solver: Solver,
+) -> tuple[Point, ...]:
+    """The points of the front; a single one where both peaks are smallest together."""
+    # half the asked gap for the programs, half for the distance of the point from the ideal
+    together = replace(_meet(trade, ideal, size, least_mass, 0.25 * share, solver), corner=ideal, proof=proofs[0])
+    alike = np.all(trade.peaks(together.solution.unbalance) - ideal <= max(0.5 * share, _NARROW) * size)
+    ends = [] if alike else [_end(trade, first, ideal, proofs, size, share, solver) for first in (0, 1)]
+    if alike or np.any(np.abs(ends[1].peaks - ends[0].peaks) <= _NARROW * size):
+        return (together,)
+    return _points(trade, (ends[0], ends[1]), size, count, share, least_mass, solver)
+
+
+@dataclass(frozen=True)
+class _End:
+    """Where a peak is smallest and, among all such, the other is smallest."""
+
+    peaks: Real  # (2,)
+    corner: Real  # (2,)
+    proof: Multipliers  # of the corner
+
+
+def _size(trade: Trade, u: Complex) -> Real:
+    """What gaps are relative to (2,): the peaks without counterweights.
+
+    Where there is none, as in a machine that balances its forces itself: what the counterweights that make the
+    other peak smallest do one by one. 1 where they do nothing either.
+
+    Parameters
+    ----------
+    u : (2, K) kg m, the lightest counterweights that make each peak smallest.
+    """
+    gross = np.max(trade.one_by_one(u), axis=0)
+    size = np.where(trade.at_rest > OPTIMUM_SHARE * gross, trade.at_rest, gross)
+    return np.where(size > SMALLEST, size, 1.0)
+
+
+def _meet(trade: Trade, anchor: Real, unit: Real, least_mass: bool, share: float, solver: Solver) -> Point:
+    """The point of the front on the line anchor + t unit.
+
+    Parameters
+    ----------
+    share : how much of t the answer may lie above the smallest.
+    """
+    best: Solution | None = None
+    program = trade.along(anchor, unit)
+    for part in _ALLOWANCES if least_mass else _ALLOWANCES[:1]:
+        found = optima(program.alone(), part * share, least_mass, solver).one()
+        if isinstance(found, Unreachable):
+            raise _Undecided
+        if best is None or _mass_gap(found) < _mass_gap(best):
+            best = found
+        if _mass_gap(best) <= MASS_GAP:
+            break
+    assert best is not None
+    # rest, at least, proves a bound
+    assert best.multipliers is not None
+    usable, _ = normalised(program, best.multipliers)
+    of_mass = best.mass_multipliers if least_mass else None
+    return Point(
+        best,
+        np.minimum(anchor + trade.parameter(_bound(program, best), anchor, unit) * unit, trade.known),
+        trade.per_peak(usable, unit),
+        None if of_mass is None else trade.per_peak(of_mass.admissible(program), unit),
+        np.minimum(anchor + trade.parameter(best.mass_target, anchor, unit) * unit, trade.known),
+    )
+
+
+def _bound(statement: Statement, found: Solution) -> float:
+    """What is proven of all that counts as keeping the ceilings: one bound is held against many points."""
+    if found.multipliers is None:
+        return found.lower_bound
+    tolerance = np.full(statement.ceilings.cap.shape, CEILING_TOLERANCE)
+    return found.lower_bound - float(ceiling_allowance(statement, found.multipliers, tolerance))
+
+
+def _mass_gap(solution: Solution) -> float:
+    return (solution.mass - solution.mass_lower_bound) / solution.mass if solution.mass > 0 else 0.0
+
+
+def _end(
+    trade: Trade,
+    first: int,
+    ideal: Real,
+    proofs: tuple[Multipliers, Multipliers],
+    size: Real,
+    share: float,
+    solver: Solver,
+) -> _End:
+    """The end of the front where peak ``first`` is smallest.
+
+    The line starts a little above the smallest value of the first peak, at a value of the other that is proven to be
+    too small, and is so steep that the first hardly rises; the corner that is proven there starts the next line.
+    Where the front falls like a square root, the first peak still rises by the square of the slope, so that is the
+    root of the asked gap; a steeper line costs digits.
+    """
+    other = 1 - first
+    unit = size * np.where(np.arange(2) == first, np.sqrt(share), 1.0)
+    anchor = ideal + size * np.where(np.arange(2) == first, _END_SLACK * share, 0.0)
+    # at the anchor it is the other peak alone that is too small
+    peaks, corners = [], [(anchor, proofs[other])]
+    for _ in range(_END_STEPS):
+        point = _meet(trade, anchor, unit, False, share, solver)
+        peaks.append(trade.peaks(point.solution.unbalance))
+        if point.corner[first] > ideal[first]:
+            corners.append((point.corner, point.proof))
+        rise = point.corner[other] - anchor[other]
+        if rise <= share * size[other]:
+            break
+        anchor = np.where(np.arange(2) == other, point.corner, anchor)
+    corner, proof = max(corners, key=lambda each: float(each[0][other]))
+    # the end cannot be lower than this; the step that comes closest is it
+    target = np.where(np.arange(2) == first, ideal, corner)
+    return _End(min(peaks, key=lambda each: float(np.max((each - target) / size))), corner, proof)
+
+
+def _points(
+    trade: Trade,
+    ends: tuple[_End, _End],
+    size: Real,
+    count: int,
+    share: float,
+    least_mass: bool,
+    solver: Solver,
+) -> tuple[Point, ...]:
+    """The ends, and points between them that are evenly apart in the plane of shares of the range."""
+    start, step = ends[0].peaks, ends[1].peaks - ends[0].peaks
+    span = np.abs(step)
+    # the answer may lie above the front by a share of its range, where that is less than the sizes
+    share *= min(1.0, float(np.min(size / span)))
+    spread = _spread(trade, start, step, count, share, solver)
+    between = [_meet(trade, start + each * step, span, least_mass, share, solver) for each in spread[1:-1]]
+    first, last = (
+        replace(
+            _meet(trade, end.peaks, span, least_mass, _END_SHARE * share, solver), corner=end.corner, proof=end.proof
+        )
+        for end in ends
+    )
+    return (first, *between, last)
+
+
+def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, solver: Solver) -> Real:
+    """Shares of the chord (count,) whose points of the front are evenly apart."""
+    # denser towards the ends, where a front may fall like a square root
+    sounded = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, _SOUNDINGS + 1)))
+    # depth of the front below the chord, in units of the range
+    depth = np.zeros(sounded.size)
+    for i in range(1, _SOUNDINGS):
+        anchor = start + sounded[i] * step
+        point = _meet(trade, anchor, np.abs(step), False, max(share, _SOUNDED), solver)
+        depth[i] = np.min((anchor - trade.peaks(point.solution.unbalance)) / np.abs(step))
+    curve = np.array([sounded - depth, 1.0 - sounded - depth])
+    length = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(curve, axis=1)))])
+    return np.interp(np.linspace(0.0, length[-1], count), length, sounded)

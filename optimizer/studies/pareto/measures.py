@@ -1,0 +1,152 @@
+"""Any two or three responses that are traded for one another, and the programs over the turn that stand on them."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from optimizer.formulation.formulate import RESPONSES
+from optimizer.formulation.goals import Case, goals
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.whole_turn import WholeTurn
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.dominance import Group, Weighed
+from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.norms import Norms
+from optimizer.program.rows import Row, total_mass
+from schemas.objective import Objective
+from schemas.requests import OptimizeRequest
+from schemas.trade import Traded
+
+#: width of the brackets by which the counterweights of an answer are judged, as a share of what is traded
+_CLOSE = 1e-10
+#: quantities over the turn, by what stands before the colon in their names
+_OF: dict[str, Traded] = {"force": "force", "moment": "moment", "bearing": "bearings", "bending": "bending"}
+
+
+def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
+    """The objective that is the largest of some responses, each as it is."""
+    weight = {name: 1.0 if name in names else 0.0 for name in ("force", "moment", "bearings", "bending")}
+    return objective.model_copy(
+        update={
+            "combine": "max",
+            "priorities": (),
+            "force_weight": weight["force"],
+            "moment_weight": weight["moment"],
+            "bearing_weight": weight["bearings"],
+            "bending_weight": weight["bending"],
+        }
+    )
+
+
+@dataclass(frozen=True)
+class Measures:
+    """D responses of a machine under its limits and ceilings, over omega^2 but for the mass.
+
+    names : of the responses.
+    program : of them all, to be given goals.
+    groups : the largest of what each consists of.
+    """
+
+    names: tuple[Traded, ...]
+    program: OverTurn
+    groups: tuple[Group, ...]
+
+    def values(self, u: Complex) -> Real:
+        """What each comes to with counterweights (K,) kg m, (D,); of what is known by a bracket the upper end."""
+        return self.each.values(u, _CLOSE).goals
+
+    def excess(self, u: Complex) -> float:
+        """The largest relative excess over a ceiling; -inf without."""
+        return self.each.values(u, _CLOSE).excess
+
+    @cached_property
+    def each(self) -> OverTurn:
+        """The program with a goal for each, that are not put in any order."""
+        pairs = zip(self.names, self.groups, strict=True)
+        return replace(self.program, goals=tuple(Goal(name, (group,)) for name, group in pairs))
+
+    @cached_property
+    def at_rest(self) -> Real:
+        """Their values without counterweights (D,)."""
+        return self.values(np.zeros(self.program.limits.radius.shape, dtype=complex))
+
+    def one_by_one(self, u: Complex) -> Real:
+        """What every counterweight by itself adds to each at most, summed (D,)."""
+        return np.array([self._most(group, np.abs(u)) for group in self.groups])
+
+    def _most(self, group: Group, size: Real) -> float:
+        of_rows = [sum(np.sum(np.abs(peak.norms.influence) @ size) for peak in row.peaks) for row in group.rows]
+        quantities = self.program.quantities
+        of_weighed = [w * np.abs(quantities[q].response.influence) @ size for q, w, _ in group.weighed]
+        return float(max([*of_rows, *of_weighed], default=0.0))
+
+    def first(self, which: int, size: Real) -> OverTurn:
+        """The program that makes one small, and after it the largest of the others by their sizes (D,)."""
+        others = [_along(self.groups[i], 0.0, size[i]) for i in range(len(self.names)) if i != which]
+        goal = Goal(self.names[which], (self.groups[which],), float(size[which]))
+        return replace(self.program, goals=(goal, Goal("others", (_largest(others),), 1.0)))
+
+    def along(self, anchor: Real, unit: Real) -> OverTurn:
+        """min max_i (R_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit, (D,) both."""
+        rows = [_along(*each) for each in zip(self.groups, anchor.tolist(), unit.tolist(), strict=True)]
+        return replace(self.program, goals=(Goal("trade", (_largest(rows),), 1.0),))
+
+
+def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepared, turn: WholeTurn | None) -> Measures:
+    """The responses of a request by their names.
+
+    Parameters
+    ----------
+    turn : of the machine, where anything is asked of the whole turn.
+    """
+    asked = request.model_copy(update={"objective": alone(request.objective, names)})
+    case = Case(asked, scene.laden, (scene.responses,), turn)
+    program = goals(asked, [case], scene.omega_squared).program
+    groups = {"mass": Group((total_mass(program.limits),))} | {
+        name: Group(
+            tuple(row for group in program.groups for row in group.rows if row.name == name),
+            tuple(
+                each
+                for group in program.groups
+                for each in group.weighed
+                if _OF[program.quantities[each.quantity].name.partition(":")[0]] == name
+            ),
+        )
+        for name in names
+        if name != "mass"
+    }
+    return Measures(names, program, tuple(groups[name] for name in names))
+
+
+def unit_of(name: Traded, objective: Objective) -> str:
+    """Unit of a response."""
+    if name in RESPONSES:
+        return RESPONSES[name].unit
+    specific = objective.bearing_measure == "specific"
+    return {"bearings": "Pa" if specific else "N", "bending": "N m", "mass": "kg"}[name]
+
+
+def _along(group: Group, anchor: float, unit: float) -> Group:
+    """A response as a share of a unit above an anchor."""
+    rows = tuple(_scaled(row, anchor, unit) for row in group.rows)
+    weighed = tuple(Weighed(q, weight / unit, (offset - anchor) / unit) for q, weight, offset in group.weighed)
+    return Group(rows, weighed)
+
+
+def _scaled(row: Row, anchor: float, unit: float) -> Row:
+    peaks = [
+        replace(peak, floor=peak.floor / unit, norms=Norms(peak.norms.constant / unit, peak.norms.influence / unit))
+        for peak in row.peaks
+    ]
+    # the anchor once, however many peaks are added up
+    peaks[0] = replace(peaks[0], floor=peaks[0].floor - anchor / unit)
+    return Row(row.name, tuple(peaks))
+
+
+def _largest(groups: Sequence[Group]) -> Group:
+    """The largest of several groups."""
+    return Group(
+        tuple(row for group in groups for row in group.rows), tuple(each for group in groups for each in group.weighed)
+    )

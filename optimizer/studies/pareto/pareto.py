@@ -1,0 +1,271 @@
+"""From request to fronts: the trade-off of peak force, peak moment and total mass."""
+
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.numerics.arrays import Real
+from optimizer.optimize import optimize
+from optimizer.outputs.first_order import first_order, floor
+from optimizer.outputs.registry import prepare
+from optimizer.program.methods.feasibility_phase import Unreachable
+from optimizer.program.methods.symmetry import symmetric
+from optimizer.program.reference.solver import Solver
+from optimizer.program.verdict import Claim, mass_resolution, verdict
+from optimizer.solve.first_order import finite_or_null
+from optimizer.solve.prices import touched_limits
+from optimizer.solve.process_solver import own_solver
+from optimizer.solve.proof import implied_max_mass, named, physical
+from optimizer.studies.pareto.counts import count_front
+from optimizer.studies.pareto.front import Front, Point, front
+from optimizer.studies.pareto.trade import Trade, trade
+from optimizer.studies.pareto.trades import needed, traded_front
+from schemas.answers import Timing
+from schemas.machine import Machine
+from schemas.pareto import (
+    CornerCertificate,
+    Ends,
+    ParetoAnswer,
+    ParetoFront,
+    ParetoPoint,
+    ParetoRequest,
+    Reason,
+    Scale,
+    Status,
+)
+from schemas.proof import EndMultipliers, Multipliers
+from schemas.requests import OptimizeRequest
+
+#: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
+_STRAIGHT = 1e-4
+_WORST: tuple[Status, ...] = ("optimal", "inaccurate", "infeasible")
+
+
+def pareto(request: ParetoRequest, solver: Solver | None = None) -> ParetoAnswer:
+    """The certified fronts of peak force and peak moment, one for each budget of the total mass.
+
+    Every figure is evaluated by the mechanics from the returned masses and angles.
+    """
+    solver = solver or own_solver()
+    start = time.perf_counter()
+    if request.responses is not None:
+        needed(request, request.responses)
+    scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
+    solving = time.perf_counter()
+    machines = _machines(request)
+    plain = request.responses is None and request.counts is None
+    made = [_front(request, machine, scene, solver) for machine in machines if plain]
+    fronts = tuple(one.front for one in made)
+    solved, certified = sum(one.solve_s for one in made), sum(one.certify_s for one in made)
+    trading = time.perf_counter()
+    trades = tuple(traded_front(request, machine, scene) for machine in machines if request.responses is not None)
+    counts = tuple(count_front(request, machine, scene, solver) for machine in machines if request.counts is not None)
+    end = time.perf_counter()
+    solved += end - trading
+    worst = [*(one.status for one in fronts), *(one.status for one in trades), *(one.status for one in counts)]
+    before = scene.first_order()
+    return ParetoAnswer(
+        status=max(worst, key=_WORST.index),
+        fronts=fronts,
+        trades=trades,
+        counts=counts,
+        without_counterweights=first_order(before),
+        floor=floor(scene.layout, before),
+        reference_plane_m=float(scene.layout.reference_plane),
+        effects=scene.simulated.uses,
+        timing=Timing(
+            total_ms=(end - start) * 1e3,
+            solve_ms=(solved - certified) * 1e3,
+            mechanics_ms=scene.mechanics_ms,
+            certificate_ms=certified * 1e3,
+            report_ms=(end - solving - solved) * 1e3,
+        ),
+    )
+
+
+@dataclass(frozen=True)
+class _Made:
+    """A front, and the time spent on its programs and on their bounds."""
+
+    front: ParetoFront
+    solve_s: float
+    certify_s: float
+
+
+def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
+    """The machine under each budget."""
+    if request.total_mass_budgets_kg is None:
+        return (request.machine,)
+    return tuple(
+        request.machine.model_copy(update={"max_total_mass_kg": budget}) for budget in request.total_mass_budgets_kg
+    )
+
+
+def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> _Made:
+    start = time.perf_counter()
+    traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
+    found = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
+    solve_s = time.perf_counter() - start
+    if isinstance(found, Unreachable):
+        return _Made(_infeasible(request, machine, solver), solve_s, found.certify_s)
+    certify_s = sum(point.solution.certify_s for point in found.points)
+    return _Made(_certified(request, machine, scene, found), solve_s, certify_s)
+
+
+def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front) -> ParetoFront:
+    points = [_point(request, machine, scene, found, each) for each in found.points]
+    kept = undominated(points)
+    square = scene.omega_squared
+    ideal, scale = found.ideal * square, found.size * square
+    first, last = kept[0], kept[-1]
+    ends = Ends(
+        smallest_force_N=first.weighted_force_peak_N,
+        smallest_force_lower_bound_N=float(ideal[0]),
+        moment_at_smallest_force_Nm=first.weighted_moment_peak_Nm,
+        smallest_moment_Nm=last.weighted_moment_peak_Nm,
+        smallest_moment_lower_bound_Nm=float(ideal[1]),
+        force_at_smallest_moment_N=last.weighted_force_peak_N,
+        multipliers=_of_ends(found, square) if request.multipliers else None,
+    )
+    excess = max(
+        (ends.smallest_force_N - ends.smallest_force_lower_bound_N) / scale[0],
+        (ends.smallest_moment_Nm - ends.smallest_moment_lower_bound_Nm) / scale[1],
+    )
+    exact = (
+        not found.undecided
+        and excess <= request.accuracy.relative_gap
+        and all(point.status == "optimal" for point in kept)
+    )
+    return ParetoFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        status="optimal" if exact else "inaccurate",
+        points=tuple(kept),
+        reason=_reason(request, found, kept),
+        knee=knee(kept),
+        ends=ends,
+        scale=Scale(force_N=float(scale[0]), moment_Nm=float(scale[1])),
+        implied_max_mass_kg=implied_max_mass(machine, found.trade.both.limits.max_mass[None])[0],
+    )
+
+
+def _point(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front, point: Point) -> ParetoPoint:
+    solution, square, traded = point.solution, scene.omega_squared, found.trade
+    limits = traded.both.limits
+    found_there = solution.unbalance
+    if request.objective.symmetric:
+        found_there = symmetric(traded.both.alone(), found_there[None])[0]
+    masses, angles = masses_and_angles(machine, found_there, limits)
+    u = unbalance(masses, angles, limits.radius)
+    on_crank = beside(machine, masses, angles)
+    fitted, together = counterweights(machine, *on_crank), unbalance(*on_crank, limits.radius)
+    peaks = traded.peaks(u)
+    fixed = float(np.sum(fixed_masses(machine)))
+    judged = verdict(
+        Claim(
+            value=peaks,
+            lower_bound=point.corner,
+            rounding=traded.rounding(u),
+            yardstick=found.size,
+            excess=np.max(traded.both.ceilings.excess(u), axis=-1, initial=-np.inf),
+            mass=np.asarray(np.sum(masses)),
+            mass_resolution=mass_resolution(traded.both, found.size),
+            mass_lower_bound=np.asarray(solution.mass_lower_bound) if request.objective.least_mass else None,
+        ),
+        request.accuracy.relative_gap,
+    )
+    plain = scene.first_order(together)
+    limit = (point.mass_limit * square).tolist() if point.mass_proof is not None else (None, None)
+    weighted: Real = peaks * square
+    proven: Real = judged.lower_bound * square
+    return ParetoPoint(
+        status="optimal" if judged.status == "optimal" else "inaccurate",
+        status_reason=str(judged.reason),
+        force_peak_N=float(plain.force.peak),
+        moment_peak_Nm=float(plain.moment.peak),
+        weighted_force_peak_N=float(weighted[0]),
+        weighted_moment_peak_Nm=float(weighted[1]),
+        total_mass_kg=float(sum(counterweight.mass_kg for counterweight in fitted)),
+        counterweights=fitted,
+        active_limits=touched_limits(machine, request.objective, scene.responses, on_crank[0], u, square),
+        certificate=CornerCertificate(
+            force_N=finite_or_null(proven[0]),
+            moment_Nm=finite_or_null(proven[1]),
+            relative_gap=finite_or_null(judged.relative_gap),
+            yardstick=Scale(force_N=float(found.size[0] * square), moment_Nm=float(found.size[1] * square)),
+            mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound + fixed)
+            if request.objective.least_mass
+            else None,
+            mass_relative_gap=finite_or_null(judged.mass_gap) if request.objective.least_mass else None,
+            mass_yardstick_kg=float(judged.mass_yardstick) if request.objective.least_mass else None,
+            mass_force_limit_N=limit[0],
+            mass_moment_limit_Nm=limit[1],
+            implied_max_mass_kg=implied_max_mass(machine, limits.max_mass[None])[0],
+            method=solution.method,
+        ),
+        multipliers=_of_point(traded, point, square) if request.multipliers else None,
+    )
+
+
+def _of_point(traded: Trade, point: Point, omega_squared: float) -> Multipliers:
+    """The proofs of a point: of its corner, and of its mass."""
+    both, of_mass = traded.both, point.mass_proof
+    return Multipliers(
+        objective=named(both, physical(both, point.proof, "parameter", omega_squared)),
+        mass=None if of_mass is None else named(both, physical(both, of_mass, "mass", omega_squared)),
+    )
+
+
+def _of_ends(found: Front, omega_squared: float) -> EndMultipliers:
+    """The proofs of both smallest peaks."""
+    both = found.trade.both
+    force, moment = (named(both, physical(both, each, "objective", omega_squared)) for each in found.ideal_proofs)
+    return EndMultipliers(smallest_force=force, smallest_moment=moment)
+
+
+def undominated(points: Sequence[ParetoPoint]) -> list[ParetoPoint]:
+    """The points that no other equals or beats in both weighted peaks, in the order of rising force.
+
+    Points that are nearer to each other than their gaps can be out of order; no tolerance is applied.
+    """
+    kept: list[ParetoPoint] = []
+    for point in sorted(points, key=lambda one: (one.weighted_force_peak_N, one.weighted_moment_peak_Nm)):
+        if not kept or point.weighted_moment_peak_Nm < kept[-1].weighted_moment_peak_Nm:
+            kept.append(point)
+    return kept
+
+
+def knee(points: Sequence[ParetoPoint]) -> int | None:
+    """Index of the point farthest below the straight line between the ends, in the plane of shares of the range."""
+    if len(points) < 3:
+        return None
+    peaks = np.array([(point.weighted_force_peak_N, point.weighted_moment_peak_Nm) for point in points])
+    share = (peaks - peaks[0]) / (peaks[-1] - peaks[0])
+    # on the chord both shares of the way are equal; below it the moment is ahead of the force
+    depth = share[:, 1] - share[:, 0]
+    deepest = int(np.argmax(depth))
+    return deepest if depth[deepest] > _STRAIGHT else None
+
+
+def _reason(request: ParetoRequest, found: Front, kept: Sequence[ParetoPoint]) -> Reason | None:
+    if found.undecided:
+        return "undecided"
+    if len(found.points) == 1:
+        return "reached_together"
+    return "resolution" if len(kept) < request.points else None
+
+
+def _infeasible(request: ParetoRequest, machine: Machine, solver: Solver) -> ParetoFront:
+    """Which ceilings conflict, and what can be reached, as the optimum of one objective tells it."""
+    objective = request.objective
+    told = optimize(OptimizeRequest(machine=machine, objective=objective, accuracy=request.accuracy), solver)
+    return ParetoFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        status="infeasible",
+        points=(),
+        infeasibility=told.infeasibility,
+    )

@@ -1,0 +1,210 @@
+"""The front of any two or three responses: its ends, and points between them, each with its proof.
+
+As in :mod:`optimizer.studies.pareto.front` a point is the first attainable on a line anchor + t unit, here by the
+program over
+the turn, whose bound t_low proves that nothing is below the corner anchor + t_low unit in every response. The anchors
+are evenly apart on the chord, or in the triangle, between the ends (normal-boundary intersection, Das and Dennis 1998).
+"""
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from optimizer.errors import MissingInput
+from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
+from optimizer.formulation.simulation import Prepared
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.optimize import optimize
+from optimizer.outputs.requirements import missing
+from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
+from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.program.verdict import Claim, mass_resolution, verdict
+from optimizer.solve.first_order import finite_or_null
+from optimizer.solve.whole_turn import whole_turn_of
+from optimizer.studies.pareto.measures import Measures, alone, measures, unit_of
+from schemas.machine import Machine
+from schemas.pareto import ParetoRequest
+from schemas.requests import OptimizeRequest
+from schemas.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
+
+#: at an end the others may use so much of what counts first, as a share of its yardstick
+_END_SLACK = 1e-6
+#: a range below this share of the yardstick is none
+_NARROW = 1e-6
+
+
+def needed(request: ParetoRequest, names: Sequence[Traded]) -> OptimizeRequest:
+    """The request of one objective that asks for all that is traded.
+
+    Raises
+    ------
+    MissingInput
+        if the machine lacks what a response needs.
+    """
+    objective = alone(request.objective, names)
+    asked = OptimizeRequest(machine=request.machine, objective=objective, fidelity=request.fidelity)
+    lacking = list(missing(asked))
+    if lacking:
+        raise MissingInput(lacking)
+    return asked
+
+
+def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> TradedFront:
+    """The front of the responses that a request names, for one limit of the total mass."""
+    names = request.responses or ()
+    asked = needed(request, names).model_copy(update={"machine": machine, "accuracy": request.accuracy})
+    turn = whole_turn_of(scene) if asked.objective.over_the_turn else None
+    traded = measures(asked, names, scene, turn)
+    found = _ends(traded)
+    if found is None:
+        return TradedFront(
+            max_total_mass_kg=machine.max_total_mass_kg,
+            status="infeasible",
+            responses=(),
+            points=(),
+            infeasibility=optimize(asked).infeasibility,
+        )
+    ends, smallest, size = found
+    front = _Front(request, machine, scene, traded, size)
+    span = np.max(ends, axis=0) - smallest[:, 1]
+    together = np.all(span <= _NARROW * size)
+    places = _places(len(names), request.points)
+    if together:
+        points = [front.point(smallest[:, 1], size)]
+    else:
+        unit = np.maximum(span, _NARROW * size)
+        points = [front.point(place @ ends, unit) for place in places]
+    told = _told(points)
+    close = np.all(smallest[:, 0] - smallest[:, 1] <= max(request.accuracy.relative_gap, OPTIMUM_SHARE) * size)
+    square = front.square
+    return TradedFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        status="optimal" if close and all(point.status == "optimal" for point in told) else "inaccurate",
+        reason="reached_together" if together else None,
+        responses=tuple(
+            TradedResponse(
+                response=name,
+                unit=unit_of(name, asked.objective),
+                without_counterweights=float((traded.at_rest * square)[i]),
+                smallest=float(smallest[i, 0] * square[i]),
+                lower_bound=float(smallest[i, 1] * square[i]),
+                yardstick=float(size[i] * square[i]),
+            )
+            for i, name in enumerate(names)
+        ),
+        points=tuple(told),
+    )
+
+
+def _ends(traded: Measures) -> tuple[Real, Real, Real] | None:
+    """What all come to where each counts first (D, D), its smallest value and what is proven of it (D, 2), sizes (D,).
+
+    None where no counterweights keep the ceilings.
+    """
+    size = np.where(traded.at_rest > 0, traded.at_rest, 1.0)
+    for _ in range(2):
+        ends, smallest, gross = [], [], np.zeros(size.shape)
+        for which in range(len(traded.names)):
+            found = over_turn(traded.first(which, size), OPTIMUM_SHARE, False, (_END_SLACK,))
+            if isinstance(found, Unkept):
+                return None
+            ends.append(traded.values(found.point.unbalance))
+            gross = np.maximum(gross, traded.one_by_one(found.point.unbalance))
+            smallest.append((found.goals[0].value, found.goals[0].proof.bound))
+        # what is nothing without counterweights is measured by what they do one by one
+        known = np.where(traded.at_rest > OPTIMUM_SHARE * gross, traded.at_rest, gross)
+        known = np.where(known > SMALLEST, known, 1.0)
+        if np.all(known == size):
+            break
+        size = known
+    return np.array(ends), np.array(smallest), size
+
+
+def _places(count: int, points: int) -> Real:
+    """Shares of the ends (n, D), evenly apart: as many as asked for, of three as make a whole triangle."""
+    if count == 2:
+        share = np.linspace(0.0, 1.0, points)
+        return np.stack([1.0 - share, share], axis=-1)
+    side = 1
+    while (side + 2) * (side + 3) // 2 <= points:
+        side += 1
+    found = [(i, j, side - i - j) for i in range(side, -1, -1) for j in range(side - i, -1, -1)]
+    return np.array(found) / side
+
+
+class _Front:
+    """What the points of a front share."""
+
+    def __init__(self, request: ParetoRequest, machine: Machine, scene: Prepared, traded: Measures, size: Real) -> None:
+        self.request, self.machine, self.scene, self.traded, self.size = request, machine, scene, traded, size
+        self.square = np.array([1.0 if name == "mass" else scene.omega_squared for name in traded.names])
+
+    def point(self, anchor: Real, unit: Real) -> TradedPoint:
+        """The first attainable point on a line."""
+        # where the mass is traded, the corner speaks of it
+        least = self.request.objective.least_mass and "mass" not in self.traded.names
+        asked = self.request.accuracy.relative_gap
+        share = min(1.0, float(np.min(self.size / unit)))
+        found = over_turn(self.traded.along(anchor, unit), share * asked, least, ())
+        assert isinstance(found, Found)  # the ends have kept the ceilings
+        masses, angles = masses_and_angles(self.machine, found.point.unbalance, found.limits)
+        u = unbalance(masses, angles, found.limits.radius)
+        values, excess = self.traded.values(u), self.traded.excess(u)
+        bound, rounding = self._bound(found, u, excess)
+        mass = float(np.sum(masses))
+        proof = found.mass_proof
+        judged = verdict(
+            Claim(
+                value=values,
+                lower_bound=anchor + bound * unit,
+                rounding=rounding * unit,
+                yardstick=self.size,
+                excess=np.asarray(excess),
+                mass=np.asarray(mass),
+                mass_resolution=mass_resolution(found.proof.statement, np.ones(1)),
+                mass_lower_bound=np.asarray(0.0 if proof is None else proof.bound) if least else None,
+                contradicted=found.contradicted,
+            ),
+            asked,
+        )
+        plain = self.scene.first_order(u)
+        return TradedPoint(
+            status="optimal" if judged.status == "optimal" else "inaccurate",
+            status_reason=str(judged.reason),
+            values=tuple((values * self.square).tolist()),
+            force_peak_N=float(plain.force.peak),
+            moment_peak_Nm=float(plain.moment.peak),
+            total_mass_kg=mass,
+            counterweights=counterweights(self.machine, masses, angles),
+            certificate=TradedCertificate(
+                corner=tuple(finite_or_null(each) for each in judged.lower_bound * self.square),
+                relative_gap=finite_or_null(judged.relative_gap),
+                mass_lower_bound_kg=finite_or_null(judged.mass_lower_bound) if least else None,
+                mass_relative_gap=finite_or_null(judged.mass_gap) if least else None,
+                cuts=found.cuts,
+                rounds=found.rounds,
+                method=METHOD,
+            ),
+        )
+
+    def _bound(self, found: Found, u: Complex, excess: float) -> tuple[float, float]:
+        """What is proven of t for all that exceed no ceiling by more than u does, and the rounding of its value."""
+        proof = found.proof
+        over = np.full(proof.statement.ceilings.size.shape, max(excess, 0.0))
+        allowance = float(ceiling_allowance(proof.statement, proof.multipliers, over))
+        rounding = float(proof.statement.rounding(u)) + proof.charge * np.finfo(float).eps
+        return proof.bound - allowance, rounding
+
+
+def _told(points: Sequence[TradedPoint]) -> list[TradedPoint]:
+    """The points with what beats them, of two responses in the order of the rising first."""
+    ordered = sorted(points, key=lambda one: one.values) if points and len(points[0].values) == 2 else list(points)
+    values = np.array([point.values for point in ordered])
+    return [point.model_copy(update={"beaten_by": next(_beating(values, n), None)}) for n, point in enumerate(ordered)]
+
+
+def _beating(values: Real, n: int) -> Iterator[int]:
+    """Indices of the points that are as small as one in all values (n, D) and smaller in one."""
+    better = np.all(values <= values[n], axis=-1) & np.any(values < values[n], axis=-1)
+    yield from np.flatnonzero(better).tolist()

@@ -1,0 +1,73 @@
+"""Columns of the counterweights of many designs of one shape: those that are optimal, and those that are given."""
+
+from typing import Any
+
+import numpy as np
+
+from optimizer.formulation.counterweights import as_given, unbalance
+from optimizer.formulation.formulate import responses, shape_facts
+from optimizer.mechanics.fixed_weights import beside, laden
+from optimizer.mechanics.inertia import reciprocating, rotating
+from optimizer.mechanics.layout import layout as layout_of
+from optimizer.mechanics.layout import stacked
+from optimizer.numerics.arrays import Complex
+from optimizer.program.reference.solver import Solver
+from optimizer.solve.certify import Certified, certified
+from optimizer.studies.sweep.proofs import multipliers_as_text
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.columns import MULTIPLIERS
+
+Columns = dict[str, Any]
+
+
+def shape_keys(request: OptimizeRequest, count: int) -> np.ndarray:
+    """Number of the shape of program that each design has (count,): which terms and rows it is made of."""
+    facts = shape_facts(request.machine, request.objective)
+    return sum((np.broadcast_to(fact, (count,)) << k for k, fact in enumerate(facts)), np.zeros(count, dtype=np.int64))
+
+
+def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: bool = False) -> tuple[Columns, Complex]:
+    """Columns of certified optima, and the unbalance of the counterweights (count, webs) kg m.
+
+    Parameters
+    ----------
+    request : of columns (count,); its designs have one shape of program.
+    multipliers : whether the proofs are wanted, as text.
+    """
+    layout = laden(layout_of(request.machine), request.machine)
+    baseline = rotating(layout).plus(reciprocating(layout, 1))
+    square = np.broadcast_to(layout.omega**2, (count,))
+    return columns_of(request, certified(request, responses(layout, baseline), square, solver), multipliers)
+
+
+def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
+    """The same of what was certified; the request is of the radii that it has."""
+    mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
+    columns: Columns = {
+        **best.certificate,
+        "status": best.status,
+        "message": np.where(best.status == "optimal", "", best.reason),
+        "total_mass_kg": np.sum(mass, axis=-1),
+    }
+    if multipliers:
+        columns[MULTIPLIERS] = multipliers_as_text(request, best)
+    for k, web in enumerate(request.machine.webs):
+        columns[f"mass_kg.{web.name}"], columns[f"angle_deg.{web.name}"] = mass[:, k], angle[:, k]
+    columns = {
+        name: np.where(best.status == "infeasible", np.nan, column) if column.dtype == float else column
+        for name, column in columns.items()
+    }
+    return columns, unbalance(mass, angle, stacked([web.radius_m for web in request.machine.webs]))
+
+
+def given(request: AnalyzeRequest, count: int) -> tuple[Columns, Complex]:
+    """Total mass, and the unbalance of the counterweights (count, webs) kg m."""
+    mass, angle = as_given(request.machine, request.counterweights)
+    radius = stacked([web.radius_m for web in request.machine.webs])
+    shape = (count, radius.shape[-1])
+    columns: Columns = {
+        "status": np.full(count, "analyzed"),
+        "message": np.full(count, ""),
+        "total_mass_kg": np.broadcast_to(np.sum(mass, axis=-1), count),
+    }
+    return columns, np.broadcast_to(unbalance(mass, angle, radius), shape)

@@ -1,0 +1,36 @@
+"""Orders of crank angles along a shaft, one of those that are the same machine."""
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.numerics.arrangements import arrangements
+from optimizer.numerics.arrays import Real
+from schemas.sweep.crank_orders import CrankOrders
+
+
+@lru_cache(maxsize=4)
+def orders(given: CrankOrders) -> Real:
+    """Angles (N, throws) deg of the first of all orders that are one machine, in rising order."""
+    times = np.array(given.times)
+    if given.alike:
+        # the first of them begins with the first angle
+        rest = arrangements(times - np.eye(times.size, dtype=np.int64)[0], int(np.sum(times)) - 1, given.looked_through)
+        found = None if rest is None else np.concatenate([np.zeros((len(rest), 1), dtype=np.int64), rest], axis=1)
+    else:
+        found = arrangements(times, int(np.sum(times)), given.looked_through)
+    assert found is not None  # there are no more than are looked through
+    own = _code(found, times.size)
+    for symmetry in given.symmetries:
+        image = np.array(symmetry.image)[found]
+        first = own <= _code(image[:, ::-1] if symmetry.reversed else image, times.size)
+        found, own = found[first], own[first]
+    angles: Real = np.array(given.angles_deg)[found]
+    return angles
+
+
+def _code(sequences: NDArray[np.int64], kinds: int) -> NDArray[np.int64]:
+    """A number for each sequence (N, throws) by which they are ordered."""
+    places: NDArray[np.int64] = kinds ** np.arange(sequences.shape[1] - 1, -1, -1, dtype=np.int64)
+    return sequences @ places

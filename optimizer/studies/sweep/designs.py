@@ -1,0 +1,116 @@
+"""From the number of a design to the values of its axes, for any range of numbers, in memory of that range.
+
+A value depends on the request and on the number of the design alone, so that the rows are the same
+whatever the chunks, the workers and their order.
+"""
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.random import Philox
+from numpy.typing import NDArray
+
+from optimizer.numerics.arrays import Real
+from optimizer.studies.sweep.crank_orders import orders
+from schemas.sweep import Axis, SweepRequest, Target
+
+Indices = NDArray[np.int64]
+_Words = NDArray[np.uint64]
+
+_ROUNDS = 8
+#: bits of the smallest domain that is permuted; on fewer there are too few keyed permutations
+_FEWEST_BITS = 6
+
+
+def axis_values(request: SweepRequest, start: int, stop: int) -> list[Real]:
+    """Values of each axis for the designs start..stop-1, (stop - start,) in the unit of the field; nan is null."""
+    if request.crank_orders is not None:
+        return list(orders(request.crank_orders)[start:stop].T)
+    index = np.arange(start, stop, dtype=np.int64)
+    if request.design == "latin_hypercube":
+        return [
+            _sampled(axis, target, index, request.samples or 1, request.seed, number)
+            for number, (axis, target) in enumerate(zip(request.axes, request.targets, strict=True))
+        ]
+    if request.design == "paired":
+        positions: Sequence[Indices] = [index] * len(request.axes)
+    else:
+        positions = np.unravel_index(index, [axis.levels or 1 for axis in request.axes])
+    return [
+        _level(axis, target, position)
+        for axis, target, position in zip(request.axes, request.targets, positions, strict=True)
+    ]
+
+
+def permuted(index: Indices, count: int, seed: int, axis: int) -> Indices:
+    """A pseudo-random permutation of 0..count-1 at some of its places (n,), without the others.
+
+    A Feistel network on the smallest domain of 2^bits that holds them all; numbers that it sends
+    beyond are sent on until they come back (cycle walking), which keeps it one to one.
+    """
+    bits = max((count - 1).bit_length(), _FEWEST_BITS)
+    keys = Philox(key=[seed, 2 * axis + 1]).random_raw(_ROUNDS)
+    found = _feistel(index.astype(np.uint64), bits, keys)
+    outside = np.flatnonzero(found >= count)
+    while outside.size:
+        found[outside] = _feistel(found[outside], bits, keys)
+        outside = outside[found[outside] >= count]
+    return found.astype(np.int64)
+
+
+def uniform(start: int, stop: int, seed: int, axis: int) -> Real:
+    """Uniform numbers in [0, 1) that belong to the numbers start..stop-1, (stop - start,)."""
+    # one count of Philox holds four numbers
+    skipped = start % 4
+    words = Philox(key=[seed, 2 * axis], counter=start // 4).random_raw(skipped + stop - start)[skipped:]
+    return np.asarray(words >> np.uint64(11), dtype=float) * 2.0**-53
+
+
+def _sampled(axis: Axis, target: Target, index: Indices, count: int, seed: int, number: int) -> Real:
+    """One value from each of ``count`` equal strata of the axis, in pseudo-random order."""
+    stratum = permuted(index, count, seed, number)
+    jitter = uniform(int(index[0]), int(index[-1]) + 1, seed, number) if index.size else np.zeros(0)
+    share = (stratum + jitter) / count
+    if axis.levels is None:
+        return _between(axis, target, share)
+    return _level(axis, target, np.minimum((share * axis.levels).astype(np.int64), axis.levels - 1))
+
+
+def _level(axis: Axis, target: Target, position: Indices) -> Real:
+    if axis.values is not None:
+        numbers = [target.number(value) for value in axis.values]
+        return np.array([np.nan if number is None else number for number in numbers])[position]
+    return _between(axis, target, position / max((axis.count or 1) - 1, 1))
+
+
+def _between(axis: Axis, target: Target, share: Real) -> Real:
+    """Values at shares of the way from start to stop; exactly these at 0 and 1."""
+    ends = np.array([target.number(axis.start), target.number(axis.stop)], dtype=float)
+    first, last = np.log(ends) if axis.spacing == "log" else ends
+    value = (1.0 - share) * first + share * last
+    if axis.spacing == "log":
+        # the logarithm and back costs the last digits, which the ends keep
+        value = np.where(share == 0.0, ends[0], np.where(share == 1.0, ends[1], np.exp(value)))
+    return np.clip(value, np.min(ends), np.max(ends))
+
+
+def _feistel(number: _Words, bits: int, keys: _Words) -> _Words:
+    """Keyed permutation of 0..2^bits-1."""
+    low_bits = bits // 2
+    high_bits = bits - low_bits
+    for key in keys:
+        low_mask = np.uint64((1 << low_bits) - 1)
+        high_mask = np.uint64((1 << high_bits) - 1)
+        high, low = number >> np.uint64(low_bits), number & low_mask
+        # the halves change places, and with them their widths
+        number = (low << np.uint64(high_bits)) | ((high ^ _mixed(low, key)) & high_mask)
+        low_bits, high_bits = high_bits, low_bits
+    return number
+
+
+def _mixed(number: _Words, key: np.uint64) -> _Words:
+    """Finaliser of splitmix64 (Steele, Lea, Flood 2014): every bit depends on every bit."""
+    word = number + key
+    word = (word ^ (word >> np.uint64(30))) * np.uint64(0xBF58476D1CE4E5B9)
+    word = (word ^ (word >> np.uint64(27))) * np.uint64(0x94D049BB133111EB)
+    return word ^ (word >> np.uint64(31))

@@ -1,0 +1,291 @@
+"""From numbers of designs to columns of the result: axes, validity, mechanics, program, outputs."""
+
+import logging
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.errors import OutOfRange
+from optimizer.formulation.placement import on_webs
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.outputs.registry import columns, input_rules
+from optimizer.outputs.requirements import missing
+from optimizer.program.reference.solver import Solver
+from optimizer.studies.sweep.counterweights import given, optimal, shape_keys
+from optimizer.studies.sweep.designs import axis_values
+from optimizer.studies.sweep.one_by_one import optimal_alone
+from optimizer.studies.sweep.over_turn import optimal_over_turn
+from optimizer.studies.sweep.work import work_per_design
+from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.rules import Path, Rule, all_rules
+from schemas.sweep import SweepRequest, pointer
+from schemas.variation import with_fields
+
+_LOG = logging.getLogger(__name__)
+Designs = NDArray[np.int64]
+#: rows times angles that are worked on at once, which bounds the memory
+_AT_ONCE = 400_000
+
+
+class Rows:
+    """Columns of a range of designs, filled group by group; nan and None stand for what is not there."""
+
+    def __init__(self, request: SweepRequest, start: int, stop: int) -> None:
+        count = stop - start
+        self.columns: dict[str, Any] = {
+            column.name: np.full(count, np.nan) if column.kind == "number" else np.full(count, None, dtype=object)
+            for column in (*request.all_columns, *request.chosen_columns)
+        }
+        self.columns["index"] = np.arange(start, stop, dtype=np.int64)
+        self._labels = {"index", *(pointer(target.path) for target in request.targets)}
+        self._faults: dict[str, tuple[list[int], Exception]] = {}
+
+    def put(self, designs: Designs, found: dict[str, Any]) -> None:
+        """Columns of some designs; those that the result does not have are left out."""
+        for name, column in found.items():
+            if name in self.columns:
+                self.columns[name][designs] = column
+
+    def refuse(self, designs: Designs, rule: Rule) -> None:
+        """Designs that are no valid requests."""
+        self.columns["status"][designs] = "invalid"
+        self.columns["message"][designs] = f"{pointer(rule.path)}: {rule.message}"
+
+    def fail(self, design: int, error: Exception) -> None:
+        """A design that computing broke down for: what of it was computed before is not told."""
+        for name, column in self.columns.items():
+            if name not in self._labels:
+                column[design] = np.nan if column.dtype == float else None
+        self.columns["status"][design] = "failed"
+        said = f"{type(error).__name__}: {error}"
+        self.columns["message"][design] = f"internal fault: {said}"
+        self._faults.setdefault(said, ([], error))[0].append(int(self.columns["index"][design]))
+
+    def tell_faults(self) -> None:
+        """Log what designs broke down for, once for all that say the same."""
+        for said, (designs, error) in self._faults.items():
+            _LOG.error(
+                "%d design(s) of a sweep broke down, %d first: %s", len(designs), designs[0], said, exc_info=error
+            )
+
+
+def rows(request: SweepRequest, start: int, stop: int, solver: Solver) -> dict[str, Any]:
+    """Every column of the designs start..stop-1, by name.
+
+    A design that is no valid request is a row that says which field is wrong; it ends nothing. Nor does one that
+    computing breaks down for, by whatever exception: its row says so, and the exception is logged.
+
+    Raises
+    ------
+    MemoryError
+        as fewer rows at a time may fit.
+    """
+    values = axis_values(request, start, stop)
+    table = Rows(request, start, stop)
+    table.put(np.arange(stop - start), {pointer(t.path): v for t, v in zip(request.targets, values, strict=True)})
+    ranges = (rule for target, column in zip(request.targets, values, strict=True) for rule in target.rules(column))
+    inside = _refuse(table, np.arange(stop - start), ranges)
+    for designs in _same_nulls(values, inside):
+        _fill_or_fail(table, Group(request, values), designs, solver)
+    table.tell_faults()
+    return table.columns
+
+
+class Group:
+    """The varied requests of a range of designs."""
+
+    def __init__(self, request: SweepRequest, values: Sequence[Real]) -> None:
+        self._base, self._targets, self._values = request.base, request.targets, values
+        self.multipliers, self.always, self.one_by_one = request.multipliers, request.always, request.one_by_one
+        self.wanted = request.wanted
+        #: designs without the outputs that all hold: they do not ask for them, and their machines lack what these need
+        self.bare = set[int]()
+        self._over_the_turn = bool(request.over_the_turn)
+
+    def of(self, designs: Designs) -> OptimizeRequest | AnalyzeRequest:
+        """Some designs, with the same fields null in all, as one request of columns."""
+        contents: dict[Path, Any] = {}
+        for target, column in zip(self._targets, self._values, strict=True):
+            chosen = column[designs]
+            contents[target.path] = None if np.isnan(chosen[0]) else chosen
+        return with_fields(self._base, contents)
+
+    def one(self, design: int) -> OptimizeRequest | AnalyzeRequest:
+        """One design as a request of numbers."""
+        contents: dict[Path, Any] = {}
+        for target, column in zip(self._targets, self._values, strict=True):
+            number = float(column[design])
+            contents[target.path] = None if np.isnan(number) else int(number) if target.integer else number
+        alone = with_fields(self._base, contents)
+        # an axis may ask for a search, of which another gap is usual
+        return alone.with_usual_gap if isinstance(alone, OptimizeRequest) else alone
+
+    def over_the_turn(self, designs: Designs) -> dict[int, OptimizeRequest]:
+        """Those designs whose objective looks at the whole turn, each by itself."""
+        if not self._over_the_turn:
+            return {}
+        alone = ((int(design), self.one(int(design))) for design in designs)
+        return {
+            design: one for design, one in alone if isinstance(one, OptimizeRequest) and one.objective.over_the_turn
+        }
+
+
+def _fill_or_fail(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    """Rows of some designs; where computing breaks down, of halves of them, until the designs at fault are alone."""
+    try:
+        _fill(table, group, designs, solver)
+    except MemoryError:
+        raise
+    except Exception as error:
+        if designs.size == 1:
+            table.fail(int(designs[0]), error)
+            return
+        for half in np.array_split(designs, 2):
+            _fill_or_fail(table, group, half, solver)
+
+
+def _fill(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    if group.one_by_one:
+        _fill_one_by_one(table, group, designs, solver)
+        return
+    designs = _refuse(table, designs, all_rules(group.of(designs)))
+    turning = group.over_the_turn(designs)
+    for design, alone in turning.items():
+        lacking = next(missing(alone), None)
+        if lacking is not None:
+            table.refuse(np.array([design]), Rule(True, *lacking))
+            designs = designs[designs != design]
+    of_shaft = {design for design, alone in turning.items() if alone.objective.of_the_shaft}
+    designs = _with_inputs(table, group, designs, of_shaft)
+    if not designs.size:
+        return
+    request = group.of(designs)
+    if isinstance(request, AnalyzeRequest):
+        found, unbalance = given(on_webs(request), designs.size)
+        table.put(designs, found)
+        _fill_outputs(table, group, designs, unbalance)
+        return
+    cut = np.isin(designs, list(turning))
+    if np.any(cut):
+        found, unbalance = optimal_over_turn(
+            [turning[int(design)] for design in designs[cut]], solver, group.multipliers
+        )
+        table.put(designs[cut], found)
+        _fill_outputs(table, group, designs[cut], unbalance)
+    if not np.all(cut):
+        _fill_first_order(table, group, designs[~cut], solver)
+
+
+def _fill_one_by_one(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    """Rows of designs that are searched, cut from plates or alike: as single answers are."""
+    found: dict[int, Complex] = {}
+    for design in designs.tolist():
+        alone, at = group.one(design), np.array([design])
+        assert isinstance(alone, OptimizeRequest)  # nothing else chooses counterweights
+        if not _refuse(table, at, all_rules(alone)).size:
+            continue
+        turning = alone.objective.over_the_turn
+        lacking = next(missing(alone), None) if turning else None
+        if not _refuse(table, at, [Rule(True, *lacking)] if lacking else []).size:
+            continue
+        if not _with_inputs(table, group, at, {design} if alone.objective.of_the_shaft else set()).size:
+            continue
+        try:
+            columns, unbalance = (
+                optimal_over_turn([alone], solver, group.multipliers)
+                if turning
+                else optimal_alone(alone, solver, group.multipliers)
+            )
+        except OutOfRange as refusal:
+            table.refuse(at, Rule(True, *refusal.problems[0]))
+            continue
+        table.put(at, columns)
+        found[design] = unbalance[0]
+    if found:
+        _fill_outputs(table, group, np.array(list(found)), np.array(list(found.values())))
+
+
+def _fill_first_order(table: Rows, group: Group, designs: Designs, solver: Solver) -> None:
+    """Rows of designs whose objective is about the first order, those of one shape of program together."""
+    request = group.of(designs)
+    assert isinstance(request, OptimizeRequest)  # nothing else has an objective
+    keys = shape_keys(request, designs.size)
+    for key in np.unique(keys):
+        alike = designs[keys == key]
+        part = group.of(alike)
+        assert isinstance(part, OptimizeRequest)
+        found, unbalance = optimal(part, alike.size, solver, group.multipliers)
+        table.put(alike, found)
+        _fill_outputs(table, group, alike, unbalance)
+
+
+def _with_inputs(table: Rows, group: Group, designs: Designs, of_shaft: set[int]) -> Designs:
+    """The designs whose machines give what their outputs need; the others say what is missing.
+
+    Parameters
+    ----------
+    of_shaft : designs whose objectives ask for what all rows hold.
+    """
+    if designs.size:
+        request = group.of(designs)
+        designs = _refuse(table, designs, input_rules(request.machine, request.outputs))
+    if not (designs.size and group.always):
+        return designs
+    rules = list(input_rules(group.of(designs).machine, group.always))
+    lacking = np.any([np.broadcast_to(rule.broken, designs.shape) for rule in rules], axis=0) if rules else False
+    bare = lacking & ~np.isin(designs, list(of_shaft))
+    group.bare.update(designs[bare].tolist())
+    return np.sort(np.concatenate([designs[bare], _refuse(table, designs, rules, ~bare)]))
+
+
+def _fill_outputs(table: Rows, group: Group, designs: Designs, unbalance: Complex) -> None:
+    """Columns of the outputs."""
+    bare = np.isin(designs, list(group.bare))
+    for some, always in ((bare, ()), (~bare, group.always)):
+        if np.any(some):
+            _fill_columns(table, group, designs[some], unbalance[some], always)
+
+
+def _fill_columns(table: Rows, group: Group, designs: Designs, unbalance: Complex, always: tuple[str, ...]) -> None:
+    """The same of some designs, in blocks that fit into memory."""
+    # without counterweights there is nothing with them
+    none = table.columns["status"][designs] == "infeasible"
+    fitted = np.where(none[:, None], np.nan, unbalance)
+    size = max(1, _AT_ONCE // max(work_per_design(group.of(designs[:1]), always, group.wanted), 1))
+    for first in range(0, designs.size, size):
+        block = designs[first : first + size]
+        part = group.of(block)
+        held = ("residual", *always) if isinstance(part, OptimizeRequest) else ()
+        part = on_webs(part) if isinstance(part, AnalyzeRequest) else part
+        table.put(block, columns(part, fitted[first : first + size], held, group.wanted))
+
+
+def _refuse(table: Rows, designs: Designs, rules: Iterable[Rule], among: NDArray[np.bool_] | None = None) -> Designs:
+    """The designs that break no rule; the others say which they break first.
+
+    Parameters
+    ----------
+    among : (n,) of which designs; None is all.
+    """
+    valid = np.ones(designs.size, dtype=bool) if among is None else among.copy()
+    for rule in rules:
+        # most hold for all designs, whatever varies
+        if rule.broken is not False:
+            broken = valid & rule.broken
+            if np.any(broken):
+                table.refuse(designs[broken], rule)
+                valid &= ~broken
+    return designs[valid]
+
+
+def _same_nulls(values: Sequence[Real], designs: Designs) -> Iterator[Designs]:
+    """The designs in groups that have the same fields null."""
+    nulls = np.stack([np.isnan(column[designs]) for column in values], axis=-1)
+    if not np.any(nulls):
+        groups = [designs] if designs.size else []
+    else:
+        patterns, which = np.unique(nulls, axis=0, return_inverse=True)
+        groups = [designs[which.reshape(-1) == k] for k in range(len(patterns))]
+    yield from groups

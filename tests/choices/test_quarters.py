@@ -1,0 +1,60 @@
+"""Four quarters of the slots: what comes near to a point where no tree proves more."""
+
+from itertools import count
+
+import numpy as np
+import pytest
+
+from optimizer.choices.catalogue_options import stock
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.exchange import neighbourhoods, start
+from optimizer.choices.discrete.options import EQUAL, Incumbent
+from optimizer.choices.discrete.quarters import quarters
+from optimizer.outputs.registry import prepare
+from optimizer.solve.certify import certified
+from optimizer.solve.process_solver import own_solver
+from optimizer.solve.search_claims import continuous
+from schemas.requests import OptimizeRequest
+from tests.benchmarks.discrete import choice
+from tests.verification.checking import optimized
+
+
+def test_what_no_tree_closes_is_found_to_a_ten_thousandth() -> None:
+    """Regression: 32 webs whose options reach the floor, 10^32 sets; few slots with all options left 4e-4."""
+    body = choice(32, None, 5)
+    body["accuracy"] = {"relative_gap": 1e-4, "time_limit_s": 30}
+    found = optimized(body)
+    assert found.status == "optimal"
+    assert found.certificate is not None
+    assert found.certificate.lower_bound is not None
+    # analytic: nothing is below what turns against the shaft
+    assert found.residual.after is not None
+    floor = found.floor.force_N + found.floor.moment_Nm / 4.7
+    assert found.certificate.lower_bound == pytest.approx(floor, rel=1e-6)
+    assert 0 <= found.certificate.objective - floor <= 1e-4 * found.certificate.yardstick
+
+
+@pytest.mark.parametrize("limits", [{}, {"max_counterweights": 31}, {"max_total_mass_kg": 60.0}])
+def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> None:
+    body = choice(32, None, 5)
+    body["machine"] |= limits
+    request = OptimizeRequest.model_validate(body)
+    scene = prepare(request, ("residual",))
+    best = certified(continuous(request), scene.responses, np.array([scene.omega_squared]), own_solver())
+    problem, options = best.program.chosen(0), stock(request.machine).options
+
+    def found() -> tuple[float, Incumbent]:
+        incumbent = Incumbent(problem, options, EQUAL * float(problem.at_rest))
+        start(incumbent, best.found.unbalance[:1])
+        neighbourhoods(incumbent, best.found.unbalance[0], 1, lambda: False, Clock(3600.0))
+        before, looks = incumbent.least, count(0.0)
+        # a second passes from look to look: one round
+        quarters(incumbent, lambda: False, Clock(1.5, lambda: next(looks)))
+        return before, incumbent
+
+    before, incumbent = found()
+    assert incumbent.chosen is not None
+    assert incumbent.least < before if not limits else incumbent.least <= before
+    assert incumbent.least == float(problem.objective(options.carried(incumbent.chosen)))
+    assert bool(options.counts(problem, incumbent.chosen))
+    assert np.array_equal(incumbent.chosen, found()[1].chosen)

@@ -1,0 +1,34 @@
+"""The best set of options beside SCIP, a solver of mixed-integer cone programs (independent)."""
+
+import numpy as np
+import pytest
+
+from optimizer.program.verdict import yardstick
+from tests.choices.scip import scip
+from tests.choices.sets import options_of
+from tests.choices.test_search import found_of
+from tests.program.cases import random_statement
+
+#: SCIP keeps constraints to 1e-6 of what they are scaled to; of the yardstick
+_CLOSE = 1e-5
+#: s; no test ends by the clock
+_LONG = 1e9
+
+
+@pytest.mark.parametrize(
+    ("combine", "budget", "ceilings", "fitted"),
+    [("sum", False, False, None), ("max", True, False, None), ("sum", True, False, 3), ("max", False, True, None)],
+)
+def test_four_webs(combine: str, budget: bool, ceilings: bool, fitted: int | None) -> None:
+    """Four webs, five masses at six angles: 31^4 sets."""
+    problem = random_statement(11, combine, (1.0, 0.7), False, budget, ceilings, webs=4)
+    most = float(np.max(problem.limits.max_mass))
+    masses = [0.1 * most, 0.25 * most, 0.4 * most, 0.6 * most, 0.8 * most]
+    options = options_of(problem, masses, [0.0, 60.0, 120.0, 180.0, 240.0, 300.0], fitted)
+    size = float(yardstick(problem.alone())[0])
+    ours = found_of(problem, options, relative_gap=1e-6)
+    value = float(problem.objective(options.of(options.unbalance, ours.chosen)))
+    theirs = scip(problem, options, 1e-7, size, _LONG)
+    assert value == pytest.approx(theirs.objective, abs=_CLOSE * size)
+    assert ours.lower_bound <= theirs.objective + _CLOSE * size
+    assert theirs.lower_bound <= value + _CLOSE * size

@@ -1,0 +1,44 @@
+"""Rows over the turn are the same to the bit, whichever designs are computed with them."""
+
+from typing import Any
+
+import pyarrow as pa
+import pytest
+
+from schemas.sweep import SweepRequest
+from tests.analyze.engines import UNEVEN, cylinder, engine, trace
+from tests.studies.sweep.single import sweep, table
+from tests.studies.sweep.test_rows import DRIVE, fitted
+
+_ROW = "/machine/throws/0/rows/0"
+_MASSES = {"path": f"{_ROW}/reciprocating_mass_kg", "values": [250.0, 277.79]}
+#: what the designs have in common then: all but masses and speed, the motion, the gas, nothing
+_BESIDE: dict[str, dict[str, Any]] = {
+    "speeds": {"path": "/machine/speed_rpm", "values": [400, 500]},
+    "bores": {"path": f"{_ROW}/cylinder/bore_m", "values": [0.7, 0.73]},
+    "axes": {"path": f"{_ROW}/axis_deg", "values": [0, 0.5]},
+    "rods": {"path": f"{_ROW}/connecting_rod/length_m", "values": [0.7, 0.75]},
+}
+
+
+@pytest.mark.parametrize("beside", _BESIDE.values(), ids=_BESIDE)
+def test_a_row_does_not_depend_on_its_neighbours(beside: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
+    # property: what designs have in common is worked out once, or for each, and comes to the same bits
+    assert_alike(sweep(fitted("2d12", *DRIVE), _MASSES, beside, task="analyze"), monkeypatch)
+
+
+def test_nor_does_one_with_indicated_pressures(monkeypatch: pytest.MonkeyPatch) -> None:
+    machine = engine([0.0, 90.0], [cylinder(UNEVEN), cylinder(trace(90.0, 1), turns=1, dead_centre_deg=90.0)])
+    pressures = {"path": f"{_ROW}/cylinder/pressure/head/pressure_Pa/5", "values": [9e5, 11e5]}
+    speeds = {"path": "/machine/speed_rpm", "values": [900, 1000]}
+    base = {"machine": machine, "outputs": DRIVE, "angles": {"step_deg": 30}}
+    assert_alike(sweep(base, pressures, speeds, task="analyze"), monkeypatch)
+
+
+def assert_alike(request: SweepRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    together = table(request)
+    alone = [table(request, k, k + 1) for k in range(request.total)]
+    assert pa.concat_tables(alone).equals(together)
+    # places in many parts, of which what forces are made of is not kept
+    monkeypatch.setattr("optimizer.mechanics.row_series._AT_ONCE", 100)
+    assert table(request).equals(together)
