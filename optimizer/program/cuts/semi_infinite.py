@@ -35,6 +35,8 @@ _FINE = 1e-12
 _OF_QUANTITIES = ("samples", "brackets", "first", "_resting")
 #: what is smaller is nothing
 _TINY = 1e-300
+#: share of what goals and ceilings are measured by: what samples show to be smaller may be larger between them
+_FAINT = 1e-9
 #: of every quantity
 Cuts = Sequence[Sequence[Cut]]
 
@@ -255,7 +257,9 @@ class OverTurn:
         width : of the brackets, as a share of what the goals and ceilings are measured by.
         """
         about = np.maximum(self.samples.sizes(u, self.scatter), _TINY)
-        wanted = np.clip(width * self._shares / about, 1e-15, 1e300)
+        # what nearly cancels is bracketed by rounding: its samples say too little of how large it is
+        faint = np.where(np.isfinite(self._shares), _FAINT * self._shares, 0.0)
+        wanted = np.clip(width * self._shares / np.maximum(about, faint), 1e-15, 1e300)
         spare = self._spare(about)
         return self._decided(u, wanted, self.brackets.found(u, np.maximum(wanted, spare)), spare > wanted)
 
