@@ -68,6 +68,13 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     return points
 
 
+def has_dust(limits: Limits, u: Complex) -> np.ndarray:
+    """Whether some counterweights (..., K) kg m are next to nothing beside the largest of theirs (...)."""
+    mass = np.abs(u) / limits.radius
+    most = np.maximum.reduce(mass, axis=-1, keepdims=True, initial=0.0)
+    return np.asarray(((mass > 0) & (mass <= NEAR[0] * most)).any(axis=-1))
+
+
 def brought(
     limits: Limits, influence: Real | Complex, u: Complex, dust: float, touched: float
 ) -> tuple[Complex, np.ndarray]:
