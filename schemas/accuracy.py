@@ -6,10 +6,10 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.base import Answer, Model
-from schemas.catalogue import no_catalogue, no_groups
 from schemas.quantities import Count, Milliseconds
 from schemas.reciprocating import no_balance_shafts
 from schemas.requests import OptimizeRequest
+from schemas.rotor import no_catalogue, no_groups
 from schemas.rules import Rule
 
 

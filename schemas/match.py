@@ -6,12 +6,11 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base import Model
-from schemas.catalogue import no_catalogue, no_groups
 from schemas.fitted import FittedCounterweight, fitted_rules
 from schemas.objective import Objective
 from schemas.quantities import Count, Flag, Mass, Name
 from schemas.reciprocating import MAX_ROWS_TOGETHER, ReciprocatingMachine, no_balance_shafts
-from schemas.rotor import MAX_WEBS
+from schemas.rotor import MAX_WEBS, no_catalogue, no_groups
 from schemas.rules import Path, Rule, Ruled
 from schemas.units import Unit
 

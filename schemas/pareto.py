@@ -7,7 +7,6 @@ from pydantic import Field
 
 from schemas.answers import EffectUse, Timing
 from schemas.base import Answer, Model, NotEmpty
-from schemas.catalogue import no_catalogue
 from schemas.counterweights import Counterweight
 from schemas.counts import CountFront, CountTrade
 from schemas.first_order import FirstOrder, Floor
@@ -17,6 +16,7 @@ from schemas.proof import EndMultipliers, Multipliers
 from schemas.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.reciprocating import no_balance_shafts
 from schemas.requests import OptimizeRequest
+from schemas.rotor import no_catalogue
 from schemas.rules import Rule, first_of
 from schemas.trade import MAX_TRADED_POINTS, TradedFront, TradedNames
 from schemas.units import Unit, between

@@ -7,7 +7,8 @@ from pydantic import Field
 
 from schemas.balance_quality import BalanceQuality
 from schemas.base import Model
-from schemas.catalogue import Catalogue, catalogue_rules, stated
+from schemas.catalogue import Catalogue
+from schemas.catalogue_rules import catalogue_rules
 from schemas.quantities import Count, Mass, Name, Position, Speed, Unbalance
 from schemas.rules import Path, Rule, Ruled
 from schemas.units import Unit
@@ -105,10 +106,20 @@ class Rotor(Ruled):
                     endless = group.mirror and web.envelope is None and web.max_mass_kg is None
                     yield Rule(endless, path, "a mirrored pair needs max_mass_kg: give its webs a limit")
 
+    def choice_fields(self) -> Iterator[Path]:
+        """Fields by which the machine asks for discrete choices, with paths from the machine."""
+        for name in ("catalogue", "max_counterweights"):
+            if getattr(self, name) is not None:
+                yield (name,)
+        for k, web in enumerate(self.webs):
+            for name in ("catalogue_masses_kg", "hole_angles_deg"):
+                if getattr(web, name) is not None:
+                    yield ("webs", k, name)
+
     @property
     def discrete(self) -> bool:
         """Whether counterweights are chosen from what there is."""
-        return any(True for _ in stated(self))
+        return any(True for _ in self.choice_fields())
 
     @property
     def semicontinuous(self) -> bool:
@@ -121,7 +132,8 @@ class Rotor(Ruled):
         if self.overspeed_rpm is not None:
             slower = self.overspeed_rpm < self.speed_rpm
             yield Rule(slower, ("overspeed_rpm",), "must be at least speed_rpm")
-        yield from catalogue_rules(self)
+        if self.discrete:
+            yield from catalogue_rules(self.catalogue or Catalogue(), self.webs)
         yield from self._group_rules()
         fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
         if self.max_total_mass_kg is not None:
@@ -138,3 +150,17 @@ def unique_names(path: Path, names: Sequence[str | None]) -> Iterator[Rule]:
         if name in seen:
             yield Rule(True, (*path, index, "name"), "this name is taken already; names must be unique")
         seen.add(name)
+
+
+def no_catalogue(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
+    """Refuses discrete choices where counterweights of any mass and angle are chosen."""
+    heavy = (k for k, web in enumerate(machine.webs) if web.min_fitted_mass_kg is not None)
+    least = (("webs", k, "min_fitted_mass_kg") for k in heavy)
+    for field in (*machine.choice_fields(), *least):
+        yield Rule(True, (*path, *field), f"serves only to optimize one machine as it is given, not {what}")
+
+
+def no_groups(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
+    """Refuses identical castings where counterweights are chosen one by one."""
+    message = f"serves only to choose the counterweights of a machine, not {what}"
+    yield Rule(bool(machine.web_groups), (*path, "web_groups"), message)

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 from itertools import chain
 
 from schemas.base import FieldProblem
-from schemas.catalogue import no_catalogue, no_groups
 from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.rotor import no_catalogue, no_groups
 from schemas.target import Target
 
 #: designs of a sweep whose counterweights are searched, each for as long as a single answer
