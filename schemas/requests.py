@@ -1,7 +1,7 @@
 """What a client asks: optimise or analyse a machine."""
 
 from collections.abc import Iterator
-from typing import Annotated, Any, Literal, Self, cast
+from typing import Annotated, Any, Self, cast
 
 from pydantic import (
     Field,
@@ -14,17 +14,15 @@ from pydantic import (
 from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
-from schemas.angles import Angles
 from schemas.base import Model
 from schemas.catalogue import DISCRETE_GAP
 from schemas.fitted import GivenCounterweight, fitted_rules
-from schemas.machine import Machine
 from schemas.objective import Objective
-from schemas.outputs import OutputNames
 from schemas.reciprocating import no_balance_shafts
 from schemas.rotor import MAX_WEBS
 from schemas.rules import Rule, Ruled
 from schemas.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
+from schemas.scene import Scene
 from schemas.units import Unit
 
 #: ways round what does not go together, see "What goes together" in docs/api.md
@@ -80,46 +78,6 @@ def _fields_alone(schema: CoreSchema) -> CoreSchema:
     return cast(CoreSchema, {name: part for name, part in schema.items() if name != "serialization"})
 
 
-class Fidelity(Model):
-    """How closely effects are simulated."""
-
-    kinematics: Literal["exact", "order_2"] = Field(
-        "exact",
-        description="exact slider-crank kinematics, or its series cut off after the second order",
-        examples=["exact"],
-    )
-    shaft: Literal["simple_spans", "continuous"] = Field(
-        "simple_spans",
-        description="main bearings: every span simply supported, or a continuous shaft on rigid bearings",
-        examples=["simple_spans"],
-    )
-
-
-class Scene(Model):
-    """A machine and what is asked about it; decides which effects are simulated."""
-
-    machine: Machine = Field(
-        description="the machine",
-        examples=[
-            {
-                "kind": "reciprocating",
-                "speed_rpm": 500,
-                "throws": [
-                    {
-                        "position_m": 0.0,
-                        "crank_radius_m": 0.14,
-                        "crank_angle_deg": 0,
-                        "rows": [{"axis_deg": 0, "reciprocating_mass_kg": 100}],
-                    }
-                ],
-            }
-        ],
-    )
-    outputs: OutputNames = Field(("residual",), description="what the answer shall hold", examples=[["residual"]])
-    angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
-    fidelity: Fidelity = Field(Fidelity(), description="how closely to simulate", examples=[{"kinematics": "exact"}])
-
-
 class OptimizeRequest(Scene, Ruled):
     """Choose the counterweights of a machine."""
 
@@ -145,7 +103,7 @@ class OptimizeRequest(Scene, Ruled):
         return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
 
     def rules(self) -> Iterator[Rule]:
-        yield from scenario_rules(self)
+        yield from scenario_rules(self, self.scenarios)
         yield from self._shaft_rules()
         yield from self._catalogue_rules()
         yield from self._fitted_rules()

@@ -1,20 +1,18 @@
 """Several operating points or variants of a machine, and what may be off: what one set of counterweights is to suit."""
 
-from collections.abc import Iterator
-from typing import TYPE_CHECKING, Annotated, Any
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any
 
 from pydantic import Field, Strict
 
 from schemas.base import Model
+from schemas.machine import Machine
 from schemas.quantities import Fraction, Name
 from schemas.rules import Path, Rule, all_rules
+from schemas.scene import Scene
 from schemas.target import BadPointer, Target, Value, find_target, pointer
 from schemas.units import Unit, non_negative, positive
 from schemas.variation import with_fields
-
-if TYPE_CHECKING:
-    from schemas.machine import Machine
-    from schemas.requests import OptimizeRequest
 
 MAX_SCENARIOS, MAX_CHANGES = 32, 64
 
@@ -72,7 +70,7 @@ class Tolerances(Model):
         return any(getattr(self, name) > 0 for name in type(self).model_fields)
 
 
-def machine_of(request: "OptimizeRequest", scenario: Scenario) -> "Machine":
+def machine_of(request: Scene, scenario: Scenario) -> Machine:
     """The machine of a scenario that keeps the rules."""
     values = {}
     for change in scenario.changes:
@@ -81,10 +79,10 @@ def machine_of(request: "OptimizeRequest", scenario: Scenario) -> "Machine":
     return with_fields(request.machine, values)
 
 
-def scenario_rules(request: "OptimizeRequest") -> Iterator[Rule]:
+def scenario_rules(request: Scene, scenarios: Sequence[Scenario]) -> Iterator[Rule]:
     """What is wrong with the scenarios of a request whose other parts are right; paths from its root."""
     seen: set[str] = set()
-    for i, scenario in enumerate(request.scenarios):
+    for i, scenario in enumerate(scenarios):
         path: Path = ("scenarios", i)
         yield Rule(scenario.name in seen, (*path, "name"), "another scenario has this name")
         seen.add(scenario.name)
@@ -94,7 +92,7 @@ def scenario_rules(request: "OptimizeRequest") -> Iterator[Rule]:
             yield from (Rule(True, (*path, *rest), message) for _, rest, message in _machine_rules(request, scenario))
 
 
-def _change_rules(request: "OptimizeRequest", scenario: Scenario) -> Iterator[Rule]:
+def _change_rules(request: Scene, scenario: Scenario) -> Iterator[Rule]:
     """What is wrong with the changes one by one; paths from the changes."""
     seen: set[Path] = set()
     for j, change in enumerate(scenario.changes):
@@ -127,7 +125,7 @@ def _refused(path: Path) -> str | None:
     return None
 
 
-def _machine_rules(request: "OptimizeRequest", scenario: Scenario) -> Iterator[Rule]:
+def _machine_rules(request: Scene, scenario: Scenario) -> Iterator[Rule]:
     """What is wrong with the machine of a scenario; paths from the scenario."""
     places: dict[Path, int] = {find_target(request, change.path).path: j for j, change in enumerate(scenario.changes)}
     for broken, rest, message in all_rules(machine_of(request, scenario)):

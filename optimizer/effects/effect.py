@@ -8,8 +8,8 @@ from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
 from schemas.base import FieldProblem
 from schemas.machine import Machine
-from schemas.requests import Fidelity
 from schemas.rules import Rule
+from schemas.scene import Fidelity
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ from optimizer.numerics.arrays import Real
 from schemas.answers import EffectUse
 from schemas.base import FieldProblem
 from schemas.machine import Machine
-from schemas.requests import Fidelity
 from schemas.rules import Rule
+from schemas.scene import Fidelity
 
 #: every effect; each stands after those that it needs
 EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}

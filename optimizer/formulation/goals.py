@@ -32,7 +32,8 @@ from schemas.base import FieldProblem
 from schemas.limits import CeilingField, MachineLimit
 from schemas.objective import Objective
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Fidelity, OptimizeRequest
+from schemas.requests import OptimizeRequest
+from schemas.scene import Fidelity
 
 
 @dataclass(frozen=True)

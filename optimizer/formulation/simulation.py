@@ -19,7 +19,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.response import Response
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Scene
+from schemas.scene import Scene
 from schemas.scroll_machine import ScrollMachine
 
 

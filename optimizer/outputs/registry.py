@@ -27,8 +27,8 @@ from schemas.base import FieldProblem
 from schemas.details import usual_keys
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Scene
 from schemas.rules import Path, Rule
+from schemas.scene import Scene
 
 #: every output, in the order of the answer
 OUTPUTS: dict[str, Output] = {

@@ -8,8 +8,8 @@ from schemas.base import FieldProblem, Model
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
 from schemas.report import ReportRequest
-from schemas.requests import Scene
 from schemas.rules import Path
+from schemas.scene import Scene
 from schemas.sweep import SweepRequest
 from service.settings import Settings
 from service.validation import InvalidRequest

@@ -14,7 +14,8 @@ from optimizer.outputs.registry import OUTPUTS
 from schemas.answers import AnalyzeAnswer, OptimizeAnswer
 from schemas.outputs import OutputName
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest, Fidelity
+from schemas.requests import AnalyzeRequest
+from schemas.scene import Fidelity
 from tests.effects.machines import EVERY, complete
 
 _ASKED = {name: OUTPUTS[name].needs for name in EVERY}

@@ -14,7 +14,7 @@ from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles
 from optimizer.numerics.arrays import Real
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Fidelity
+from schemas.scene import Fidelity
 from tests.analyze.driven import STYLES, random_driven
 
 

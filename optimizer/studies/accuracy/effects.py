@@ -27,7 +27,7 @@ from optimizer.studies.accuracy.ladder import median_ms, timed
 from schemas.accuracy import EffectRow
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Fidelity
+from schemas.scene import Fidelity
 
 STEPS_DEG = (30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1)
 #: rows of a machine up to which the ladder is made

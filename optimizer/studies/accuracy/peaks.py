@@ -25,7 +25,7 @@ from optimizer.studies.accuracy.ladder import median_ms, timed
 from schemas.accuracy import PeakRow
 from schemas.machine import Machine
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Fidelity
+from schemas.scene import Fidelity
 
 TOLERANCES = (1e-3, 1e-6, 1e-9)
 STEPS_DEG = (30.0, 10.0, 5.0, 1.0, 0.1, 0.01)

@@ -19,7 +19,8 @@ from optimizer.studies.accuracy.effects import (
 )
 from schemas.accuracy import EffectRow
 from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest, Fidelity
+from schemas.requests import AnalyzeRequest
+from schemas.scene import Fidelity
 from tests.analyze.engines import engine
 from tests.builders import RADIUS, machine, row, throw
 from tests.studies.accuracy.problems import body
