@@ -43,8 +43,8 @@ SUFFIXES = {
 
 
 def all_models() -> list[type[Model]]:
-    for module in pkgutil.iter_modules(schemas.__path__):
-        importlib.import_module(f"schemas.{module.name}")
+    for module in pkgutil.walk_packages(schemas.__path__, "schemas."):
+        importlib.import_module(module.name)
     found, rest = [], [Model]
     while rest:
         children = [c for c in rest.pop().__subclasses__() if c.__module__.startswith("schemas.")]
