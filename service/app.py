@@ -14,6 +14,9 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
 from schemas.version import package_version
+from service import validation
+from service.documents import faults as document_faults
+from service.guard import faults as guard_faults
 from service.guard.access import Access
 from service.guard.hosts import Hosts
 from service.guard.keys import keys
@@ -22,28 +25,45 @@ from service.guard.rates import RateLimits
 from service.guard.shares import Shares
 from service.guard.threads import Threads
 from service.guard.users import Users
-from service.http import errors
+from service.http import faults as http_faults
+from service.http import leaving
 from service.http.computing import Computing
 from service.http.cors import Cors
 from service.http.direct import Direct
+from service.http.errors import ErrorAnswers, joined
 from service.http.openapi import Documented
 from service.http.pacing import Pacing
 from service.http.rounds import Rounds
 from service.http.security_headers import SecurityHeaders
+from service.jobs import faults as job_faults
 from service.jobs.desk import Desk
 from service.jobs.events import Watch
 from service.routes import computations, effects, examples, health, portal, reference_page, sweeps
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
+from service.watch import faults as watch_faults
 from service.watch.metrics import Metrics
 from service.watch.needs import database, disk
 from service.watch.readiness import Readiness
 from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
+from service.workers import faults as worker_faults
 from service.workers.pool import Pool
 
 _RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, portal)
+
+#: what is said about every exception, as the rooms declare it; the last one is the last resort
+FAULTS = joined(
+    validation.FAULTS,
+    document_faults.FAULTS,
+    guard_faults.FAULTS,
+    job_faults.FAULTS,
+    worker_faults.FAULTS,
+    watch_faults.FAULTS,
+    leaving.FAULTS,
+    http_faults.FAULTS,
+)
 
 #: what pages of the origins that are allowed may send and read
 CORS: Mapping[str, Any] = {
@@ -107,7 +127,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         chosen.solve_memory_mb,
         chosen.data_dir,
     )
-    threads, rounds = Threads(), Rounds()
+    threads, rounds, errors = Threads(), Rounds(), ErrorAnswers(FAULTS)
     readiness = Readiness(
         {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)},
         threads,
@@ -158,9 +178,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
                 Hosts(chosen.allowed_hosts),
                 RateLimits(chosen),
                 Shares(chosen),
-                errors.answered,
+                errors.answer,
             ),
-            Middleware(Direct, computations.endpoints()),
+            Middleware(Direct, computations.endpoints(), errors),
         ),
         title="counterweight",
         version=package_version(),

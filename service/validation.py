@@ -2,15 +2,17 @@
 
 import json
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from itertools import islice
 from typing import TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from optimizer.errors import MissingInput, NotComputable, OutOfRange
 from schemas.base import FieldProblem, Model
 from schemas.rules import REQUIRED, Path
+from service.problems import Fault, FaultTable
 
 Request = TypeVar("Request", bound=Model)
 MAX_ERRORS = 50
@@ -59,6 +61,28 @@ class InvalidRequest(ValueError):
         self.problems = found[:MAX_ERRORS]
         self.more = len(found) > MAX_ERRORS
         super().__init__("invalid request")
+
+
+def _fields(title: str, problems: Sequence[FieldProblem], more: bool) -> Fault:
+    if more:
+        detail = f"More than {MAX_ERRORS} fields are wrong; the first are listed."
+    else:
+        detail = "1 field is wrong." if len(problems) == 1 else f"{len(problems)} fields are wrong."
+    return Fault(422, title, detail, problems)
+
+
+def _not_computable(title: str) -> Callable[[NotComputable], Fault]:
+    return lambda error: _fields(title, error.problems[:MAX_ERRORS], len(error.problems) > MAX_ERRORS)
+
+
+#: what is said about bodies, and about requests that are well formed and still cannot be computed
+FAULTS: FaultTable = {
+    UnreadableJson: lambda error: Fault(400, "Unreadable JSON", f"The body is not JSON: {error}."),
+    UnreadableBody: lambda error: Fault(400, "Unreadable body", f"The body is no workbook: {error}."),
+    InvalidRequest: lambda error: _fields("Invalid request", error.problems, error.more),
+    MissingInput: _not_computable("Missing input"),
+    OutOfRange: _not_computable("Out of range"),
+}
 
 
 def read_json(data: bytes) -> object:

@@ -93,7 +93,7 @@ class Computing:
         ------
         NotAcceptable, NotReady, UnsupportedMedia, BodyTooLarge, BodyTooSlow, UnreadableBody, InvalidRequest, OverShare,
         MissingInput, OutOfRange, OutOfMemory, Busy, TooSlow, WorkerDied, WorkersFailed, ClientGone
-            all of which have a row in the table of :mod:`service.http.errors`, as those of jobs have.
+            all of which have a row in the tables that :mod:`service.app` joins, as those of jobs have.
         """
         form = _form(request, asked_for)
         self._readiness.require()

@@ -4,7 +4,6 @@ import asyncio
 import sys
 from collections.abc import Callable
 from contextlib import suppress
-from functools import cache
 from typing import Any
 from urllib.parse import unquote
 
@@ -13,14 +12,14 @@ from uvicorn.protocols.http.flow_control import HIGH_WATER_LIMIT
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.guard.addresses import client_network
-from service.guard.refusals import TooManyConnections
-from service.http.errors import PROBLEM_JSON, Fault, fault, problem
 from service.http.framing import Framing, TwoLengths
 from service.http.idleness import Idleness
 from service.http.joined import Joined
 from service.http.leaving import CLIENT, Client
 from service.http.plain_requests import Head, Heads, PlainCycle
+from service.http.refusal import last_answer, no_room
 from service.http.rounds import Rounds
+from service.problems import Fault
 from service.settings import Settings
 
 #: what may wait to be read by a client, and what is read of it at a time [bytes]
@@ -296,27 +295,8 @@ class Connection(H11Protocol):
             self.cycle.message_event.set()
         # if an answer is on its way already, what follows its question is no HTTP
         with suppress(h11.LocalProtocolError):
-            self.transport.write(_refusal(self.conn, fault))
+            self.transport.write(last_answer(self.conn, fault))
         self.transport.close()
-
-
-@cache
-def no_room() -> bytes:
-    """The answer to a connection for which there is no room, made once: whoever comes too often is told as often."""
-    return _refusal(h11.Connection(h11.SERVER), fault(TooManyConnections()))
-
-
-def _refusal(connection: h11.Connection, fault: Fault) -> bytes:
-    """An answer that is the last of its connection."""
-    content = problem(fault, "").model_dump_json().encode()
-    headers = [
-        *((name.encode(), value.encode()) for name, value in fault.headers.items()),
-        (b"content-type", PROBLEM_JSON.encode()),
-        (b"content-length", str(len(content)).encode()),
-        (b"connection", b"close"),
-    ]
-    events = (h11.Response(status_code=fault.status, headers=headers), h11.Data(data=content), h11.EndOfMessage())
-    return b"".join(connection.send(event) or b"" for event in events)
 
 
 def _nothing() -> None:

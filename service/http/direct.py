@@ -9,7 +9,7 @@ from starlette.responses import Response
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.guard.access import own_path
-from service.http.errors import FAULTS, answered
+from service.http.errors import ErrorAnswers
 
 #: answers a request, or says in an exception why it does not
 Endpoint = Callable[[Request], Coroutine[Any, Any, Response]]
@@ -32,9 +32,10 @@ class Direct:
     app : answers all else, another method at these paths too.
     """
 
-    def __init__(self, app: ASGIApp, endpoints: Mapping[str, Endpoint]) -> None:
+    def __init__(self, app: ASGIApp, endpoints: Mapping[str, Endpoint], errors: ErrorAnswers) -> None:
         self._app = app
         self._endpoints = endpoints
+        self._errors = errors
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
         path = own_path(scope) if scope["type"] == "http" and scope["method"] == "POST" else ""
@@ -47,8 +48,8 @@ class Direct:
         try:
             response = await endpoint(Request(scope, receive, send))
         except Exception as error:
-            response = answered(error, scope["path"])
-            if not any(kind in FAULTS for kind in type(error).__mro__[: -len(Exception.__mro__)]):
+            response = self._errors.answer(error, scope["path"])
+            if not self._errors.foreseen(error):
                 unforeseen = error
             else:
                 # one that several wait for would grow with each of them

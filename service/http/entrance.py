@@ -16,9 +16,8 @@ from service.guard.access import own_path
 from service.guard.addresses import client_network
 from service.guard.doors import Doors
 from service.guard.keys import PROBES
-from service.guard.refusals import TooManyConnections
-from service.http.connections import Connection, no_room
-from service.http.errors import answered
+from service.http.connections import Connection
+from service.http.refusal import no_room, response, too_many_connections
 from service.http.rounds import Rounds
 
 _LOG = logging.getLogger(__name__)
@@ -206,7 +205,7 @@ def _probes_only(app: Callable[..., Any]) -> Callable[..., Any]:
         if scope["type"] == "http" and own_path(scope) in PROBES:
             await app(scope, receive, send)
             return
-        refusal = answered(TooManyConnections(), scope["path"])
+        refusal = response(too_many_connections(), scope["path"])
         refusal.headers["Connection"] = "close"
         await refusal(scope, receive, send)
 

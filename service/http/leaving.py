@@ -7,6 +7,8 @@ from types import TracebackType
 from starlette.requests import Request
 from uvicorn.protocols.http.flow_control import FlowControl
 
+from service.problems import FaultTable, fixed
+
 #: of the state of a request: its client, where the server says itself when it goes
 CLIENT = "client"
 Leave = Callable[[], object]
@@ -14,6 +16,10 @@ Leave = Callable[[], object]
 
 class ClientGone(Exception):
     """The client closed its connection; nobody waits for the answer."""
+
+
+#: nobody reads this but the log and the metrics; the number is that of nginx
+FAULTS: FaultTable = {ClientGone: fixed(499, "Client gone", "The client closed its connection.")}
 
 
 class Client:

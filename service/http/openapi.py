@@ -18,8 +18,8 @@ from schemas.sweep import SweepRequest
 from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
 from service.guard.keys import PUBLIC
-from service.http.errors import PROBLEM_JSON
 from service.http.kept import Kept
+from service.problems import PROBLEM_JSON
 
 #: statuses that every computing route may answer with
 COMPUTE_PROBLEMS = (400, 408, 413, 415, 422, 503)

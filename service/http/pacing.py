@@ -4,8 +4,9 @@ from collections.abc import Iterator
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.guard.faults import FAULTS
 from service.guard.shares import Holding, OverShare
-from service.http.errors import answered
+from service.http.refusal import response
 from service.http.rounds import Rounds
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
@@ -47,7 +48,7 @@ class Pacing:
                 except OverShare as error:
                     if start is not None:
                         refused = True
-                        await answered(error, scope["path"])(scope, receive, send)
+                        await response(FAULTS[OverShare](error), scope["path"])(scope, receive, send)
                         return
                     # it has begun, and is as large already as it is
                     counted = 0

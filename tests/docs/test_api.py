@@ -21,10 +21,10 @@ from schemas.outputs import OutputName
 from schemas.pareto import ParetoRequest
 from schemas.rating import RatingRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
-from service.app import create_app
+from service.app import FAULTS, create_app
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES
-from service.http.errors import FAULTS, problem
+from service.problems import problem
 from service.settings import Settings
 from tests.docs.reading import ROOT, agrees, blocks, section
 

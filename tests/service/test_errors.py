@@ -9,8 +9,7 @@ from starlette.exceptions import HTTPException
 from starlette.testclient import TestClient
 
 from schemas.problem import Problem
-from service.app import create_app
-from service.http.errors import FAULTS
+from service.app import FAULTS, create_app
 from service.settings import Settings
 from tests.service.conftest import MAX_BODY_BYTES
 

@@ -1,0 +1,43 @@
+"""What is said about requests that are none, about routes, and where nobody foresaw what happened."""
+
+from http import HTTPStatus
+
+from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
+from starlette.requests import ClientDisconnect
+
+from service.http.accept import NotAcceptable
+from service.http.computing import ComputationFailed
+from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
+from service.problems import Fault, FaultTable, fixed
+
+_HTTP_DETAILS = {
+    404: "There is nothing at this path.",
+    405: "The path does not answer this method; the header Allow names those that it answers.",
+}
+
+
+def _http(error: HTTPException) -> Fault:
+    title = HTTPStatus(error.status_code).phrase
+    detail = _HTTP_DETAILS.get(error.status_code, f"{title}.")
+    return Fault(error.status_code, title, detail, headers=error.headers or {})
+
+
+def _parameters(error: RequestValidationError) -> Fault:
+    names = ", ".join(sorted({str(detail["loc"][-1]) for detail in error.errors()}))
+    return Fault(422, "Invalid parameter", f"Wrong parameters of path or query: {names}.")
+
+
+_internal = fixed(500, "Internal error", "The service failed; its log says why.")
+
+FAULTS: FaultTable = {
+    ClientDisconnect: fixed(400, "Incomplete request", "The body ended early."),
+    NotAcceptable: fixed(406, "Not acceptable"),
+    BodyTooSlow: fixed(408, "Body too slow"),
+    BodyTooLarge: fixed(413, "Body too large"),
+    UnsupportedMedia: fixed(415, "Unsupported media type"),
+    RequestValidationError: _parameters,
+    HTTPException: _http,
+    ComputationFailed: _internal,
+    Exception: _internal,
+}
