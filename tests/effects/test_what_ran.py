@@ -6,10 +6,9 @@ from typing import Any
 
 import pytest
 
-from optimizer import analyze, optimize
+from optimizer import analyze, optimize, pareto
 from optimizer.effects import registry
 from optimizer.effects.effect import Context, Effect
-from optimizer.studies import pareto
 from schemas.pareto import ParetoRequest
 from schemas.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import bodies
