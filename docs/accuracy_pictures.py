@@ -9,7 +9,7 @@ from accuracy_conclusions import on_effects, on_ladders, on_peaks
 from optimizer.mechanics.layout import layout
 from optimizer.studies.accuracy.measure import accuracy
 from optimizer.studies.accuracy.peaks import peaks_ladder
-from schemas.accuracy import AccuracyAnswer, AccuracyRequest
+from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
 from service.accuracy_picture import draw
 from service.documents.examples import load
 from service.report.chapters.accuracy import method_name

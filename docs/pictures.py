@@ -13,7 +13,7 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 from optimizer.optimize import optimize  # noqa: E402
-from schemas.requests import OptimizeRequest  # noqa: E402
+from schemas.request.requests import OptimizeRequest  # noqa: E402
 
 DOCS = Path(__file__).parent
 BEFORE, AFTER, FLOOR = "#d55e00", "#0072b2", "#7f7f7f"  # distinct for the colour-blind as well

@@ -12,9 +12,9 @@ from optimizer.formulation.counterweights import as_given
 from optimizer.formulation.placement import on_webs
 from optimizer.mechanics.shapes import fitted_masses, plates
 from optimizer.outputs.registry import fields, prepare
-from schemas.answers import AnalyzeAnswer, Timing
-from schemas.base import FieldProblem
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import AnalyzeAnswer, Timing
+from schemas.base.model import FieldProblem
+from schemas.request.requests import AnalyzeRequest
 
 #: by which a mass that was answered may be above what its envelope holds
 _ROUNDING = 1e-12

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 
-from schemas.base import FieldProblem
+from schemas.base.model import FieldProblem
 
 
 class NotComputable(ValueError):

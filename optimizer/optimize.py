@@ -14,8 +14,8 @@ from optimizer.solve.process_solver import own_solver
 from optimizer.solve.solve import solve
 from optimizer.solve.turn_residual import with_turn
 from optimizer.solve.worst_case import nothing_off
-from schemas.answers import Certificate, OptimizeAnswer, Timing
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate, OptimizeAnswer, Timing
+from schemas.request.requests import OptimizeRequest
 
 #: outputs that every answer holds, and what it holds too where bearings or bending count, or the roll moment
 _ALWAYS = ("residual",)

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from schemas.requests import OptimizeRequest
+    from schemas.request.requests import OptimizeRequest
 
 #: of the objective, what the reference solver is to reach in its first attempt
 _GAP = 1e-6
@@ -41,7 +41,7 @@ def plain_discs() -> "OptimizeRequest":
 
 def _solved(budget: float | None) -> "OptimizeRequest":
     from optimizer.optimize import optimize
-    from schemas.requests import OptimizeRequest
+    from schemas.request.requests import OptimizeRequest
 
     request = OptimizeRequest.model_validate({"machine": {**_machine(), "max_total_mass_kg": budget}})
     answer = optimize(request)
@@ -53,7 +53,7 @@ def _solved(budget: float | None) -> "OptimizeRequest":
 def follow_a_turn() -> None:
     """Loads of a rod over the whole turn, with their exact peaks."""
     from optimizer.analyze import analyze
-    from schemas.requests import AnalyzeRequest
+    from schemas.request.requests import AnalyzeRequest
 
     analyze(AnalyzeRequest.model_validate({"machine": _machine(), "outputs": ["rod_loads"]}))
 
@@ -64,7 +64,7 @@ def match_parts() -> None:
 
     from optimizer.studies.matching.kernel.meeting import met
     from optimizer.studies.matching.match import match
-    from schemas.match import MatchRequest
+    from schemas.match.request import MatchRequest
 
     throws = [
         {

@@ -7,19 +7,19 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from schemas.accuracy import AccuracyAnswer, AccuracyRequest
-    from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-    from schemas.match import MatchRequest
-    from schemas.match_answer import MatchAnswer
-    from schemas.pareto import ParetoAnswer, ParetoRequest
-    from schemas.rating import RatingRequest
-    from schemas.rating_answer import RatingAnswer
-    from schemas.reciprocating import ReciprocatingMachine
-    from schemas.requests import AnalyzeRequest, OptimizeRequest
-    from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
-    from schemas.scroll_machine import ScrollMachine
-    from schemas.sweep import SweepRequest
-    from schemas.verify import VerifyAnswer, VerifyRequest
+    from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+    from schemas.front.pareto import ParetoAnswer, ParetoRequest
+    from schemas.machine.reciprocating import ReciprocatingMachine
+    from schemas.machine.scroll_machine import ScrollMachine
+    from schemas.match.answer import MatchAnswer
+    from schemas.match.request import MatchRequest
+    from schemas.rating.answer import RatingAnswer
+    from schemas.rating.request import RatingRequest
+    from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
+    from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+    from schemas.request.verify import VerifyAnswer, VerifyRequest
+    from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
+    from schemas.sweep.request import SweepRequest
 
 __all__ = [
     "AccuracyAnswer",
@@ -44,25 +44,25 @@ __all__ = [
 ]
 
 _HOMES = {
-    "AccuracyAnswer": "schemas.accuracy",
-    "AccuracyRequest": "schemas.accuracy",
-    "AnalyzeAnswer": "schemas.answers",
-    "AnalyzeRequest": "schemas.requests",
-    "MatchAnswer": "schemas.match_answer",
-    "MatchRequest": "schemas.match",
-    "OptimizeAnswer": "schemas.answers",
-    "OptimizeRequest": "schemas.requests",
-    "ParetoAnswer": "schemas.pareto",
-    "ParetoRequest": "schemas.pareto",
-    "PinLoadsAnswer": "schemas.scroll",
-    "PinLoadsRequest": "schemas.scroll",
-    "RatingAnswer": "schemas.rating_answer",
-    "RatingRequest": "schemas.rating",
-    "ReciprocatingMachine": "schemas.machine",
-    "ScrollMachine": "schemas.machine",
-    "SweepRequest": "schemas.sweep",
-    "VerifyAnswer": "schemas.verify",
-    "VerifyRequest": "schemas.verify",
+    "AccuracyAnswer": "schemas.request.accuracy",
+    "AccuracyRequest": "schemas.request.accuracy",
+    "AnalyzeAnswer": "schemas.answer.answers",
+    "AnalyzeRequest": "schemas.request.requests",
+    "MatchAnswer": "schemas.match.answer",
+    "MatchRequest": "schemas.match.request",
+    "OptimizeAnswer": "schemas.answer.answers",
+    "OptimizeRequest": "schemas.request.requests",
+    "ParetoAnswer": "schemas.front.pareto",
+    "ParetoRequest": "schemas.front.pareto",
+    "PinLoadsAnswer": "schemas.scroll.pin_loads",
+    "PinLoadsRequest": "schemas.scroll.pin_loads",
+    "RatingAnswer": "schemas.rating.answer",
+    "RatingRequest": "schemas.rating.request",
+    "ReciprocatingMachine": "schemas.machine.reciprocating",
+    "ScrollMachine": "schemas.machine.scroll_machine",
+    "SweepRequest": "schemas.sweep.request",
+    "VerifyAnswer": "schemas.request.verify",
+    "VerifyRequest": "schemas.request.verify",
 }
 
 

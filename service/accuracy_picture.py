@@ -7,7 +7,7 @@ from collections.abc import Callable
 from io import StringIO
 from itertools import groupby
 
-from schemas.accuracy import AccuracyAnswer, AccuracyRow
+from schemas.request.accuracy import AccuracyAnswer, AccuracyRow
 from service.report.chapters.accuracy import method_name
 
 #: distinct for the colour-blind as well

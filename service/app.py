@@ -13,7 +13,7 @@ from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
-from schemas.version import package_version
+from schemas.base.version import package_version
 from service import validation
 from service.documents import faults as document_faults
 from service.guard import faults as guard_faults

@@ -10,7 +10,7 @@ from pkgutil import resolve_name
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from schemas.base import Model
+    from schemas.base.model import Model
     from service.guard.keys import Scope
 
 #: ``module:name``
@@ -136,7 +136,7 @@ def _picture(name: str, what: str) -> Computation:
     return Computation(
         name=f"picture_{name}",
         path=f"/v1/pictures/{name}",
-        request="schemas.requests:OptimizeRequest",
+        request="schemas.request.requests:OptimizeRequest",
         answer=None,
         compute=f"service.report.pictures:{name}",
         summary=f"{what}, as SVG",
@@ -159,8 +159,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="optimize",
             path="/v1/optimize",
-            request="schemas.requests:OptimizeRequest",
-            answer="schemas.answers:OptimizeAnswer",
+            request="schemas.request.requests:OptimizeRequest",
+            answer="schemas.answer.answers:OptimizeAnswer",
             compute="optimizer.optimize:optimize",
             summary="Counterweights that minimise the first-order peaks, with a certificate",
             remark="An infeasible machine is answered with 200 too: `status` says so, `infeasibility` says why.",
@@ -174,8 +174,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="analyze",
             path="/v1/analyze",
-            request="schemas.requests:AnalyzeRequest",
-            answer="schemas.answers:AnalyzeAnswer",
+            request="schemas.request.requests:AnalyzeRequest",
+            answer="schemas.answer.answers:AnalyzeAnswer",
             compute="optimizer.analyze:analyze",
             summary="Forces and moments of a machine as it stands, or with given counterweights",
             remark="`outputs` says what the answer shall hold; only the effects that they need are simulated.",
@@ -186,8 +186,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="pareto",
             path="/v1/pareto",
-            request="schemas.pareto:ParetoRequest",
-            answer="schemas.pareto:ParetoAnswer",
+            request="schemas.front.pareto:ParetoRequest",
+            answer="schemas.front.pareto:ParetoAnswer",
             compute="optimizer.studies.pareto.pareto:pareto",
             summary="The certified trade-off of peak force, peak moment and total mass",
             remark="Every point is the lightest set of counterweights that no other set beats in both peaks, with a "
@@ -201,8 +201,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="accuracy",
             path="/v1/accuracy",
-            request="schemas.accuracy:AccuracyRequest",
-            answer="schemas.accuracy:AccuracyAnswer",
+            request="schemas.request.accuracy:AccuracyRequest",
+            answer="schemas.request.accuracy:AccuracyAnswer",
             compute="optimizer.studies.accuracy.measure:accuracy",
             summary="What accuracy costs in time on a machine: a ladder of methods and settings",
             remark="Times are those of this machine at this moment; errors and gaps do not depend on it.",
@@ -216,8 +216,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="pin_loads",
             path="/v1/scroll/pin-loads",
-            request="schemas.scroll:PinLoadsRequest",
-            answer="schemas.scroll:PinLoadsAnswer",
+            request="schemas.scroll.pin_loads:PinLoadsRequest",
+            answer="schemas.scroll.pin_loads:PinLoadsAnswer",
             compute="optimizer.pins.answer:pin_loads",
             summary="Loads of the anti-rotation pins of a scroll over a turn",
             remark="Where the pins cannot hold the scroll at some angle, `equilibrium` and `dead_points_deg` say so.",
@@ -229,8 +229,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="rating",
             path="/v1/rating",
-            request="schemas.rating:RatingRequest",
-            answer="schemas.rating_answer:RatingAnswer",
+            request="schemas.rating.request:RatingRequest",
+            answer="schemas.rating.answer:RatingAnswer",
             compute="optimizer.rating.rate:rate",
             summary="Thermal design of a compressor: sizes, pressures, loads and powers",
             remark="Figures out of their customary range are answered with 200 too; `warnings` names them.",
@@ -242,8 +242,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="match",
             path="/v1/match",
-            request="schemas.match:MatchRequest",
-            answer="schemas.match_answer:MatchAnswer",
+            request="schemas.match.request:MatchRequest",
+            answer="schemas.match.answer:MatchAnswer",
             compute="optimizer.studies.matching.match:match",
             summary="Which weighed part goes on which row, each once, with a certificate",
             remark="Masses of parts are added to the reciprocating masses of the rows. An assignment that is not proven"
@@ -256,7 +256,7 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="convert",
             path="/v1/convert",
-            request="schemas.requests:OptimizeRequest",
+            request="schemas.request.requests:OptimizeRequest",
             answer=None,
             compute="service.computations:itself",
             summary="A request itself, checked: a workbook as JSON, or JSON as a workbook",
@@ -273,8 +273,8 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="verify",
             path="/v1/verify",
-            request="schemas.verify:VerifyRequest",
-            answer="schemas.verify:VerifyAnswer",
+            request="schemas.request.verify:VerifyRequest",
+            answer="schemas.request.verify:VerifyAnswer",
             compute="service.verification:verify",
             summary="Whether the claims of an answer hold, evaluated anew from request and answer alone",
             remark="Intervals of whole numbers enclose every rounding. A broken claim is answered with 200 too: "
@@ -285,7 +285,7 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="report",
             path="/v1/report",
-            request="schemas.report:ReportRequest",
+            request="schemas.request.report:ReportRequest",
             answer=None,
             compute="service.report.document:report",
             summary="A document on a machine and its counterweights, as HTML or PDF",
@@ -299,7 +299,7 @@ COMPUTATIONS: dict[str, Computation] = {
         Computation(
             name="drawings",
             path="/v1/drawings",
-            request="schemas.drawings:DrawingsRequest",
+            request="schemas.request.drawings:DrawingsRequest",
             answer=None,
             compute="service.drawings.drawn:drawings",
             summary="Drawings of the counterweights for a workshop and for other CAD, in one zip file",

@@ -8,9 +8,9 @@ from dataclasses import dataclass, field
 from typing import Any
 from urllib.parse import quote
 
-from schemas.base import FieldProblem
-from schemas.problem import FieldError, Problem
-from schemas.target import pointer
+from schemas.answer.problem import FieldError, Problem
+from schemas.base.model import FieldProblem
+from schemas.base.target import pointer
 
 PROBLEM_JSON = "application/problem+json"
 _LONGEST_PATH = 200

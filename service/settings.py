@@ -9,10 +9,10 @@ from typing import Annotated, Any, Literal
 from pydantic import AliasChoices, BeforeValidator, Field, StringConstraints, ValidationError
 from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
-from schemas.reciprocating import MAX_ROWS_TOGETHER
-from schemas.rotor import MAX_WEBS
-from schemas.sweep import MAX_DESIGNS
-from schemas.throws import MAX_THROWS
+from schemas.machine.reciprocating import MAX_ROWS_TOGETHER
+from schemas.machine.rotor import MAX_WEBS
+from schemas.machine.throws import MAX_THROWS
+from schemas.sweep.axes import MAX_DESIGNS
 
 _PREFIX = "COUNTERWEIGHT_"
 #: variables of clients, of the workbench and of the deployment files, which the service does not read

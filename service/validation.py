@@ -10,8 +10,8 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from optimizer.errors import MissingInput, NotComputable, OutOfRange
-from schemas.base import FieldProblem, Model
-from schemas.rules import REQUIRED, Path
+from schemas.base.model import FieldProblem, Model
+from schemas.base.rules import REQUIRED, Path
 from service.problems import Fault, FaultTable
 
 Request = TypeVar("Request", bound=Model)

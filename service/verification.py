@@ -5,8 +5,8 @@ from functools import cache
 from importlib.util import module_from_spec, spec_from_file_location
 from types import ModuleType
 
-from schemas.base import FieldProblem
-from schemas.verify import VerifyAnswer, VerifyRequest
+from schemas.base.model import FieldProblem
+from schemas.request.verify import VerifyAnswer, VerifyRequest
 from service.documents.examples import directory
 from service.validation import InvalidRequest
 

@@ -12,10 +12,10 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.stages import stages
-from schemas.outputs import Stage
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import ConnectingRod, Row, Throw
-from schemas.webs import Web
+from schemas.answer.outputs import Stage
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import ConnectingRod, Row, Throw
+from schemas.machine.webs import Web
 
 OMEGA = 50.0  # rad/s, the speed of the seeds' reference figures
 RPM = OMEGA * 30.0 / np.pi

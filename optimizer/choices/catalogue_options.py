@@ -12,10 +12,10 @@ from optimizer.formulation.limits import largest_mass, sectors
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.crank_of_web import crank_angles
 from optimizer.numerics.arrays import Real
-from schemas.base import FieldProblem
-from schemas.catalogue import Catalogue, in_sector
-from schemas.machine import Machine
-from schemas.webs import Web
+from schemas.base.model import FieldProblem
+from schemas.machine.catalogue import Catalogue, in_sector
+from schemas.machine.machine import Machine
+from schemas.machine.webs import Web
 
 #: masses that agree this closely, relative, are one part number
 _SAME = 1e-9

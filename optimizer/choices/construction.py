@@ -7,7 +7,7 @@ from optimizer.choices.minimum_masses import MinimumMasses
 from optimizer.mechanics.layout import stacked
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 
 def feasible_set(request: OptimizeRequest, limits: Limits, solver: Solver) -> FeasibleSet | None:

@@ -12,7 +12,7 @@ from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
-from schemas.machine import Machine
+from schemas.machine.machine import Machine
 
 #: of a mass, relative: what is this near to the least is the least
 _ROUNDING = 1e-11

@@ -32,10 +32,10 @@ from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import ROUNDING
-from schemas.base import FieldProblem
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.rules import Rule
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Rule
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 _WIDEST_PANEL = np.deg2rad(10.0)
 

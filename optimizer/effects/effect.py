@@ -6,10 +6,10 @@ from typing import Any
 
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
-from schemas.base import FieldProblem
-from schemas.machine import Machine
-from schemas.rules import Rule
-from schemas.scene import Fidelity
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Rule
+from schemas.machine.machine import Machine
+from schemas.request.scene import Fidelity
 
 
 @dataclass(frozen=True)

@@ -6,9 +6,9 @@ from optimizer.effects.effect import Context, Effect
 from optimizer.mechanics.inertia import Wrench, reciprocating, rotating
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.numerics.arrays import Real
-from schemas.base import FieldProblem
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.base.model import FieldProblem
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 #: orders above the second that are reported; odd ones vanish for a slider-crank
 HIGHER_ORDERS = (4, 6)

@@ -15,11 +15,11 @@ from optimizer.effects.scroll import SCROLL
 from optimizer.mechanics.inertia import Wrench
 from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Real
-from schemas.answers import EffectUse
-from schemas.base import FieldProblem
-from schemas.machine import Machine
-from schemas.rules import Rule
-from schemas.scene import Fidelity
+from schemas.answer.answers import EffectUse
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Rule
+from schemas.machine.machine import Machine
+from schemas.request.scene import Fidelity
 
 #: every effect; each stands after those that it needs
 EFFECTS: dict[str, Effect] = {effect.name: effect for effect in (*INERTIA, *DYNAMICS, *SCROLL)}

@@ -5,13 +5,13 @@ from collections.abc import Iterator
 from optimizer.effects.effect import Context, Effect
 from optimizer.errors import MissingInput
 from optimizer.pins.answer import pin_loads
-from schemas.angles import Angles
-from schemas.base import FieldProblem
-from schemas.machine import Machine
-from schemas.over_turn import LARGEST_PIN_RADIUS_M, LEAST_PIN_RADIUS_M
-from schemas.rules import Rule
-from schemas.scroll import MAX_LOADS, PinLoadsAnswer, PinLoadsRequest
-from schemas.scroll_machine import CrankPins, ScrollMachine
+from schemas.base.angles import Angles
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Rule
+from schemas.machine.machine import Machine
+from schemas.machine.scroll_machine import CrankPins, ScrollMachine
+from schemas.scroll.over_turn import LARGEST_PIN_RADIUS_M, LEAST_PIN_RADIUS_M
+from schemas.scroll.pin_loads import MAX_LOADS, PinLoadsAnswer, PinLoadsRequest
 
 
 def _question(machine: ScrollMachine, guide: CrankPins, angles: Angles) -> PinLoadsRequest:

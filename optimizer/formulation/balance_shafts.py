@@ -15,11 +15,11 @@ from optimizer.formulation.formulate import with_weights_of
 from optimizer.mechanics.fixed_weights import beside, fixed_webs
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
-from schemas.counterweights import Counterweight, FittedShaft
-from schemas.machine import Machine
-from schemas.reciprocating import BalanceShaft, ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.webs import Web
+from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
+from schemas.machine.webs import Web
+from schemas.request.requests import OptimizeRequest
 
 _TURNS = {1: "at its speed", 2: "at twice its speed"}
 

@@ -12,11 +12,11 @@ from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
-from schemas.counterweights import Counterweight, Shape
-from schemas.fitted import FittedCounterweight, GivenCounterweight
-from schemas.machine import Machine
-from schemas.reciprocating import BalanceShaft, ReciprocatingMachine
-from schemas.webs import Web
+from schemas.answer.counterweights import Counterweight, Shape
+from schemas.machine.fitted import FittedCounterweight, GivenCounterweight
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
+from schemas.machine.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn
 _ROUNDING = 8 * float(np.finfo(float).eps)

@@ -20,10 +20,10 @@ from optimizer.numerics.memoization import remembered
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Response
-from schemas.limits import CeilingField, MachineLimit
-from schemas.machine import Machine
-from schemas.objective import Objective
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.answer.limits import CeilingField, MachineLimit
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.objective import Objective
 
 
 @remembered

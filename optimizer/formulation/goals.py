@@ -28,12 +28,12 @@ from optimizer.program.rows import Row, combined, weighted_peak
 from optimizer.responses.component import component
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
-from schemas.base import FieldProblem
-from schemas.limits import CeilingField, MachineLimit
-from schemas.objective import Objective
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.scene import Fidelity
+from schemas.answer.limits import CeilingField, MachineLimit
+from schemas.base.model import FieldProblem
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
+from schemas.request.scene import Fidelity
 
 
 @dataclass(frozen=True)

@@ -10,8 +10,8 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.crank_of_web import crank_angles
 from optimizer.numerics.memoization import remembered
 from optimizer.program.equal_castings import Alike
-from schemas.base import FieldProblem
-from schemas.machine import Machine
+from schemas.base.model import FieldProblem
+from schemas.machine.machine import Machine
 
 #: what webs of a group have in common, beside their sectors and holes as seen from their own cranks
 _ALIKE = (

@@ -20,8 +20,8 @@ from optimizer.numerics.arrays import Real, Reals, mapped, spread
 from optimizer.numerics.memoization import remembered
 from optimizer.program.limits import Limits
 from optimizer.program.sensitivity import ShadowPrices
-from schemas.limits import MachineLimit, WebLimit
-from schemas.machine import Machine
+from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.machine.machine import Machine
 
 #: a limit counts as touched when what it limits is nearer than this share of it; optima may differ by
 #: 1e-6 of the objective, which is more than that of a mass

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
-from schemas.webs import Web
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.webs import Web
+from schemas.request.requests import AnalyzeRequest
 
 _PLACE = Web(name="place", position_m=0.0, counterweight_radius_m=1.0, max_mass_kg=None)
 

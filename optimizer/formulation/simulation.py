@@ -17,10 +17,10 @@ from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, r
 from optimizer.mechanics.layout import Layout, layout, spread
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.response import Response
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scene import Scene
-from schemas.scroll_machine import ScrollMachine
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.scroll_machine import ScrollMachine
+from schemas.request.scene import Scene
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,8 @@ from optimizer.mechanics.balance_rate import web_shares
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import remembered
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 @remembered

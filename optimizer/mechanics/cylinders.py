@@ -11,12 +11,12 @@ from optimizer.mechanics.indicated import SLIVER, TURN, Trace, entries
 from optimizer.mechanics.kinematics import own_angle
 from optimizer.mechanics.layout import Layout, stacked
 from optimizer.numerics.arrays import Real
-from schemas.base import FieldProblem
-from schemas.cylinder import Cylinder
-from schemas.indicated import DEAD_CENTRE_DEG, TURN_DEG, IndicatedPressure, PressureTrace
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.rules import Path, Rule
-from schemas.throws import row_cylinders
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Path, Rule
+from schemas.machine.cylinder import Cylinder
+from schemas.machine.indicated import DEAD_CENTRE_DEG, TURN_DEG, IndicatedPressure, PressureTrace
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import row_cylinders
 
 _SIDES = ("head", "crank")
 _STATE = (

@@ -8,7 +8,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import Layout, Rotating, stacked
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import remembered
-from schemas.machine import Machine
+from schemas.machine.machine import Machine
 
 
 @remembered

@@ -13,9 +13,9 @@ import numpy as np
 
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.rotor import Rotor
-from schemas.scroll_machine import ScrollMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.rotor import Rotor
+from schemas.machine.scroll_machine import ScrollMachine
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from optimizer.mechanics.bearings import continuous_beam_influence, simple_spans
 from optimizer.mechanics.layout import stacked
 from optimizer.mechanics.shaft_curves import Influence
 from optimizer.numerics.arrays import Real
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 #: loads of the bearings, by the model of the shaft
 INFLUENCES: dict[str, Influence] = {

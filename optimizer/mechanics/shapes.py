@@ -12,8 +12,8 @@ from optimizer.mechanics.envelope import AnnularSector, Segment
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Real
 from optimizer.numerics.memoization import remembered
-from schemas.machine import Machine
-from schemas.webs import Envelope
+from schemas.machine.machine import Machine
+from schemas.machine.webs import Envelope
 
 _SHAPES: Mapping[str, type[AnnularSector | Segment]] = {"sector": AnnularSector, "segment": Segment}
 

@@ -7,7 +7,7 @@ from optimizer.mechanics.angles import angle_deg
 from optimizer.mechanics.balance_quality import in_planes, permissible_unbalance, plane_shares
 from optimizer.mechanics.inertia import Wrench, counterweights
 from optimizer.numerics.arrays import Complex
-from schemas.balance_quality import BalanceQuality, GradeReached, Grading, PlaneUnbalance
+from schemas.machine.balance_quality import BalanceQuality, GradeReached, Grading, PlaneUnbalance
 
 
 def balance_quality(scene: Prepared, unbalance: Complex | None) -> GradeReached | None:

@@ -10,10 +10,10 @@ from optimizer.mechanics.crank_of_web import shares
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from schemas.answers import BalanceRate
-from schemas.machine import Machine
-from schemas.outputs import labels
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.answer.answers import BalanceRate
+from schemas.answer.outputs import labels
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 class Cranks(NamedTuple):

@@ -22,10 +22,10 @@ from optimizer.outputs.peaks import (
 )
 from optimizer.responses.curve import floors
 from optimizer.responses.piecewise_cubics import Bracket
-from schemas.drive import Bearing
-from schemas.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
-from schemas.outputs import labels
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.answer.dynamics import BearingLoad, BendingMoment, MainBearing, MainBearings
+from schemas.answer.outputs import labels
+from schemas.machine.drive import Bearing
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 def main_bearings(scene: Prepared, unbalance: Complex | None) -> MainBearings:

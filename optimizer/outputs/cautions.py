@@ -13,16 +13,16 @@ from optimizer.mechanics.cylinders import without_gas
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.balance_rate import cranks
 from optimizer.outputs.peaks import at_least, bearing_and_bending_curves, of_shaft
-from schemas.answers import BalanceRate, Certificate
-from schemas.base import Model
-from schemas.caution import Caution, CautionCode
-from schemas.dynamics import MainBearings
-from schemas.first_order import Residual
-from schemas.loads import Loads
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.robust import Sensitivity
-from schemas.sweep import pointer
+from schemas.answer.answers import BalanceRate, Certificate
+from schemas.answer.caution import Caution, CautionCode
+from schemas.answer.dynamics import MainBearings
+from schemas.answer.first_order import Residual
+from schemas.answer.loads import Loads
+from schemas.answer.robust import Sensitivity
+from schemas.base.model import Model
+from schemas.base.target import pointer
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
 
 #: a share of what the machine shakes with that is worth a word
 _NOTABLE = 1e-3

@@ -2,7 +2,7 @@
 
 from optimizer.effects.registry import EFFECTS, effects_of, inputs_of
 from optimizer.outputs.registry import OUTPUTS
-from schemas.effects import EffectCatalogue, EffectEntry, OutputEntry
+from schemas.answer.effects import EffectCatalogue, EffectEntry, OutputEntry
 
 
 def catalogue() -> EffectCatalogue:

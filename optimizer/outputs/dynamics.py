@@ -10,8 +10,7 @@ from optimizer.mechanics.row_series import Reading
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import Extremes, bracket, largest_of_rows, of_rows, of_torque
-from schemas.details import Case
-from schemas.dynamics import (
+from schemas.answer.dynamics import (
     Chamber,
     Flywheel,
     Gas,
@@ -28,8 +27,9 @@ from schemas.dynamics import (
     RowTorque,
     Torque,
 )
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import row_cylinders
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import row_cylinders
+from schemas.sweep.details import Case
 
 _SIDES: tuple[Literal["head", "crank"], ...] = ("head", "crank")
 

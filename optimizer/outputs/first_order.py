@@ -14,9 +14,9 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import orders_of, vectors_of
 from optimizer.responses.response import Phasors
-from schemas.first_order import FirstOrder, Floor, Residual
-from schemas.outputs import Hodograph, Hodographs
-from schemas.proof import BoundMultipliers
+from schemas.answer.first_order import FirstOrder, Floor, Residual
+from schemas.answer.outputs import Hodograph, Hodographs
+from schemas.answer.proof import BoundMultipliers
 
 #: x and y
 _AXES = np.array([1.0, 1j]).reshape(2, 1, 1)
@@ -113,7 +113,7 @@ def _hodograph(wrench: Wrench, angle_rad: Real) -> Hodograph:
 
 
 def _ellipses(vectors: Complex) -> list[dict[str, dict[str, float]]]:
-    """Fields of the ellipses (:class:`schemas.first_order.FirstOrder`) of the phasors (n, 2, 2) of wrenches."""
+    """Fields of the ellipses (:class:`schemas.answer.first_order.FirstOrder`) of the phasors (n, 2, 2) of wrenches."""
     pairs = Phasors(vectors[..., 0], vectors[..., 1])
     along_x, along_y = pairs.peak_along(_AXES)
     figures = {

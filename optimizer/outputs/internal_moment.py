@@ -6,7 +6,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.internal_moment import internal_moment
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
-from schemas.outputs import InternalMoment
+from schemas.answer.outputs import InternalMoment
 
 
 def _peak(scene: Prepared, unbalance: Complex | None) -> Real:

@@ -17,10 +17,10 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.dynamics import rows_of
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import largest_of_rows, of_rows, of_torque
-from schemas.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
-from schemas.outputs import labels
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import row_cylinders
+from schemas.answer.loads import BearingWeight, CoverLoad, FrameLoad, GuideLoad, Loads, RowLoad, ThrowMass
+from schemas.answer.outputs import labels
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import row_cylinders
 
 
 def _figure(scene: Prepared, fitted: Complex | None) -> Loads:

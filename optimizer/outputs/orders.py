@@ -8,7 +8,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.phasors import orders_of, vectors_of
-from schemas.outputs import OrdersComparison
+from schemas.answer.outputs import OrdersComparison
 
 
 def _by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:

@@ -12,12 +12,12 @@ from optimizer.numerics.arrays import Complex, Real
 
 @dataclass(frozen=True)
 class Columns:
-    """What an output comes to in a sweep; names, units and meanings are declared in :mod:`schemas.outputs`.
+    """What an output comes to in a sweep; names, units and meanings are declared in :mod:`schemas.answer.outputs`.
 
     values : of a scene of designs and their counterweights (n, webs) kg m, nan where there are none; (n,) by column.
     sampled : whether they are read off the samples of the turn.
     needs : effects whose results they read, where the figure reads others.
-    keys : of those in detail (:mod:`schemas.details`), which are worked out only where one of them is wanted.
+    keys : of those in detail (:mod:`schemas.sweep.details`), which are worked out only where one of them is wanted.
     alone : whether every design is worked out by itself, as a single answer is.
     """
 

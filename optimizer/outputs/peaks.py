@@ -13,7 +13,7 @@ from optimizer.mechanics.shaft_curves import ShaftCurves, bending_influence, pla
 from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.piecewise_cubics import Bracket, Index
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 #: of a bracket, relative to the peak; and of a floor
 TOLERANCE, FLOOR_TOLERANCE = 1e-9, 1e-7

@@ -16,7 +16,7 @@ def vectors_of(wrenches: Sequence[Wrench]) -> Complex:
 
 
 def orders_of(numbers: Sequence[int], vectors: Complex) -> list[dict[str, Any]]:
-    """Fields of orders (:class:`schemas.outputs.Order`) of force [N] and moment [N m] of one machine.
+    """Fields of orders (:class:`schemas.answer.outputs.Order`) of force [N] and moment [N m] of one machine.
 
     Parameters
     ----------

@@ -10,9 +10,9 @@ from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.pins.loads import LoadShapes, PeriodicTable, gas_torques, peaks
-from schemas.over_turn import ForceTable, TorqueTable
-from schemas.scroll import PinLoads
-from schemas.scroll_machine import CrankPins, ScrollMachine
+from schemas.machine.scroll_machine import CrankPins, ScrollMachine
+from schemas.scroll.over_turn import ForceTable, TorqueTable
+from schemas.scroll.pin_loads import PinLoads
 
 
 def _figure(scene: Prepared, _fitted: Complex | None) -> PinLoads:

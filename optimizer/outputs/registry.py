@@ -23,12 +23,12 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.pins import PIN_LOADS
 from optimizer.outputs.roll import ROLL
 from optimizer.outputs.stages import STAGES
-from schemas.base import FieldProblem
-from schemas.details import usual_keys
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.rules import Path, Rule
-from schemas.scene import Scene
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Path, Rule
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.scene import Scene
+from schemas.sweep.details import usual_keys
 
 #: every output, in the order of the answer
 OUTPUTS: dict[str, Output] = {
@@ -105,7 +105,8 @@ def columns(request: Scene, unbalance: Complex, always: tuple[str, ...], wanted:
     request : of columns (n,), valid and complete.
     unbalance : (n, webs) kg m, the counterweights; nan where there are none.
     always : outputs whose columns are needed whether they were asked for or not.
-    wanted : keys of the columns that are (:func:`schemas.details.key`); what comes along beside them costs little.
+    wanted : keys of the columns that are (:func:`schemas.sweep.details.key`); what comes along beside them costs
+        little.
     """
     asked = column_groups(request, always, wanted)
     samples = request.angles.count if any(each.sampled for each in asked) else 1

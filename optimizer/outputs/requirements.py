@@ -5,9 +5,9 @@ from collections.abc import Iterator
 from optimizer.effects.registry import problems_of
 from optimizer.formulation.goals import missing_sizes
 from optimizer.outputs.registry import OUTPUTS
-from schemas.base import FieldProblem
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
+from schemas.base.model import FieldProblem
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
 
 #: effects that an objective over the whole turn needs
 _TURN = ("whole_turn",)

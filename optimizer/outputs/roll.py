@@ -8,7 +8,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.peaks import TOLERANCE, bracket, of_torque
 from optimizer.responses.curve import TurnResponse, peaks
-from schemas.roll import Roll, RollMoment
+from schemas.answer.roll import Roll, RollMoment
 
 
 def _figure(scene: Prepared, unbalance: Complex | None) -> Roll:

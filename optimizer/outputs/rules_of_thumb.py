@@ -11,7 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.responses.response import Phasors
-from schemas.outputs import RuleOfThumb
+from schemas.answer.outputs import RuleOfThumb
 
 #: the smaller phasor over the larger one below which the ellipse is a circle, or above 1 minus which it is a line
 SHAPE_TOLERANCE = 1e-9

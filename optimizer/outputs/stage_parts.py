@@ -16,7 +16,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.numerics.arrays import Complex
 from optimizer.outputs.rules_of_thumb import ONE_PLANE_M
 from optimizer.responses.response import Phasors
-from schemas.stages import Acting, StageIron
+from schemas.answer.stages import Acting, StageIron
 
 #: the smaller phasor over the larger one below which it counts as none: an optimum leaves what the asked gap allows
 _SHAPE = 1e-6

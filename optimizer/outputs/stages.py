@@ -26,8 +26,8 @@ from optimizer.outputs.output import Columns, Output
 from optimizer.outputs.rules_of_thumb import ONE_PLANE_M, SHAPE_TOLERANCE, force_rules, moment_rules
 from optimizer.outputs.stage_parts import iron, of_wrench
 from optimizer.responses.response import Phasors
-from schemas.outputs import STAGE_UNITS, Stage
-from schemas.stages import Acting
+from schemas.answer.outputs import STAGE_UNITS, Stage
+from schemas.answer.stages import Acting
 
 Balanceable = Literal["fully", "partly", "no"]
 

@@ -9,8 +9,8 @@ from optimizer.pins.contact import Contact
 from optimizer.pins.energy import compared, pitch_energy
 from optimizer.pins.loads import PeriodicTable, at_dead_point, degrees_of_freedom, gas_torques, levers, peaks
 from optimizer.pins.pattern import Pattern, pattern_of
-from schemas.over_turn import ForceTable, TorqueTable
-from schemas.scroll import (
+from schemas.scroll.over_turn import ForceTable, TorqueTable
+from schemas.scroll.pin_loads import (
     DegreesOfFreedom,
     DriveBearingLoad,
     PinContact,

@@ -6,8 +6,8 @@ from optimizer.mechanics.oldham import Keys, Oldham, keys, pin_losses
 from optimizer.numerics.arrays import Real
 from optimizer.pins.loads import PeriodicTable, levers
 from optimizer.pins.pattern import Pattern
-from schemas.scroll import PitchEnergy
-from schemas.scroll_losses import LossComparison, Losses, OldhamLoads
+from schemas.scroll.losses import LossComparison, Losses, OldhamLoads
+from schemas.scroll.pin_loads import PitchEnergy
 
 #: panels of the integrals; a pin that begins or ceases to bear inside one costs less than 1e-3 of its own mean loss
 _PANEL_DEG = 2.0

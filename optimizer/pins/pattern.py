@@ -8,7 +8,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.pins.contact import Contact, pin_contact
 from optimizer.pins.loads import LoadShapes, Pins, dead_points, elastic_loads, even_pin_loads, levers
-from schemas.scroll import PinLoadsRequest
+from schemas.scroll.pin_loads import PinLoadsRequest
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from optimizer.rating.design import StageDesign, delivery
 from optimizer.rating.losses import corrected_loss, mean_piston_speed, pressures_in_cylinder
 from optimizer.rating.ratios import stage_state
 from optimizer.rating.sizes import nominal_bore, pressure_correction
-from schemas.base import FieldProblem
-from schemas.rating import RatingRequest
-from schemas.rating_answer import CylinderSize, DeliveryCoefficients, PressureLosses, StageState
+from schemas.base.model import FieldProblem
+from schemas.rating.answer import CylinderSize, DeliveryCoefficients, PressureLosses, StageState
+from schemas.rating.request import RatingRequest
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from typing import NamedTuple
 
 from optimizer.errors import refuse
 from optimizer.rating.loads import rod_loads
-from schemas.base import FieldProblem
-from schemas.rating import RatingRequest
-from schemas.rating_answer import Choice, ChoiceStep, RatingAnswer
-from schemas.rating_tables import Motor, PistonRod
+from schemas.base.model import FieldProblem
+from schemas.rating.answer import Choice, ChoiceStep, RatingAnswer
+from schemas.rating.request import RatingRequest
+from schemas.rating.tables import Motor, PistonRod
 
 #: a motor whose speed is nearer than this to the speed that is asked for, as a share of it, may be chosen
 SPEED_TOLERANCE = 0.05

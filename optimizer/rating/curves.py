@@ -4,7 +4,7 @@ import math
 from bisect import bisect_right
 from dataclasses import dataclass
 
-from schemas.rating import RatingRequest
+from schemas.rating.request import RatingRequest
 
 #: where the customary figures are from
 SOURCE = "design calculation of the 2D12-90/2-20 compressor"

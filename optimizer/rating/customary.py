@@ -6,8 +6,8 @@ from optimizer.rating.built import StageBuilt
 from optimizer.rating.curves import discharge_losses, suction_losses, temperature_coefficients
 from optimizer.rating.design import StageDesign
 from optimizer.rating.losses import mean_piston_speed
-from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingWarning
+from schemas.rating.answer import RatingWarning
+from schemas.rating.request import RatingRequest
 
 #: section 1.3.2 of the design calculation of the 2D12: first stage, other stages
 PRESSURE_COEFFICIENTS = ((0.95, 0.98), (0.98, 1.0))

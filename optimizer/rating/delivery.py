@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from schemas.rating import CompressionStage
-from schemas.rating_answer import DeliveryCoefficients
+from schemas.rating.answer import DeliveryCoefficients
+from schemas.rating.request import CompressionStage
 
 #: table 1-3 of the design calculation of the 2D12: up to this suction pressure [Pa], m = 1 + share (k - 1)
 _EXPANSION = ((1.5e5, 0.5), (4e5, 0.62), (10e5, 0.75), (30e5, 0.88), (float("inf"), 1.0))

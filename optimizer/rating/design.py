@@ -16,9 +16,9 @@ from optimizer.rating.power import at_suction
 from optimizer.rating.ratios import split, stage_state
 from optimizer.rating.sizes import Piston, stage_flow, swept_volume
 from optimizer.rating.steam import condensate_coefficients, saturation_pressure
-from schemas.base import FieldProblem
-from schemas.rating import CompressionStage, RatingRequest
-from schemas.rating_answer import CylinderSize, DeliveryCoefficients, StageState
+from schemas.base.model import FieldProblem
+from schemas.rating.answer import CylinderSize, DeliveryCoefficients, StageState
+from schemas.rating.request import CompressionStage, RatingRequest
 
 SMALLEST_BORE_M, LARGEST_BORE_M = 1e-4, 100.0
 

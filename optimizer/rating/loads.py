@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from optimizer.rating.sizes import Acting
-from schemas.rating_answer import CylinderSize, DeadCentre, GasLoads, TandemLoads
+from schemas.rating.answer import CylinderSize, DeadCentre, GasLoads, TandemLoads
 
 
 def gas_loads(p1: float, p2: float, ambient: float, acting: Acting, size: CylinderSize) -> GasLoads:

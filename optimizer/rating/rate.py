@@ -16,9 +16,9 @@ from optimizer.rating.design import StageDesign, design, suction_per_capacity
 from optimizer.rating.loads import gas_loads, rod_loads, tandem_loads
 from optimizer.rating.power import indicated_power, motor_power, shaft_power, suction_flow
 from optimizer.rating.ratios import discharge_temperature
-from schemas.cylinder import Cylinder
-from schemas.rating import CompressionStage, RatingRequest
-from schemas.rating_answer import CoefficientSources, RatingAnswer, StageRating
+from schemas.machine.cylinder import Cylinder
+from schemas.rating.answer import CoefficientSources, RatingAnswer, StageRating
+from schemas.rating.request import CompressionStage, RatingRequest
 
 
 def rate(request: RatingRequest) -> RatingAnswer:

@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from schemas.rating_answer import StageState
+from schemas.rating.answer import StageState
 
 
 def equal_split(p1: float, p2: float, stages: int) -> tuple[float, ...]:

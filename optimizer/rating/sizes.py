@@ -4,7 +4,7 @@ import math
 from dataclasses import dataclass
 from typing import Literal
 
-from schemas.rating_answer import CylinderSize
+from schemas.rating.answer import CylinderSize
 
 Acting = Literal["double", "head", "crank"]
 

@@ -16,7 +16,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE, Verdict, claim, verdict
 from optimizer.responses.response import Response
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 
 @dataclass(frozen=True)

@@ -29,8 +29,8 @@ from optimizer.solve.search_claims import continuous, told_ample, told_status
 from optimizer.solve.uncertain_program import Robust
 from optimizer.solve.whole_turn import told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
-from schemas.answers import Certificate, GoalReached
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate, GoalReached
+from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10

@@ -11,7 +11,7 @@ from optimizer.responses.response import Response
 from optimizer.solve.certify import Certified, certified
 from optimizer.solve.plates import certified_shapes
 from optimizer.solve.search_claims import continuous, searched
-from schemas.requests import Accuracy, OptimizeRequest
+from schemas.request.requests import Accuracy, OptimizeRequest
 
 
 def certified_one(

@@ -29,13 +29,13 @@ from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.proof import PhysicalMultipliers, implied_max_mass, named, named_proofs, physical, physical_proofs
 from optimizer.solve.search_claims import continuous
 from optimizer.solve.sensitivity import of_first_order
-from schemas.answers import Certificate
-from schemas.counterweights import Counterweight
-from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
-from schemas.limits import MachineLimit, ShadowPrice
-from schemas.proof import InfeasibilityMultipliers
-from schemas.proof import Multipliers as PrintedMultipliers
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
+from schemas.answer.limits import MachineLimit, ShadowPrice
+from schemas.answer.proof import InfeasibilityMultipliers
+from schemas.answer.proof import Multipliers as PrintedMultipliers
+from schemas.request.requests import OptimizeRequest
 
 
 def certified_first(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Outcome:

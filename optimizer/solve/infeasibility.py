@@ -19,9 +19,9 @@ from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.outcome import Outcome, multipliers_of
 from optimizer.solve.proof import implied_max_mass, named_excess
-from schemas.infeasibility import Closest, Infeasibility, SmallestPeak
-from schemas.proof import InfeasibilityMultipliers
-from schemas.requests import OptimizeRequest
+from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
+from schemas.answer.proof import InfeasibilityMultipliers
+from schemas.request.requests import OptimizeRequest
 
 #: relative gap of the smallest peaks by themselves
 _ALONE = 1e-7

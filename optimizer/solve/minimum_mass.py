@@ -23,7 +23,7 @@ from optimizer.responses.response import Response
 from optimizer.solve.cutting_plane_rounds import in_rounds
 from optimizer.solve.search_claims import continuous, ended, told_ample
 from optimizer.solve.uncertain_program import Robust
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 #: gap of the least mass of any masses at any angles, which the search begins with
 _SHARP = 1e-6

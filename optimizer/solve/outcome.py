@@ -6,7 +6,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import Found
 from optimizer.solve.proof import named, physical
-from schemas.proof import BoundMultipliers
+from schemas.answer.proof import BoundMultipliers
 
 
 @dataclass(frozen=True)

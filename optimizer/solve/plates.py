@@ -34,7 +34,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP, mass_resolution, yardstick
 from optimizer.responses.response import Response
 from optimizer.solve.certify import Certified, certified, judged
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 #: how often nodes are laid
 _ROUNDS = 12

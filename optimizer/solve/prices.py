@@ -10,10 +10,10 @@ from optimizer.formulation.limits import MACHINE_LIMITS, TOUCHED, given_limits
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.responses.response import Response
-from schemas.counterweights import Counterweight
-from schemas.limits import MachineLimit, PriceUnit, ShadowPrice, WebLimit
-from schemas.machine import Machine
-from schemas.objective import Objective
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.limits import MachineLimit, PriceUnit, ShadowPrice, WebLimit
+from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
 
 #: optima may differ by this share of the objective without counterweights: what is worth less holds nothing up
 _WORTH = 1e-6

@@ -16,8 +16,8 @@ from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.certificate import Multipliers, budget_price, normalised, nothing_proven, proves, together
 from optimizer.program.methods.optima import Optima
 from optimizer.program.statement import Statement
-from schemas.machine import Machine
-from schemas.proof import BoundMultipliers
+from schemas.answer.proof import BoundMultipliers
+from schemas.machine.machine import Machine
 
 #: |y| <= lambda holds for the printed numbers too, whatever the rounding of the division by omega^2
 _INSIDE = 1.0 - 4 * np.finfo(float).eps

@@ -10,7 +10,7 @@ from optimizer.formulation.counterweights import unbalance
 from optimizer.numerics.arrays import Real
 from optimizer.program.verdict import claim, verdict
 from optimizer.solve.certify import Certified
-from schemas.requests import Accuracy, OptimizeRequest
+from schemas.request.requests import Accuracy, OptimizeRequest
 
 _ALL = (
     "Every set of counterweights that can be chosen was compared: none within the limits has a smaller objective, and"

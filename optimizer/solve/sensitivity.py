@@ -10,7 +10,7 @@ from optimizer.program.cuts.misplacement import largest_last_goals
 from optimizer.program.cuts.semi_infinite import OverTurn, Values
 from optimizer.program.misplacement import farthest_by_angle, farthest_by_mass
 from optimizer.program.statement import Statement
-from schemas.robust import Sensitivity
+from schemas.answer.robust import Sensitivity
 
 _DEGREE, _PERCENT = float(np.deg2rad(1.0)), 0.01
 #: width of the brackets of what counterweights come to as they should be

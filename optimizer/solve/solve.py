@@ -6,7 +6,7 @@ from optimizer.solve.choice import certified_choice
 from optimizer.solve.first_order import certified_first
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.worst_case import certified_any_mass
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 
 def solve(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:

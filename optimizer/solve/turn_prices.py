@@ -12,10 +12,10 @@ from optimizer.program.certificate import normalised
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.solve.prices import Priced, Quantity, of_ceilings, of_limits, per, quantity_of, shadow_prices
-from schemas.counterweights import Counterweight
-from schemas.limits import CeilingField, MachineLimit, ShadowPrice
-from schemas.objective import Objective
-from schemas.requests import OptimizeRequest
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.limits import CeilingField, MachineLimit, ShadowPrice
+from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
 
 #: units of the ceilings over the turn
 _UNIT_OF: Mapping[CeilingField, str] = {

@@ -9,7 +9,7 @@ from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex
 from optimizer.responses.curve import peaks
 from optimizer.solve.whole_turn import whole_turn_of
-from schemas.first_order import Residual, TurnPeaks, TurnResidual
+from schemas.answer.first_order import Residual, TurnPeaks, TurnResidual
 
 #: relative width of the brackets
 _WIDTH = 1e-8

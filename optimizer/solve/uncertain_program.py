@@ -26,10 +26,10 @@ from optimizer.program.cuts.cut import EXACT, Scatter
 from optimizer.program.cuts.optimum import Found, Unkept, over_turn
 from optimizer.responses.response import Phasors, Response
 from optimizer.solve.whole_turn import whole_turn_of
-from schemas.base import FieldProblem
-from schemas.requests import OptimizeRequest
-from schemas.scenarios import Tolerances, machine_of
-from schemas.target import pointer
+from schemas.base.model import FieldProblem
+from schemas.base.target import pointer
+from schemas.request.requests import OptimizeRequest
+from schemas.request.scenarios import Tolerances, machine_of
 
 #: a corner that is worse by less than this share is as good as known
 _ALIKE = 1e-12

@@ -24,10 +24,10 @@ from optimizer.solve.outcome import Outcome, multipliers_of
 from optimizer.solve.prices import touched_by_mass
 from optimizer.solve.proof import implied_max_mass, named, physical
 from optimizer.solve.turn_prices import prices_over_turn
-from schemas.answers import Certificate, GoalReached
-from schemas.limits import MachineLimit, ShadowPrice
-from schemas.proof import Multipliers
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate, GoalReached
+from schemas.answer.limits import MachineLimit, ShadowPrice
+from schemas.answer.proof import Multipliers
+from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of goals and ceilings
 _CLOSE = 1e-10

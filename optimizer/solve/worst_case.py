@@ -19,10 +19,10 @@ from optimizer.solve.infeasibility import out_of_reach
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.uncertain_program import Machine, Measure, Robust
 from optimizer.solve.whole_turn import certified_turn, fitted
-from schemas.answers import Certificate
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.robust import PriceOfRobustness, WorstCase
+from schemas.answer.answers import Certificate
+from schemas.answer.robust import PriceOfRobustness, WorstCase
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
 
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
 _CLOSE, _ABOUT = 1e-10, 1e-2

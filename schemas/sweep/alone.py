@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
-from schemas.base import FieldProblem
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.rotor import no_catalogue, no_groups
-from schemas.target import Target
+from schemas.base.model import FieldProblem
+from schemas.base.target import Target
+from schemas.machine.rotor import no_catalogue, no_groups
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 
 #: designs of a sweep whose counterweights are searched, each for as long as a single answer
 MAX_SEARCHED = 10_000

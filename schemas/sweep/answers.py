@@ -4,8 +4,8 @@ from typing import Literal
 
 from pydantic import Field
 
-from schemas.base import Answer, Model
-from schemas.quantities import Seconds
+from schemas.base.model import Answer, Model
+from schemas.base.quantities import Seconds
 
 JobState = Literal["queued", "running", "done", "failed", "cancelled"]
 

@@ -5,10 +5,10 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from schemas.base import NotEmpty
-from schemas.quantities import Count
-from schemas.rules import Rule, Ruled
-from schemas.target import Value
+from schemas.base.model import NotEmpty
+from schemas.base.quantities import Count
+from schemas.base.rules import Rule, Ruled
+from schemas.base.target import Value
 
 MAX_DESIGNS = 10_000_000
 

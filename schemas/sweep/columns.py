@@ -2,12 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 
-from schemas.details import detail_columns
-from schemas.machine import Machine
-from schemas.objective import Objective
-from schemas.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.target import Target, pointer
+from schemas.answer.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
+from schemas.base.target import Target, pointer
+from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.details import detail_columns
 
 _ALWAYS = (
     Column(

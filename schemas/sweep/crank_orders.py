@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from math import factorial, prod
 from typing import Any, NamedTuple
 
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import Row, Throw, row_cylinders
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import Row, Throw, row_cylinders
 
 #: angles and planes so near are one
 _NEAR = 1e-9

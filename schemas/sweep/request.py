@@ -6,20 +6,20 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr, ValidationInfo, field_validator
 
-from schemas.base import FieldProblem, Model
-from schemas.details import key
-from schemas.objective import OVER_THE_TURN, of_the_shaft
-from schemas.outputs import OUTPUT_COLUMNS, Column
-from schemas.quantities import Angle, Count, Flag
-from schemas.reciprocating import ReciprocatingMachine, no_balance_shafts
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.rules import Path, Rule, Ruled
+from schemas.answer.outputs import OUTPUT_COLUMNS, Column
+from schemas.base.model import FieldProblem, Model
+from schemas.base.quantities import Angle, Count, Flag
+from schemas.base.rules import Path, Rule, Ruled
+from schemas.base.target import BadPointer, Target, find_target
+from schemas.machine.reciprocating import ReciprocatingMachine, no_balance_shafts
+from schemas.machine.throws import MAX_THROWS
+from schemas.request.objective import OVER_THE_TURN, of_the_shaft
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.alone import MAX_SEARCHED, alone_problems, one_by_one, searched
 from schemas.sweep.axes import MAX_DESIGNS, Axis
 from schemas.sweep.columns import MULTIPLIERS, result_columns
 from schemas.sweep.crank_orders import MAX_ORDERED, MAX_SEQUENCES, CrankOrders, crank_orders
-from schemas.target import BadPointer, Target, find_target
-from schemas.throws import MAX_THROWS
+from schemas.sweep.details import key
 
 MAX_AXES = 64
 #: parts of a request that an axis may vary

@@ -29,7 +29,7 @@ _LOG_LEVEL = "COUNTERWEIGHT_LOG_LEVEL"
 
 def _version(asked: bool) -> None:
     if asked:
-        from schemas.version import package_version
+        from schemas.base.version import package_version
 
         put(package_version())
         raise typer.Exit

@@ -11,7 +11,7 @@ from service.cli.terminal import FAULT, AsJson, File, fail, fail_fields, put, qu
 if TYPE_CHECKING:
     import pyarrow as pa
 
-    from schemas.sweep import SweepRequest
+    from schemas.sweep.request import SweepRequest
     from service.jobs.desk import Desk
     from service.jobs.job import Job
     from service.jobs.owner_jobs import OwnerJobs
@@ -60,7 +60,7 @@ def _sweep(
     folder: Path | None,
     as_json: bool,
 ) -> None:
-    from schemas.sweep import SweepRequest
+    from schemas.sweep.request import SweepRequest
 
     asked = question(SweepRequest, file)
     if dry_run or asked.dry_run:
@@ -246,7 +246,7 @@ def _best(desk: "OwnerJobs", job: "Job", asked: "SweepRequest") -> "tuple[pa.Tab
     import pyarrow as pa
 
     from optimizer.studies.sweep.reduce import Top
-    from schemas.sweep import TopFilter
+    from schemas.sweep.request import TopFilter
 
     schema = desk.schema(job)
     if job.selects:

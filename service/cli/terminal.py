@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Generic, NamedTuple, NoReturn,
 import typer
 
 if TYPE_CHECKING:
-    from schemas.base import FieldProblem, Model
+    from schemas.base.model import FieldProblem, Model
     from service.report.blocks import Chapter
 
 Question = TypeVar("Question", bound="Model")

@@ -13,7 +13,7 @@ Answer = Annotated[
 
 def verify(file: File, answer: Answer, as_json: AsJson = False) -> None:
     """Check an answer against its request, from the two files alone."""
-    from schemas.verify import VerifyAnswer
+    from schemas.request.verify import VerifyAnswer
     from service.verification import checker
 
     try:

@@ -4,10 +4,11 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from schemas.base import Model
-from schemas.effects import EffectCatalogue
-from schemas.problem import Problem
-from schemas.sweep import SweepEstimate, SweepRequest, SweepState
+from schemas.answer.effects import EffectCatalogue
+from schemas.answer.problem import Problem
+from schemas.base.model import Model
+from schemas.sweep.answers import SweepEstimate, SweepState
+from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS
 
 

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base.model import Model
 
 
 class UnknownExample(LookupError):

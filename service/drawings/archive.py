@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from math import pi, radians
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from schemas.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight
 from service.drawings.bill import as_csv, as_workbook
 from service.drawings.drawn import DrawingSet
 from service.drawings.dxf import dxf

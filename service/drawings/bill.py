@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Iterator
 
-from schemas.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight
 from service.drawings.drawn import DrawingSet
 from service.drawings.parts import Part
 from service.plain import inert, plain

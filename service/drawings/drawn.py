@@ -6,11 +6,11 @@ from itertools import chain
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.base import FieldProblem
-from schemas.counterweights import Counterweight
-from schemas.drawings import DrawingsRequest
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.counterweights import Counterweight
+from schemas.base.model import FieldProblem
+from schemas.request.drawings import DrawingsRequest
+from schemas.request.requests import AnalyzeRequest
 from service.drawings.parts import Part, parts
 
 

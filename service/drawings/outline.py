@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import acos, cos, pi, sin, sqrt
 
-from schemas.webs import Envelope
+from schemas.machine.webs import Envelope
 
 Point = tuple[float, float]
 

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from math import isclose, radians
 
-from schemas.counterweights import Counterweight
-from schemas.machine import Machine
-from schemas.webs import Envelope
+from schemas.answer.counterweights import Counterweight
+from schemas.machine.machine import Machine
+from schemas.machine.webs import Envelope
 from service.drawings.outline import Outline, outline
 
 #: share of their half-angle by which the outlines of one part differ at most; a thousandth of a mm on a metre

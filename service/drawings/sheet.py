@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from math import cos, degrees, pi, sin
 from typing import NamedTuple
 
-from schemas.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight
 from service.drawings.outline import Arc, Point, points
 from service.drawings.parts import Part
 from service.drawings.svg import FAINT, INK, MUTED, PAGE_WIDTH, Anchor, Drawing, shortened

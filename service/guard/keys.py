@@ -21,7 +21,7 @@ from typing import Annotated, Literal, get_args
 from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
 from starlette.requests import Request
 
-from schemas.base import Model
+from schemas.base.model import Model
 from service.guard.addresses import is_loopback
 from service.replacing import replaced
 from service.settings import Settings

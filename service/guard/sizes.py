@@ -3,14 +3,14 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from schemas.angles import Angles
-from schemas.base import FieldProblem, Model
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.report import ReportRequest
-from schemas.rules import Path
-from schemas.scene import Scene
-from schemas.sweep import SweepRequest
+from schemas.base.angles import Angles
+from schemas.base.model import FieldProblem, Model
+from schemas.base.rules import Path
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.report import ReportRequest
+from schemas.request.scene import Scene
+from schemas.sweep.request import SweepRequest
 from service.settings import Settings
 from service.validation import InvalidRequest
 

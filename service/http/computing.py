@@ -11,7 +11,7 @@ from fastapi import Depends
 from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
-from schemas.base import Model
+from schemas.base.model import Model
 from service.computations import XLSX, Computation, Form
 from service.guard.shares import holding
 from service.guard.sizes import SizeLimits

@@ -12,9 +12,9 @@ from pydantic.json_schema import models_json_schema
 from starlette.requests import Request
 from starlette.responses import Response
 
-from schemas.base import Model
-from schemas.problem import Problem
-from schemas.sweep import SweepRequest
+from schemas.answer.problem import Problem
+from schemas.base.model import Model
+from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
 from service.guard.keys import PUBLIC

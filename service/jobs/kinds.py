@@ -47,7 +47,8 @@ def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> Piece:
 
     from optimizer.studies.sweep.designs import axis_values
     from optimizer.studies.sweep.table import result_schema
-    from schemas.sweep import SweepRequest, pointer
+    from schemas.base.target import pointer
+    from schemas.sweep.request import SweepRequest
 
     asked = SweepRequest.model_validate_json(request)
     known = {

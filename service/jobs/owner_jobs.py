@@ -13,7 +13,8 @@ import pyarrow as pa
 
 from optimizer.studies.sweep.plan import plan
 from optimizer.studies.sweep.table import REQUEST
-from schemas.sweep import SweepLinks, SweepRequest, SweepState
+from schemas.sweep.answers import SweepLinks, SweepState
+from schemas.sweep.request import SweepRequest
 from service.computations import given_bytes
 from service.jobs import results
 from service.jobs.coordinator import Coordinator

@@ -2,8 +2,8 @@
 
 from pydantic import Field
 
-from schemas.base import Model
-from schemas.sweep import SweepState
+from schemas.base.model import Model
+from schemas.sweep.answers import SweepState
 
 
 class SweepPage(Model):

@@ -43,7 +43,7 @@ def select(
     import pyarrow.compute as pc
 
     from optimizer.studies.sweep.reduce import TooManyRows, reducer
-    from schemas.sweep import SweepRequest
+    from schemas.sweep.request import SweepRequest
     from service.jobs.kinds import table_bytes
     from service.jobs.results import rows_of
 

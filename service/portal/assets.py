@@ -11,8 +11,8 @@ from pathlib import Path
 
 from pydantic.json_schema import models_json_schema
 
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import OptimizeRequest
 from service.portal.bundle import bundle
 
 MEDIA_TYPES: Mapping[str, str] = {

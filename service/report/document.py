@@ -6,10 +6,10 @@ from datetime import UTC, datetime
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import require_inputs
-from schemas.answers import OptimizeAnswer
-from schemas.base import FieldProblem
-from schemas.report import ReportRequest
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.base.model import FieldProblem
+from schemas.request.report import ReportRequest
+from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Attachment, Chapter, Document, facts
 from service.report.chapters import balance, inputs, reproduction, verdict
 from service.report.chapters.answers import outputs

@@ -1,8 +1,8 @@
 """First-order force and moment drawn: the ellipses of before and after, and the circle that none can fall below."""
 
 from optimizer.formulation.formulate import span
-from schemas.first_order import FirstOrder, Floor
-from schemas.machine import Machine
+from schemas.answer.first_order import FirstOrder, Floor
+from schemas.machine.machine import Machine
 from service.drawings.svg import Drawing
 from service.report import charts
 

@@ -5,11 +5,11 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import groupby
 from typing import NamedTuple, TypeVar
 
-from schemas.counterweights import Counterweight
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scroll_machine import ScrollMachine
-from schemas.webs import Web
+from schemas.answer.counterweights import Counterweight
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.scroll_machine import ScrollMachine
+from schemas.machine.webs import Web
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
 from service.report.blocks import digits
 

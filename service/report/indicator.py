@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.dynamics import Chamber, Gas, RowGas
-from schemas.machine import Machine
+from schemas.answer.dynamics import Chamber, Gas, RowGas
+from schemas.machine.machine import Machine
 from service.drawings.svg import Drawing
 from service.report.chapters.inputs import row_name
 from service.report.charts import Line, chart

@@ -6,10 +6,10 @@ from functools import partial
 
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.base import FieldProblem
-from schemas.outputs import OutputName
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.outputs import OutputName
+from schemas.base.model import FieldProblem
+from schemas.request.requests import OptimizeRequest
 from service.drawings.svg import Drawing, beside
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci

@@ -4,9 +4,9 @@ import math
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
-from schemas.counterweights import Counterweight
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.answer.counterweights import Counterweight
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
 from service.report.blocks import digits, typeset
 

@@ -7,10 +7,10 @@ it, what counterweights can do, and what is left. Stage VII shows the counterwei
 import math
 from collections.abc import Sequence
 
-from schemas.machine import Machine
-from schemas.outputs import Stage
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.stages import Acting, StageIron
+from schemas.answer.outputs import Stage
+from schemas.answer.stages import Acting, StageIron
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point
 from service.report.blocks import digits
 

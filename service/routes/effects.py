@@ -7,7 +7,7 @@ from starlette.requests import Request
 from starlette.responses import Response
 
 from optimizer.outputs.descriptions import catalogue
-from schemas.effects import EffectCatalogue
+from schemas.answer.effects import EffectCatalogue
 from service.http.kept import Kept
 from service.http.openapi import problems
 

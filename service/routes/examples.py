@@ -7,7 +7,7 @@ from fastapi import APIRouter, Query
 from starlette.requests import Request
 from starlette.responses import Response
 
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.computations import XLSX
 from service.documents.examples import Examples, catalogue, load
 from service.documents.template import template

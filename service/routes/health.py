@@ -6,7 +6,7 @@ from fastapi import APIRouter
 from pydantic import Field
 from starlette.requests import Request
 
-from schemas.base import Model
+from schemas.base.model import Model
 from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])

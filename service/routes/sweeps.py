@@ -10,7 +10,8 @@ from starlette.requests import Request
 from starlette.responses import JSONResponse, Response, StreamingResponse
 
 from optimizer.studies.sweep.plan import plan
-from schemas.sweep import SweepEstimate, SweepRequest, SweepState
+from schemas.sweep.answers import SweepEstimate, SweepState
+from schemas.sweep.request import SweepRequest
 from service.guard.access import needs
 from service.guard.keys import still_admitted
 from service.guard.looks import looked

@@ -5,7 +5,7 @@ import os
 from fastapi import APIRouter
 from pydantic import Field
 
-from schemas.base import Answer
+from schemas.base.model import Answer
 from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
 from typing import Protocol
 
-from schemas.version import package_version
+from schemas.base.version import package_version
 from service.settings import Settings
 
 

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from service.workbook.files import workbook
 from service.workbook.sheets import ANSWER, COUNTERWEIGHTS, Sheets, flat, table, written
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 
 from optimizer.errors import NotComputable
-from schemas.base import FieldProblem
+from schemas.base.model import FieldProblem
 from service.validation import InvalidRequest
 from service.workbook.files import workbook_sheets
 from service.workbook.sheets import REQUEST, Misplaced, Read, read

@@ -14,8 +14,8 @@ from typing import Any
 
 from openpyxl.utils import get_column_letter
 
-from schemas.base import FieldProblem
-from schemas.rules import Path
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Path
 from service.validation import UnreadableJson, json_value
 
 Cell = str | float | int | bool | None

@@ -8,9 +8,9 @@ from optimizer.analyze import analyze
 from optimizer.mechanics.cylinders import chambers
 from optimizer.mechanics.gas import Chambers
 from optimizer.mechanics.layout import Layout, layout
-from schemas.answers import AnalyzeAnswer
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import AnalyzeAnswer
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import AnalyzeRequest
 
 #: between the axes of the rows on one throw, degrees
 _AXES = {"single": [0.0], "v": [0.0, 70.0], "opposed": [0.0, 180.0], "w": [-60.0, 0.0, 60.0]}

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from schemas.dynamics import BearingLoad
+from schemas.answer.dynamics import BearingLoad
 from tests.analyze.driven import ask, random_driven
 
 

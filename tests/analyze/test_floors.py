@@ -7,8 +7,8 @@ import pytest
 
 from optimizer.effects.registry import run
 from optimizer.mechanics.layout import layout
-from schemas.dynamics import MainBearings
-from schemas.scene import Fidelity
+from schemas.answer.dynamics import MainBearings
+from schemas.request.scene import Fidelity
 from tests.analyze.driven import ask
 from tests.builders import machine, row, throw
 

@@ -5,8 +5,8 @@ from typing import Any
 import pytest
 
 from optimizer.analyze import analyze
-from schemas.answers import AnalyzeAnswer
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import AnalyzeAnswer
+from schemas.request.requests import AnalyzeRequest
 
 #: kg m of a throw, m between bearings
 ROTATING, PITCH = 1.1 * 0.045, 0.09

@@ -11,9 +11,9 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.studies.sweep.whole import sweep_table
-from schemas.answers import AnalyzeAnswer
-from schemas.requests import AnalyzeRequest
-from schemas.sweep import SweepRequest
+from schemas.answer.answers import AnalyzeAnswer
+from schemas.request.requests import AnalyzeRequest
+from schemas.sweep.request import SweepRequest
 
 _EXAMPLES = Path(__file__).parents[2] / "examples"
 _GRADED = {"grade_mm_s": 6.3, "mass_kg": 300.0, "centre_of_mass_m": 0.0, "plane_a_m": -0.4, "plane_b_m": 0.4}

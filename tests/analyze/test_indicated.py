@@ -11,7 +11,7 @@ from optimizer.errors import MissingInput
 from optimizer.mechanics.gas import gas_forces, switching_angles
 from optimizer.mechanics.kinematics import motion, own_angle
 from optimizer.numerics.arrays import Complex, Real
-from schemas.answers import AnalyzeAnswer
+from schemas.answer.answers import AnalyzeAnswer
 from tests.analyze.driven import arrays, ask, random_driven
 from tests.analyze.engines import FOUR, RADIUS, cylinder, engine, trace
 

@@ -12,7 +12,7 @@ from optimizer.mechanics.gas import gas_forces, indicated_work
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.rod import shaft_loads
 from optimizer.numerics.arrays import Complex, Real
-from schemas.dynamics import BearingLoad, MainBearings
+from schemas.answer.dynamics import BearingLoad, MainBearings
 from tests.analyze.driven import STYLES, arrays, ask, random_driven
 
 STEP = 10.0

@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.mechanics.kinematics import motion
 from optimizer.mechanics.layout import layout
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import STYLES, ask, random_driven
 
 

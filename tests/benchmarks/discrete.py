@@ -21,9 +21,9 @@ from optimizer.solve.search_claims import continuous
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import stated
 from optimizer.studies.sweep.whole import sweep_table
-from schemas.match import MatchRequest
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.match.request import MatchRequest
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from tests.benchmarks.cases import EXAMPLES
 from tests.choices.scip import scip, scip_matched
 from tests.studies.matching.cases import machine, mirrored, parts

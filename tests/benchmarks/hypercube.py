@@ -15,7 +15,7 @@ from rich.table import Table
 
 from optimizer.numerics.arrays import Real
 from optimizer.studies.sweep.designs import axis_values
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.benchmarks.sweep_case import sweep
 
 _MB = 1e6

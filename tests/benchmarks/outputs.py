@@ -17,8 +17,8 @@ from optimizer.mechanics.layout import Layout, layout
 from optimizer.outputs.registry import OUTPUTS
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import even_pin_loads
-from schemas.requests import AnalyzeRequest
-from schemas.scroll import PinLoadsRequest
+from schemas.request.requests import AnalyzeRequest
+from schemas.scroll.pin_loads import PinLoadsRequest
 from tests.benchmarks.cases import EXAMPLES
 
 RECIPROCATING = tuple(name for name in OUTPUTS if name != "pin_loads")

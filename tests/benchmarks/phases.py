@@ -3,7 +3,7 @@
 import time
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 PHASES = ("validation", "mechanics", "program", "certificate", "report", "serialisation", "total")
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from optimizer.mechanics.shapes import plates
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.cases import EXAMPLES
 
 _ROW = {"outer_radius_m": 0.095, "thickness_m": 0.03, "max_half_angle_deg": 60}

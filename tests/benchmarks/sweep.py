@@ -25,7 +25,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optimizer.program.solution import INTERIOR_POINT
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks import sweep_time
 from tests.benchmarks.sweep_case import Program, programs, sweep

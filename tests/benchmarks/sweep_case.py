@@ -11,9 +11,9 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.program.statement import Statement
 from optimizer.studies.sweep.designs import axis_values
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
-from schemas.variation import with_fields
+from schemas.base.variation import with_fields
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from tests.benchmarks.cases import eight_webs
 
 #: largest mass of a counterweight, kg: below what most of the designs call for

@@ -16,7 +16,7 @@ import psutil
 from rich.console import Console
 from rich.table import Table
 
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs.desk import Desk
 from service.jobs.formats import FORMATS, Name
 from service.settings import Settings

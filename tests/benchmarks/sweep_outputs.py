@@ -15,7 +15,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.benchmarks.stopwatch import Stopwatch
 from tests.benchmarks.sweep_over_turn import every_output
 from tests.studies.sweep.single import example

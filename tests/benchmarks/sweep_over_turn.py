@@ -16,7 +16,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optimizer.outputs.registry import OUTPUTS
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks.stopwatch import Stopwatch
 from tests.benchmarks.whole_turn import six_with_gas, sixteen

@@ -20,7 +20,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optimizer.studies.sweep.plan import plan
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs import worker
 from service.jobs.desk import Desk
 from service.jobs.engines import NICENESS

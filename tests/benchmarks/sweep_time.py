@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optimizer.program.kernel import discs
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs.kinds import KINDS
 from tests.benchmarks.operations import operations_per_program
 from tests.benchmarks.stopwatch import Stopwatch

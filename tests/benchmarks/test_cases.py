@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.benchmarks import discrete, outputs, plates, sweep_outputs, sweep_over_turn, sweep_time, whole_turn
 from tests.benchmarks.cases import CASES
 from tests.benchmarks.phases import PHASES, measure

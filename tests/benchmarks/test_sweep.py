@@ -3,7 +3,7 @@
 import psutil
 import pytest
 
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.benchmarks import sweep_memory, sweep_outputs, sweep_scaling, sweep_time
 from tests.benchmarks.operations import Counted, operations_per_program
 from tests.benchmarks.sweep import OURS, at_limits, compare

@@ -20,7 +20,7 @@ from rich.table import Table
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.solve.whole_turn import certified_turn
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.outputs import sixteen_rows
 from tests.benchmarks.stopwatch import Stopwatch
 from tests.optimize.whole_turn import inline_six

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from schemas.form_groups import GROUPS
+from schemas.base.form_groups import GROUPS
 from tests.browser.portal import Portal
 
 THROW = "/machine/throws/0"

@@ -14,7 +14,7 @@ from optimizer.outputs.registry import prepare
 from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.search_claims import continuous
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.discrete import choice
 from tests.verification.checking import optimized
 

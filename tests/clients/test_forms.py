@@ -11,7 +11,7 @@ from typing import Any
 
 import pytest
 
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.app import create_app
 from service.documents.examples import bodies
 from service.settings import Settings

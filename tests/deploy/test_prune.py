@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from schemas.version import DISTRIBUTION
+from schemas.base.version import DISTRIBUTION
 from tests.deploy.files import DEPLOY, instructions, module
 from tests.deploy.test_requirements import locked
 

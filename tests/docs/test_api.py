@@ -16,11 +16,11 @@ from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
 from optimizer.studies.matching.match import match
 from optimizer.studies.pareto.pareto import pareto
-from schemas.match import MatchRequest
-from schemas.outputs import OutputName
-from schemas.pareto import ParetoRequest
-from schemas.rating import RatingRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.outputs import OutputName
+from schemas.front.pareto import ParetoRequest
+from schemas.match.request import MatchRequest
+from schemas.rating.request import RatingRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.app import FAULTS, create_app
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES

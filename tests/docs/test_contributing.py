@@ -24,8 +24,8 @@ from pathlib import Path
 
 import schemas
 from optimizer.studies.sweep import run_chunk
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service.app import create_app
 from service.documents.examples import load
 from service.settings import Settings
@@ -107,7 +107,7 @@ import json
 from math import pi
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.app import create_app
 from service.settings import Settings
 from starlette.testclient import TestClient

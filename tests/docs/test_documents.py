@@ -9,8 +9,8 @@ import pytest
 
 from optimizer.optimize import optimize
 from optimizer.studies.pareto.pareto import pareto
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import OptimizeRequest
 from service.cli import app
 from service.documents.examples import bodies
 from tests.docs.reading import ROOT, agrees, blocks

@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.docs.reading import agrees, blocks, section
 
 

@@ -13,7 +13,7 @@ import pytest
 import optimizer
 import schemas
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
 from tests.docs.reading import ROOT
 

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from schemas.accuracy import AccuracyRequest
-from schemas.match import MatchRequest
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.match.request import MatchRequest
+from schemas.request.accuracy import AccuracyRequest
+from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from tests.docs.reading import ROOT, section
 

@@ -5,7 +5,7 @@ from math import pi
 from hypothesis import strategies as st
 
 from optimizer.mechanics.envelope import AnnularSector, Envelope, Segment
-from schemas import webs
+from schemas.machine import webs
 
 OUTER = st.floats(0.05, 2.0)
 #: of the outer radius

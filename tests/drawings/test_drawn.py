@@ -15,8 +15,8 @@ from typer.testing import CliRunner
 
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
-from schemas.drawings import DrawingsRequest
-from schemas.requests import OptimizeRequest
+from schemas.request.drawings import DrawingsRequest
+from schemas.request.requests import OptimizeRequest
 from service.cli import app
 from service.drawings.archive import zipped
 from service.drawings.bill import HEADS

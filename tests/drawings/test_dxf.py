@@ -8,7 +8,7 @@ import pytest
 from ezdxf.document import Drawing
 from hypothesis import given
 
-from schemas.webs import Envelope
+from schemas.machine.webs import Envelope
 from service.drawings.dxf import dxf
 from service.drawings.outline import Arc, outline
 from tests.drawings.plates import HALF_ANGLES, plates

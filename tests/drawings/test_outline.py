@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from schemas.webs import Envelope
+from schemas.machine.webs import Envelope
 from service.drawings.outline import Arc, Line, Outline, outline, points, turned
 from tests.drawings.plates import HALF_ANGLES, mechanics_of, plates
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from schemas.webs import Envelope
+from schemas.machine.webs import Envelope
 from service.drawings.outline import outline, turned
 from service.drawings.step import Solid, step
 from tests.drawings.exchange import File, names

@@ -2,8 +2,8 @@
 
 from typing import Any, get_args
 
-from schemas.answers import AnalyzeAnswer
-from schemas.outputs import OutputName
+from schemas.answer.answers import AnalyzeAnswer
+from schemas.answer.outputs import OutputName
 from tests.analyze.driven import ask, random_driven
 
 # of a reciprocating machine

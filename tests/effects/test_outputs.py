@@ -11,7 +11,7 @@ from optimizer.effects.effect import Context
 from optimizer.effects.registry import EFFECTS, closure
 from optimizer.errors import MissingInput
 from optimizer.outputs.registry import MAX_SAMPLES, OUTPUTS
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import ask
 from tests.effects.machines import EVERY, SCROLL, complete, figures, found
 

@@ -11,11 +11,11 @@ from optimizer.effects.effect import Context
 from optimizer.effects.registry import EFFECTS, closure, inputs_of, simulate
 from optimizer.mechanics.layout import layout
 from optimizer.outputs.registry import OUTPUTS
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.outputs import OutputName
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
-from schemas.scene import Fidelity
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.outputs import OutputName
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import AnalyzeRequest
+from schemas.request.scene import Fidelity
 from tests.effects.machines import EVERY, complete
 
 _ASKED = {name: OUTPUTS[name].needs for name in EVERY}

@@ -9,8 +9,8 @@ import pytest
 from optimizer import analyze, optimize, pareto
 from optimizer.effects import registry
 from optimizer.effects.effect import Context, Effect
-from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import bodies
 
 EXAMPLES = bodies("")

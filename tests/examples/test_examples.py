@@ -13,9 +13,9 @@ from optimizer.mechanics.layout import Layout, layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.optimize import optimize
 from optimizer.studies.sweep.whole import sweep_table
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 
 FILES = sorted((Path(__file__).parents[2] / "examples").glob("*.json"))
 NAMES = [file.stem for file in FILES]

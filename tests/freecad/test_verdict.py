@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.analyze import analyze
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 
 ANGLES, PLACES = st.floats(-180.0, 180.0), st.floats(-1.0, 1.0)
 RODS = (

@@ -11,7 +11,7 @@ from rich.markup import escape
 from rich.table import Table
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.hard.cases.case import Case
 from tests.hard.judge import Verdict, judge
 from tests.hard.reference import Reference

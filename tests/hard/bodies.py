@@ -24,10 +24,10 @@ from optimizer.optimize import optimize
 from optimizer.studies.matching.match import match
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep import run_chunk
-from schemas.match import MatchRequest
-from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.match.request import MatchRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service import faults
 from service.validation import InvalidRequest, check
 from tests.hard.random_bodies import Body, Draw, body

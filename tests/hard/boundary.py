@@ -26,7 +26,7 @@ from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import CEILING_TOLERANCE, Solution
 from optimizer.program.verdict import yardstick
 from optimizer.responses.response import Response
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.program.cases import optimum
 

@@ -12,7 +12,7 @@ import time
 import numpy as np
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.optimize.test_far_limits import issued
 from tests.verification.checking import broken
 

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
 
-from schemas.answers import OptimizeAnswer
-from schemas.counterweights import Counterweight
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.counterweights import Counterweight
 from tests.hard.cases.case import Case
 from tests.hard.interior import ZERO, Number, mp
 from tests.hard.program import EPS, NOTHING, Goal, Machine, Pair, goal, machine, unit

@@ -14,7 +14,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.optimize.machines import random_machine
 from tests.verification.kinds import SINGLE

@@ -11,7 +11,7 @@ from typing import Any
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from schemas.answers import OptimizeAnswer
+from schemas.answer.answers import OptimizeAnswer
 from tests.hard.cases.case import Body, Case
 from tests.hard.judge import judge
 from tests.hard.wild import requests

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from rich.console import Console
 
-from schemas.answers import OptimizeAnswer
+from schemas.answer.answers import OptimizeAnswer
 from tests.hard import battery
 from tests.hard.cases.case import Case, case, machine, single_row, throw, v_twin, web
 from tests.hard.judge import judge

@@ -20,8 +20,8 @@ from typing import Any
 from rich.console import Console
 
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from tests.hard import stored
 from tests.hard.cases import all_cases
 from tests.hard.cases.case import Body, Case

@@ -15,7 +15,7 @@ import numpy as np
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.hard_effects.case import ALGEBRAIC, EPS, Case, Finding, error
 from tests.hard_effects.exact import Number, Row, cis, mp, rows
 from tests.hard_effects.machines import Hard

@@ -13,8 +13,8 @@ import numpy as np
 from optimizer.effects.registry import run
 from optimizer.mechanics.gas import switching_angles
 from optimizer.mechanics.layout import layout
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scene import Fidelity
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.scene import Fidelity
 from tests.hard_effects.case import ALGEBRAIC, Case, Finding, error
 from tests.hard_effects.exact import Number, Row, State, mp
 from tests.hard_effects.exact_turn import Machine, angle_at

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from optimizer.pins.answer import pin_loads
-from schemas.scroll import PinLoadsRequest
+from schemas.scroll.pin_loads import PinLoadsRequest
 from tests.hard_effects.case import ALGEBRAIC, EPS, Case, Finding, error
 from tests.hard_effects.exact import mp
 from tests.hard_effects.exact_pins import Pattern

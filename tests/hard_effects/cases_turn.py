@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from optimizer.analyze import analyze
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from tests.hard_effects.case import ALGEBRAIC, Case, Finding, error
 from tests.hard_effects.exact import mp
 from tests.hard_effects.exact_turn import Machine

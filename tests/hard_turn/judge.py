@@ -12,8 +12,8 @@ import numpy as np
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import MAX_SAMPLES
-from schemas.answers import OptimizeAnswer
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.hard_turn.case import Case
 
 #: so much of the largest load may be missed between two samples a tenth of a degree apart, and beside the corners that

@@ -15,7 +15,7 @@ import pyarrow.compute as pc
 import pyarrow.parquet as pq
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.jobs.process import Service
 from tests.jobs.sweeps import analyses
 

@@ -17,7 +17,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.jobs.process import Service, service
 from tests.jobs.serving import TIDY
 from tests.jobs.sweeps import analyses

@@ -11,7 +11,7 @@ import time
 from pathlib import Path
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.jobs.process import Service, service
 from tests.jobs.sweeps import analyses
 

@@ -10,7 +10,7 @@ import pyarrow as pa
 from starlette.testclient import TestClient
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.app import create_app
 from service.settings import Settings
 from tests.jobs.sweeps import analyses

@@ -7,7 +7,7 @@ import os
 import threading
 from typing import Any
 
-import schemas.version
+import schemas.base.version
 from service.jobs import worker
 from service.jobs.piece import Piece
 
@@ -28,7 +28,7 @@ def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
 def serve(**given: Any) -> None:
     if VERSION in os.environ:
         # before any answer has read it
-        schemas.version.version = lambda _: os.environ[VERSION]
+        schemas.base.version.version = lambda _: os.environ[VERSION]
     # workers import this module as well, and need none of these
     from optimizer.studies.sweep import plan
     from service.app import create_app

@@ -18,7 +18,7 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.cli import app
 from tests.jobs.process import ROOT
 from tests.jobs.sweeps import analyses, optimisations

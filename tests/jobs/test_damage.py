@@ -14,7 +14,7 @@ from threading import Event
 import pytest
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs import selection, spool
 from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.files import FilesUnavailable

@@ -12,7 +12,7 @@ distributed = pytest.importorskip("distributed", reason="the extra dask is not i
 import dask  # noqa: E402
 
 from optimizer.studies.sweep import run_chunk  # noqa: E402
-from schemas.sweep import SweepRequest  # noqa: E402
+from schemas.sweep.request import SweepRequest  # noqa: E402
 from service.jobs import engines, worker  # noqa: E402
 from service.jobs.engines import engine  # noqa: E402
 from service.jobs.job import Order  # noqa: E402

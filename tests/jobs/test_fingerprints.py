@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from pydantic import BaseModel
 from starlette.testclient import TestClient
 
-from schemas.pareto import ParetoRequest
-from schemas.sweep import SweepRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs.fingerprints import fingerprint
 from service.jobs.job import Order
 from service.jobs.store import KeyReused

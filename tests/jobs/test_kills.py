@@ -10,8 +10,8 @@ import psutil
 import pytest
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
-from schemas.version import package_version
+from schemas.base.version import package_version
+from schemas.sweep.request import SweepRequest
 from tests.jobs.kills import kill
 from tests.jobs.process import service
 from tests.jobs.serving import VERSION

@@ -9,7 +9,7 @@ from pathlib import Path
 import pyarrow.parquet as pq
 import pytest
 
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.jobs import worker
 from service.jobs.database import Database
 from service.jobs.desk import Desk

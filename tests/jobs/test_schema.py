@@ -13,7 +13,7 @@ from sqlalchemy import create_engine, insert, text
 from typer.testing import CliRunner
 
 from optimizer.studies.sweep import run_chunk
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from service.cli import app
 from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.desk import Desk

@@ -8,8 +8,8 @@ from pydantic import ValidationError
 
 from optimizer.mechanics.cylinders import chambers, delivery_rules, gas_problems, without_gas
 from optimizer.mechanics.layout import layout
-from schemas.cylinder import Cylinder
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.cylinder import Cylinder
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 FULL = {
     "bore_m": 0.5,

@@ -13,7 +13,7 @@ from optimizer.mechanics.row_data import row_data
 from optimizer.mechanics.row_series import RowSeries
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles, whole_turn
 from optimizer.numerics.arrays import Real
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.analyze.engines import FOUR, RADIUS, UNEVEN, cylinder, engine, trace
 
 TURN = 2.0 * np.pi

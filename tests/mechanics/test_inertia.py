@@ -9,8 +9,8 @@ from optimizer.mechanics.inertia import counterweights, first_order_responses, r
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.responses.response import Phasors
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scroll_machine import CrankPins, OldhamRing, ScrollMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.scroll_machine import CrankPins, OldhamRing, ScrollMachine
 from tests.builders import RADIUS, inline, machine, opposed, random_machine, row, stack, throw, web
 
 F0 = 10.0 * RADIUS  # kg m, one row of 10 kg

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from optimizer.mechanics.inertia import counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.numerics.arrays import Complex
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import Row, Throw
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import Row, Throw
 from tests.builders import ANGLES, POSITIONS, force_scale, machines, moment_scale
 
 ORDERS = (1, 2, 4)

@@ -13,8 +13,8 @@ from optimizer.mechanics.row_work import RowWork
 from optimizer.mechanics.turn import Turn, fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import WholeTurn, break_angles
 from optimizer.numerics.arrays import Real
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scene import Fidelity
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.scene import Fidelity
 from tests.analyze.driven import STYLES, random_driven
 
 

@@ -17,7 +17,7 @@ from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments
 from optimizer.mechanics.whole_turn import break_angles, whole_turn
 from optimizer.numerics.arrays import Real
 from optimizer.responses.curve import floor
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.analyze.driven import arrays, random_driven
 
 MODELS = (simple_spans_influence, continuous_beam_influence)

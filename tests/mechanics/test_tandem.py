@@ -9,9 +9,9 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.outputs.registry import OUTPUTS
-from schemas.answers import AnalyzeAnswer
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import AnalyzeAnswer
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import AnalyzeRequest
 
 SECOND = {
     "bore_m": 0.3, "piston_rod_diameter_m": 0.08, "suction_pressure_Pa": 4e5, "discharge_pressure_Pa": 1.2e6,

@@ -12,7 +12,7 @@ from optimizer.mechanics.inertia import Wrench, counterweights, reciprocating, r
 from optimizer.mechanics.layout import layout
 from optimizer.numerics.arrays import Complex
 from optimizer.responses.response import Phasors
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.builders import force_scale, moment_scale, random_machine
 
 POINTS = 512

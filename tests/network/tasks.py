@@ -8,8 +8,8 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
-from schemas.problem import Problem
-from schemas.requests import OptimizeRequest
+from schemas.answer.problem import Problem
+from schemas.request.requests import OptimizeRequest
 from service.computations import COMPUTATIONS, JSON
 from service.documents.examples import load
 from service.guard.sizes import SizeLimits

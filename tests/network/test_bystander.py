@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import pytest
 
-from schemas.base import Model
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.base.model import Model
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.guard.sizes import SizeLimits
 from service.settings import Settings
 from service.validation import check

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from schemas.problem import Problem
+from schemas.answer.problem import Problem
 from service.guard.shares import Holding, OverShare, Shares
 from service.http.pacing import PIECE_BYTES, Pacing
 from service.http.rounds import Rounds

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
 
 ROOT = Path(__file__).parents[2]

@@ -3,7 +3,7 @@
 import math
 from typing import Any
 
-from schemas.answers import OptimizeAnswer
+from schemas.answer.answers import OptimizeAnswer
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized
 

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 
 from optimizer.analyze import analyze
-from schemas.answers import Certificate, OptimizeAnswer
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.request.requests import AnalyzeRequest
 from tests.verification.checking import broken, optimized
 
 MASSES, HOLES = [4.0, 11.0], [0.0, 120.0, 240.0]

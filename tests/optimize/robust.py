@@ -5,8 +5,8 @@ from typing import Any
 import numpy as np
 
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from tests.optimize.machines import machine, row, throw, web
 
 

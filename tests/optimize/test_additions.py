@@ -23,7 +23,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import claim, verdict
 from optimizer.responses.response import Phasors, Response
 from optimizer.studies.sweep.counterweights import optimal
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.program.cases import optimum
 
 SOLVER = Solver()

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
 

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from optimizer.studies.pareto.pareto import pareto
-from schemas.answers import OptimizeAnswer
-from schemas.pareto import ParetoRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.front.pareto import ParetoRequest
 from tests.hard_turn import machines
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
 from tests.optimize.whole_turn import one_throw

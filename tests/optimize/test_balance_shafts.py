@@ -7,11 +7,11 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from schemas.accuracy import AccuracyRequest
-from schemas.answers import OptimizeAnswer
-from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.front.pareto import ParetoRequest
+from schemas.request.accuracy import AccuracyRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from tests.optimize.machines import throw, web
 from tests.optimize.shafts import WHOLE, at, in_line_four, shaft, single
 from tests.verification.checking import optimized

@@ -10,8 +10,8 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.studies.sweep import run_chunk
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from tests.verification.checking import broken, optimized
 
 RADIUS, MOST = 0.2, 1500.0

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from optimizer import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
 
 

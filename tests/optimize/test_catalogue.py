@@ -12,10 +12,10 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
-from schemas.accuracy import AccuracyRequest
-from schemas.answers import OptimizeAnswer
-from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.front.pareto import ParetoRequest
+from schemas.request.accuracy import AccuracyRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized, verdict
 

@@ -12,8 +12,8 @@ from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve import choice as certified_choice
 from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from tests.optimize.choices import (
     DEGREE,
     FAST,

@@ -8,7 +8,7 @@ import pytest
 
 from optimizer.choices.discrete.search import EXHAUSTED, TREE
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.optimize.choices import (
     DEGREE,
     FAST,

@@ -9,8 +9,8 @@ import pytest
 from optimizer.analyze import analyze
 from optimizer.numerics.arrays import Complex
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import load
 
 ALONE = {"force_weight": 0, "moment_weight": 0, "bearing_weight": 1}

@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep import run_chunk
-from schemas.pareto import ParetoRequest
+from schemas.front.pareto import ParetoRequest
 from tests.hard.bodies import checked, drawn, strictly, tried
 from tests.hard.cases.case import Body, four_webs, machine, row, throw, v_twin, web
 from tests.hard.random_bodies import body

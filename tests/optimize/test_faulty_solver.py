@@ -14,8 +14,8 @@ from optimizer.program.cuts import stage as cut_stage
 from optimizer.program.reference.assembled import Assembled, NoPoint, solved
 from optimizer.program.scaled_program import ScaledSolution
 from optimizer.program.verdict import CONTRADICTED
-from schemas.answers import Certificate, OptimizeAnswer
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.request.requests import AnalyzeRequest
 from tests.optimize.whole_turn import ALONE, asked, one_throw
 
 #: published for a rod ratio of 1/3: the largest load with and without the best counterweights, N

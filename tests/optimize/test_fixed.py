@@ -11,9 +11,9 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep import run_chunk
-from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from tests.optimize.test_unbalances import BODY
 from tests.verification.checking import broken, optimized
 

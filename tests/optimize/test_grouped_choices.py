@@ -9,7 +9,7 @@ from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
 from optimizer.studies.pareto.pareto import pareto
-from schemas.pareto import ParetoRequest
+from schemas.front.pareto import ParetoRequest
 from tests.optimize.test_mirrored_groups import PAIRS, alike, grouped
 from tests.optimize.test_web_groups import ANGLES, NAMES, RADIUS, objective
 from tests.verification.checking import broken, optimized

@@ -15,8 +15,8 @@ from optimizer.program.sensitivity import shadow_prices
 from optimizer.solve.certify import Certified, certified
 from optimizer.solve.prices import Priced, of_limits
 from optimizer.studies.sweep.counterweights import optimal
-from schemas.machine import Machine
-from schemas.requests import OptimizeRequest
+from schemas.machine.machine import Machine
+from schemas.request.requests import OptimizeRequest
 
 NAME = "max_pull"
 RPM, OMEGA = 600.0, 20.0 * np.pi

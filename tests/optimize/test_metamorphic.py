@@ -16,7 +16,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from schemas.answers import Certificate, OptimizeAnswer
+from schemas.answer.answers import Certificate, OptimizeAnswer
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized
 

@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 from scipy.optimize import minimize
 
-from schemas.answers import OptimizeAnswer
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
 from tests.verification.checking import broken, optimized, verdict
 

@@ -9,8 +9,8 @@ from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
 from optimizer.studies.pareto.pareto import pareto
-from schemas.answers import OptimizeAnswer
-from schemas.pareto import ParetoRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.front.pareto import ParetoRequest
 from tests.optimize.test_web_groups import ANGLES, NAMES, RADIUS, body, objective, phasors, refused
 from tests.verification.checking import broken, optimized
 

@@ -8,8 +8,8 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.optimize.machines import machine, random_machine, throw, web
 from tests.optimize.whole_turn import ALONE, asked, inline_six
 

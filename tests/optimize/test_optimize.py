@@ -9,7 +9,7 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.optimize.asking import OMEGA_SQUARED, answer, single
 from tests.optimize.machines import first_order, machine, random_machine, row, throw, web
 

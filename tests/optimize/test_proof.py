@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from tests.optimize import by_hand
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.verification.checking import optimized

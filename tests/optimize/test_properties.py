@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from schemas.answers import OptimizeAnswer
+from schemas.answer.answers import OptimizeAnswer
 from tests.optimize.machines import random_machine
 from tests.verification.checking import optimized
 

@@ -7,8 +7,8 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.analyze import analyze
-from schemas.answers import OptimizeAnswer
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.analyze.driven import ask, random_driven
 from tests.optimize.shafts import WHOLE, at, in_line_four, rolled, shaft, single
 from tests.verification.checking import optimized

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from pydantic import ValidationError
 
 from optimizer.errors import MissingInput
-from schemas.accuracy import AccuracyRequest
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.request.accuracy import AccuracyRequest
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from tests.optimize.machines import machine, random_machine, row, throw, web
 from tests.optimize.robust import answered, crank, scenario, worst
 from tests.optimize.whole_turn import one_throw

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from schemas.answers import OptimizeAnswer
-from schemas.limits import ShadowPrice
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.limits import ShadowPrice
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized
 

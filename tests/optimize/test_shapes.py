@@ -12,9 +12,9 @@ from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from optimizer.program.verdict import MASS_GAP, NOT_LIGHT
 from optimizer.solve import plates as certified_shapes
-from schemas.answers import OptimizeAnswer
-from schemas.report import ReportRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.report import ReportRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.documents.examples import bodies
 from service.report.document import report
 from service.report.html import html

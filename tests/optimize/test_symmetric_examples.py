@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
 from tests.verification.checking import optimized
 
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*.json"))

@@ -10,8 +10,8 @@ from pydantic import ValidationError
 
 from optimizer.analyze import analyze
 from optimizer.solve.uncertain_program import scatter_of
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.scenarios import Tolerances
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.request.scenarios import Tolerances
 from tests.hard_turn.machines import twin
 from tests.optimize.machines import random_machine
 from tests.optimize.robust import answered, crank, scenario, six_rows, worst

@@ -4,7 +4,7 @@ from typing import Any
 
 import pytest
 
-from schemas.answers import Certificate, OptimizeAnswer
+from schemas.answer.answers import Certificate, OptimizeAnswer
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.checking import optimized
 

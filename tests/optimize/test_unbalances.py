@@ -9,7 +9,7 @@ from pydantic import ValidationError
 
 from optimizer.analyze import analyze
 from optimizer.studies.sweep import run_chunk
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.studies.sweep.single import sweep
 from tests.verification.checking import broken, optimized
 

@@ -8,10 +8,10 @@ from pydantic import ValidationError
 from scipy.optimize import minimize
 
 from optimizer.errors import OutOfRange
-from schemas.accuracy import AccuracyRequest
-from schemas.answers import OptimizeAnswer
-from schemas.match import MatchRequest
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.match.request import MatchRequest
+from schemas.request.accuracy import AccuracyRequest
+from schemas.request.requests import OptimizeRequest
 from tests.verification.checking import broken, optimized
 
 ANGLES, PLANES, RADIUS = (0.0, 120.0, 250.0), (-0.3, 0.0, 0.3), 0.2

@@ -9,9 +9,9 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from schemas.answers import Certificate, OptimizeAnswer
-from schemas.pareto import ParetoRequest
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.optimize.whole_turn import ALONE, asked, inline_six, one_throw
 from tests.pairs.asking import body_of
 

@@ -4,7 +4,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 #: nothing but what is named counts

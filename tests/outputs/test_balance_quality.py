@@ -9,8 +9,8 @@ from pydantic import ValidationError
 from optimizer.analyze import analyze
 from optimizer.mechanics.balance_quality import in_planes, permissible_unbalance, plane_shares
 from optimizer.optimize import optimize
-from schemas.balance_quality import BalanceQuality
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.machine.balance_quality import BalanceQuality
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.report.chapters.answers import analyzed
 
 ASKED = {"grade_mm_s": 6.3, "mass_kg": 200.0, "centre_of_mass_m": 0.1, "plane_a_m": -0.3, "plane_b_m": 0.5}

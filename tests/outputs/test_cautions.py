@@ -8,9 +8,9 @@ import pytest
 from optimizer.analyze import analyze
 from optimizer.optimize import optimize
 from optimizer.responses.kernel import parts
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.analyze.driven import random_driven
 from tests.builders import RADIUS, inline, machine, row, throw, web
 

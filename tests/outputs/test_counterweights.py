@@ -13,9 +13,9 @@ from pydantic import ValidationError
 
 from optimizer.formulation.counterweights import counterweights, masses_and_angles, unbalance
 from optimizer.formulation.limits import limits
-from schemas.counterweights import Counterweight
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scroll_machine import ScrollMachine
+from schemas.answer.counterweights import Counterweight
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.scroll_machine import ScrollMachine
 from tests.hard.cases.case import machine, throw, web
 
 #: degrees: rounding of an angle up to 360 degrees

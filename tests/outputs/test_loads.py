@@ -8,9 +8,9 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.mechanics.weight import GRAVITY, on_guide
-from schemas.answers import AnalyzeAnswer
-from schemas.loads import Loads
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import AnalyzeAnswer
+from schemas.answer.loads import Loads
+from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 
 

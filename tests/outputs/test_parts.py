@@ -8,8 +8,8 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.mechanics.weight import GRAVITY
-from schemas.loads import Loads
-from schemas.requests import AnalyzeRequest
+from schemas.answer.loads import Loads
+from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from service.validation import InvalidRequest, check
 from tests.verification.checking import optimized

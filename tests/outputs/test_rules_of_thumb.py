@@ -7,7 +7,7 @@ from optimizer.mechanics.inertia import reciprocating
 from optimizer.mechanics.layout import layout
 from optimizer.outputs.rules_of_thumb import force_rules, moment_rules
 from optimizer.responses.response import Phasors
-from schemas.outputs import RuleOfThumb
+from schemas.answer.outputs import RuleOfThumb
 from tests.builders import OMEGA, RADIUS, all_stages, inline, machine, opposed, row, throw, web
 
 F0 = 10.0 * RADIUS * OMEGA**2

@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.mechanics.inertia import counterweights, reciprocating, rotating
 from optimizer.mechanics.layout import layout
-from schemas.outputs import Stage
+from schemas.answer.outputs import Stage
 from tests.builders import OMEGA, RADIUS, all_stages, inline, machine, opposed, row, throw, web
 
 F0 = 10.0 * RADIUS * OMEGA**2

@@ -12,9 +12,9 @@ from optimizer.mechanics.inertia import counterweights, first_order_responses, r
 from optimizer.mechanics.layout import layout
 from optimizer.mechanics.slider_crank import acceleration_harmonic, acceleration_harmonic_order_2
 from optimizer.numerics.arrays import Complex
-from schemas.outputs import Stage
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import Throw
+from schemas.answer.outputs import Stage
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import Throw
 from tests.builders import OMEGA, RADIUS, all_stages, inline, machine, machines, opposed, row, throw, web
 
 F0 = 10.0 * RADIUS * OMEGA**2  # 3500 N: 10 kg on 0.14 m at 50 rad/s, as in the seeds' reference figures

@@ -14,8 +14,8 @@ from optimizer.errors import NotComputable
 from optimizer.formulation.formulate import weights
 from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from service.validation import InvalidRequest, check
 from service.verification import checker
 from tests.pairs.features import FEATURES

@@ -6,7 +6,7 @@ from functools import cache
 from typing import Any
 
 from optimizer.analyze import analyze
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 
 Request = dict[str, Any]
 

@@ -20,7 +20,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM, INTERIOR_POINT, Solution
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import yardstick
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.hard import stored
 from tests.hard.cases import all_cases
 from tests.hard.cases.case import Case

@@ -13,7 +13,7 @@ from optimizer.program.cuts.dominance import deciding, spare
 from optimizer.program.cuts.samples import Samples
 from optimizer.responses.curve import TurnResponse, floor, peaks
 from optimizer.solve.whole_turn import whole_turn_of
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.benchmarks.whole_turn import six_with_gas
 from tests.optimize.whole_turn import ALONE, asked
 from tests.program.test_scalars import quantity

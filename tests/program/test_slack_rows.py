@@ -15,9 +15,9 @@ from optimizer.program.solution import INTERIOR_POINT
 from optimizer.program.verdict import yardstick
 from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
-from schemas.requests import OptimizeRequest
-from schemas.rules import Path
-from schemas.variation import with_fields
+from schemas.base.rules import Path
+from schemas.base.variation import with_fields
+from schemas.request.requests import OptimizeRequest
 
 THROWS, ORDERS = 9, 120
 

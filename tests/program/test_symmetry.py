@@ -13,10 +13,10 @@ from optimizer.numerics.arrays import Complex
 from optimizer.optimize import optimize
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.statement import Statement
-from schemas.objective import Objective
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.webs import Sector, Web
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.webs import Sector, Web
+from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
 from tests.builders import machine, throw, web
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

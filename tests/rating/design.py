@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from hypothesis import strategies as st
 
-from schemas.rating import RatingRequest
+from schemas.rating.request import RatingRequest
 
 FIGURES = json.loads((Path(__file__).parent / "seed_thermal.json").read_text())
 

@@ -6,7 +6,7 @@ import pytest
 
 from optimizer.errors import OutOfRange
 from optimizer.rating.rate import rate
-from schemas.rating_answer import RatingAnswer
+from schemas.rating.answer import RatingAnswer
 from tests.rating.design import near, request, rods
 from tests.rating.test_refusals import Path, refused
 

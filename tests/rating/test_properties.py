@@ -12,10 +12,10 @@ from optimizer.rating.curves import DISCHARGE, SUCTION
 from optimizer.rating.power import indicated_power
 from optimizer.rating.rate import rate
 from optimizer.rating.sizes import Piston, nominal_bore
-from schemas.cylinder import Cylinder
-from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingAnswer
-from schemas.throws import Row
+from schemas.machine.cylinder import Cylinder
+from schemas.machine.throws import Row
+from schemas.rating.answer import RatingAnswer
+from schemas.rating.request import RatingRequest
 from tests.rating.design import body, request, requests
 
 

@@ -11,8 +11,8 @@ from pydantic import ValidationError
 
 from optimizer.errors import OutOfRange
 from optimizer.rating.rate import rate
-from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingAnswer
+from schemas.rating.answer import RatingAnswer
+from schemas.rating.request import RatingRequest
 from tests.rating.design import SEED, body, request
 
 Path = tuple[str | int, ...]

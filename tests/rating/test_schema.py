@@ -4,9 +4,9 @@ import pytest
 from jsonschema import Draft202012Validator
 from pydantic import ValidationError
 
-from schemas.base import Model
-from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingAnswer
+from schemas.base.model import Model
+from schemas.rating.answer import RatingAnswer
+from schemas.rating.request import RatingRequest
 from tests.rating.design import body, request
 
 

@@ -6,7 +6,7 @@ The seed rounds the intermediate pressure to 0.79 MPa, takes pi = 3.14 and a mea
 import pytest
 
 from optimizer.rating.rate import rate
-from schemas.rating_answer import RatingAnswer
+from schemas.rating.answer import RatingAnswer
 from tests.rating.design import near, request, rods
 
 

@@ -9,8 +9,8 @@ from optimizer.rating.power import indicated_power, shaft_power, suction_flow
 from optimizer.rating.ratios import equal_split
 from optimizer.rating.sizes import Piston, stage_flow, swept_volume
 from optimizer.rating.steam import condensate_coefficients
-from schemas.rating import CompressionStage
-from schemas.rating_answer import CylinderSize
+from schemas.rating.answer import CylinderSize
+from schemas.rating.request import CompressionStage
 from tests.rating.design import FIGURES, figure, near
 
 

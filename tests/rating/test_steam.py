@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.rating.steam import condensate_coefficients, saturation_pressure
-from schemas.rating import COLDEST_STEAM_K, HOTTEST_STEAM_K
+from schemas.rating.request import COLDEST_STEAM_K, HOTTEST_STEAM_K
 from tests.rating.design import FIGURES
 
 

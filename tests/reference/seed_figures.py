@@ -10,8 +10,8 @@ import pytest
 
 from optimizer.mechanics.angles import direction
 from optimizer.mechanics.layout import Layout, Reciprocating, Rotating, Webs, layout
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import ConnectingRod, Row, Throw
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import ConnectingRod, Row, Throw
 
 _FILE = json.loads((Path(__file__).parent / "seed_checks.json").read_text())
 RTOL, ATOL = _FILE["rtol"], _FILE["atol"]

@@ -8,7 +8,7 @@ import pytest
 from optimizer.mechanics.inertia import counterweights, first_order_responses, reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.outputs.rules_of_thumb import force_rules, moment_rules
-from schemas.throws import ConnectingRod, Row
+from schemas.machine.throws import ConnectingRod, Row
 from tests.builders import OMEGA, machine, row, throw, web
 from tests.reference.seed_figures import RTOL, check, checks
 

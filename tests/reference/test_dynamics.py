@@ -15,7 +15,7 @@ from optimizer.mechanics.layout import Layout
 from optimizer.mechanics.rod import rod_forces
 from optimizer.mechanics.turn import fluctuation, mean, panels
 from optimizer.numerics.arrays import Real
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from tests.reference import compressor
 
 _FILE = json.loads((Path(__file__).parent / "seed_dynamics.json").read_text())

@@ -8,7 +8,7 @@ import pytest
 
 from optimizer.analyze import analyze
 from optimizer.numerics.arrays import Real
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from tests.reference import compressor
 from tests.reference.columns import ROTATING, ROUNDED, figures, rounding
 

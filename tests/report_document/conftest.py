@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from schemas.report import ReportRequest
+from schemas.request.report import ReportRequest
 from service.documents.examples import load
 from service.report.blocks import Document
 from service.report.document import report

@@ -11,7 +11,7 @@ import pytest
 from rich.console import Console
 
 from optimizer.optimize import optimize
-from schemas.outputs import OutputName
+from schemas.answer.outputs import OutputName
 from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json

@@ -8,7 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.counterweights import Counterweight
+from schemas.answer.counterweights import Counterweight
 from service.drawings.svg import AFTER, PAGE_WIDTH, Drawing
 from service.report import charts
 from service.report.front import front

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import load
 from service.report.blocks import Figure
 from service.report.chapters.orders import _ellipse, orders

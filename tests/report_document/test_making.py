@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optimizer.analyze import analyze
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from service.report.blocks import Document, Number, Table
 from service.report.chapters.answers import analyzed

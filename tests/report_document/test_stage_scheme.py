@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.outputs import Stage
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.answer.outputs import Stage
+from schemas.machine.reciprocating import ReciprocatingMachine
 from service.report.indicator import indicators
 from service.report.stage_scheme import stage_scheme
 from tests.report_document.conftest import MARKUP, asked

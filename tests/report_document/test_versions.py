@@ -7,8 +7,8 @@ import pytest
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from schemas.report import ReportRequest
-from schemas.requests import AnalyzeRequest
+from schemas.request.report import ReportRequest
+from schemas.request.requests import AnalyzeRequest
 from service.guard.sizes import SizeLimits
 from service.report.blocks import Number, Table
 from service.report.document import report

@@ -6,9 +6,9 @@ from typing import Any, get_args
 import pytest
 
 from optimizer.optimize import optimize
-from schemas.limits import MachineLimit, WebLimit
-from schemas.report import ReportRequest
-from schemas.requests import OptimizeRequest
+from schemas.answer.limits import MachineLimit, WebLimit
+from schemas.request.report import ReportRequest
+from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Document, Number, Table
 from service.report.chapters.balance import limits
 from service.report.document import report

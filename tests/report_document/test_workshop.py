@@ -3,7 +3,7 @@
 import json
 from pathlib import Path
 
-from schemas.report import ReportRequest
+from schemas.request.report import ReportRequest
 from service.report.blocks import Figure
 from service.report.document import report
 from service.report.html import html

@@ -16,8 +16,8 @@ from optimizer.responses.component import component
 from optimizer.responses.curve import TurnResponse, peaks
 from optimizer.responses.mass_scatter import peaks_astray
 from optimizer.solve.uncertain_program import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
 from tests.hard_turn import machines
 
 _STEPS = np.linspace(0.0, 2.0 * np.pi, 721)

@@ -5,12 +5,12 @@ from typing import Any
 import pytest
 from pydantic import BaseModel, ValidationError
 
-from schemas.angles import Angles
-from schemas.cylinder import Cylinder
-from schemas.objective import DirectionWeights, Objective
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.scroll_machine import ScrollMachine
+from schemas.base.angles import Angles
+from schemas.machine.cylinder import Cylinder
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.scroll_machine import ScrollMachine
+from schemas.request.objective import DirectionWeights, Objective
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 
 THROW: dict[str, Any] = {"position_m": 0, "crank_radius_m": 0.14, "crank_angle_deg": 0}
 ROW: dict[str, Any] = {"axis_deg": 0, "reciprocating_mass_kg": 1}

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 ROW = {"axis_deg": 0.0, "reciprocating_mass_kg": 1.0}
 BODY: dict[str, Any] = {

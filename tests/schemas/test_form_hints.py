@@ -8,13 +8,13 @@ import pytest
 from jsonschema import Draft202012Validator
 from pydantic import Field
 
-from schemas.base import Model
-from schemas.form_groups import GROUPS
-from schemas.match import MatchRequest
-from schemas.quantities import Length, Mass, Name
-from schemas.sweep import SweepRequest
-from schemas.titles import field_title, model_title
-from schemas.units import Unit
+from schemas.base.form_groups import GROUPS
+from schemas.base.model import Model
+from schemas.base.quantities import Length, Mass, Name
+from schemas.base.titles import field_title, model_title
+from schemas.base.units import Unit
+from schemas.match.request import MatchRequest
+from schemas.sweep.request import SweepRequest
 from service.computations import COMPUTATIONS
 from tests.schemas.test_json_schema import MODELS, each_model
 

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from tests.analyze.engines import cylinder, engine
 
 CLOSED = {"angle_deg": [0, 100, 300, 500, 720], "pressure_Pa": [5e6, 1e6, 1e5, 1e5, 5e6]}

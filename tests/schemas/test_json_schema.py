@@ -9,8 +9,8 @@ from jsonschema import Draft202012Validator
 from pydantic import BaseModel, TypeAdapter
 
 import schemas
-from schemas.base import Model
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.base.model import Model
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 
 #: suffix of a field's name -> unit; the longest suffix that fits counts
 SUFFIXES = {
@@ -72,13 +72,13 @@ def units_in(schema: Any) -> set[str]:
 
 def of_a_request(model: type[Model]) -> bool:
     return model.__module__ in (
-        "schemas.machine",
-        "schemas.throws",
-        "schemas.webs",
-        "schemas.objective",
-        "schemas.cylinder",
-        "schemas.requests",
-        "schemas.rating",
+        "schemas.machine.machine",
+        "schemas.machine.throws",
+        "schemas.machine.webs",
+        "schemas.request.objective",
+        "schemas.machine.cylinder",
+        "schemas.request.requests",
+        "schemas.rating.request",
     )
 
 

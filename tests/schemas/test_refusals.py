@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from pydantic import ValidationError
 
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.scroll_machine import ScrollMachine
+from schemas.machine.scroll_machine import ScrollMachine
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 
 BODY: dict[str, Any] = {
     "machine": {

@@ -13,8 +13,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import TypeAdapter, ValidationError
 
-from schemas.base import Model
-from schemas.units import UNITS, Unit, parse_quantity
+from schemas.base.model import Model
+from schemas.base.units import UNITS, Unit, parse_quantity
 
 PAIRS = [(field, symbol) for field, accepted in UNITS.items() for symbol in accepted]
 

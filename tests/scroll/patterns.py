@@ -11,7 +11,7 @@ from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Real
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import Pins
-from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
+from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
 
 CHECKS = {check["id"]: check for check in json.loads((Path(__file__).parent / "seed_pins.json").read_text())["checks"]}
 TORQUE = 12.0  # N m, that of the seed's figures

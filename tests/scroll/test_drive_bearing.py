@@ -13,7 +13,7 @@ from optimizer.mechanics.oldham import Oldham, keys
 from optimizer.numerics.arrays import Real
 from optimizer.pins.answer import pin_loads
 from optimizer.pins.loads import levers
-from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
+from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
 from tests.scroll.patterns import TABLE, TORQUE, ask, even, given_pins, loads, random_pins, seeds
 
 RIGID = {"type": "rigid"}

@@ -7,7 +7,7 @@ import pytest
 from pydantic import ValidationError
 
 from optimizer.pins.loads import gas_torques
-from schemas.scroll import MAX_PINS, PinLoadsAnswer, PinLoadsRequest
+from schemas.scroll.pin_loads import MAX_PINS, PinLoadsAnswer, PinLoadsRequest
 from tests.scroll.patterns import TABLE, TORQUE, ask, even, given_pins, loads
 
 EVEN: dict[str, Any] = {"pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5}

@@ -14,8 +14,8 @@ from click.testing import Result
 from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.version import DISTRIBUTION
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.base.version import DISTRIBUTION
 from service.cli import app
 from service.documents.examples import catalogue, directory, load, names
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from schemas.effects import EffectCatalogue
-from schemas.rating_answer import RatingAnswer
+from schemas.answer.effects import EffectCatalogue
+from schemas.rating.answer import RatingAnswer
 from service.documents.examples import bodies, directory, names
 from tests.service.test_cli import refused, run
 from tests.service.test_dynamics import OVER_THE_TURN

@@ -10,9 +10,9 @@ import pytest
 from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
-from schemas.base import Answer
-from schemas.sweep import SweepEstimate, SweepState
-from schemas.version import package_version
+from schemas.base.model import Answer
+from schemas.base.version import package_version
+from schemas.sweep.answers import SweepEstimate, SweepState
 from service.app import create_app
 from service.cli import command_line
 from service.computations import COMPUTATIONS, Computation

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 
 Post = Callable[..., Any]
 OVER_THE_TURN = [

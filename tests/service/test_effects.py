@@ -5,8 +5,8 @@ from typing import get_args
 from starlette.testclient import TestClient
 
 from optimizer.effects.registry import EFFECTS
-from schemas.effects import EffectCatalogue, OutputEntry
-from schemas.outputs import OutputName
+from schemas.answer.effects import EffectCatalogue, OutputEntry
+from schemas.answer.outputs import OutputName
 
 
 def catalogue(client: TestClient) -> EffectCatalogue:

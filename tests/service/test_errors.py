@@ -8,7 +8,7 @@ import pytest
 from starlette.exceptions import HTTPException
 from starlette.testclient import TestClient
 
-from schemas.problem import Problem
+from schemas.answer.problem import Problem
 from service.app import FAULTS, create_app
 from service.settings import Settings
 from tests.service.conftest import MAX_BODY_BYTES

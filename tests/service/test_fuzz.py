@@ -9,11 +9,11 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 from starlette.testclient import TestClient
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.base import Model
-from schemas.outputs import OutputName
-from schemas.problem import Problem
-from schemas.rating_answer import RatingAnswer
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.outputs import OutputName
+from schemas.answer.problem import Problem
+from schemas.base.model import Model
+from schemas.rating.answer import RatingAnswer
 from service.documents.examples import bodies
 from tests.service.test_dynamics import OVER_THE_TURN
 

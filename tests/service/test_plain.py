@@ -12,8 +12,8 @@ import pytest
 from typer.testing import CliRunner
 
 from optimizer.optimize import optimize
-from schemas.report import ReportRequest
-from schemas.requests import OptimizeRequest
+from schemas.request.report import ReportRequest
+from schemas.request.requests import OptimizeRequest
 from service.cli import app
 from service.documents.examples import load
 from service.http.file_names import file_name

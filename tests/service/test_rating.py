@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 
 from optimizer.rating.rate import rate
-from schemas.rating import RatingRequest
-from schemas.rating_answer import RatingAnswer
+from schemas.rating.answer import RatingAnswer
+from schemas.rating.request import RatingRequest
 from service.documents.examples import bodies
 from tests.rating.design import SEED
 from tests.service.test_dynamics import MISSING, change, pointers

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 from starlette.testclient import TestClient
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import UnknownExample, directory, load, names
 
 Post = Callable[..., Any]

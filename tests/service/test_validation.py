@@ -6,8 +6,8 @@ from typing import Any, get_args
 
 import pytest
 
-from schemas.outputs import OutputName
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.outputs import OutputName
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
 
 

@@ -13,8 +13,8 @@ from starlette.testclient import TestClient
 from typer.testing import CliRunner
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
-from schemas.version import package_version
+from schemas.base.version import package_version
+from schemas.request.requests import OptimizeRequest
 from service.cli import app
 from service.documents.examples import bodies
 from service.verification import checker

@@ -11,7 +11,7 @@ import pytest
 from openpyxl.utils import get_column_letter
 from starlette.testclient import TestClient
 
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.computations import XLSX
 from service.documents.examples import bodies
 from service.workbook.files import workbook, workbook_sheets

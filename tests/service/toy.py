@@ -4,7 +4,7 @@ from collections.abc import Iterator
 
 from pydantic import Field
 
-from schemas.base import Model
+from schemas.base.model import Model
 from service.computations import Computation
 from service.report.blocks import Chapter, facts
 

@@ -11,7 +11,7 @@ from typing import Any, Literal, NamedTuple
 import numpy as np
 
 from optimizer.analyze import analyze
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from tests.validation.comparison import Comparison, Misprint
 
 LAMBDA = 0.2

@@ -8,8 +8,8 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.numerics.arrays import Complex
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import AnalyzeRequest
 from service.documents.examples import load
 from tests.validation.comparison import Comparison
 from tests.validation.multibody import STEPS, OneTurn, one_turn

@@ -10,7 +10,7 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.rating.rate import rate
-from schemas.requests import AnalyzeRequest
+from schemas.request.requests import AnalyzeRequest
 from tests.rating.design import request as request_of_rating
 from tests.reference import compressor
 from tests.reference.columns import ROTATING, ROUNDED, figures, rounding

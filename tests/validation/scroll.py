@@ -6,7 +6,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.pins.answer import pin_loads
-from schemas.scroll import PinLoadsAnswer, PinLoadsRequest
+from schemas.scroll.pin_loads import PinLoadsAnswer, PinLoadsRequest
 from tests.validation.comparison import Comparison
 
 _TORQUE, _RADIUS = 12.0, 0.05

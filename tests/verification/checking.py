@@ -4,8 +4,8 @@ import json
 from typing import Any
 
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 
 

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.pairs.asking import body_of
 from tests.verification.anything import JSON, judged, paths, replaced

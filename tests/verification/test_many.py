@@ -9,8 +9,8 @@ from optimizer.program.reference.solver import Solver
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
-from schemas.pareto import ParetoRequest
-from schemas.sweep import SweepRequest
+from schemas.front.pareto import ParetoRequest
+from schemas.sweep.request import SweepRequest
 from service.verification import checker
 from tests.verification.checking import broken, verdict
 from tests.verification.kinds import SINGLE

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optimizer.optimize import optimize
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from service.verification import checker
 from tests.optimize.machines import machine, row, throw, web
 from tests.verification.anything import JSON, judged, paths, replaced

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from schemas.base import FieldProblem
+from schemas.base.model import FieldProblem
 from service.documents.examples import bodies
 from service.workbook.files import workbook, workbook_sheets
 from service.workbook.sheets import Misplaced, Sheets, read, written

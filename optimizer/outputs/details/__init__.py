@@ -1,4 +1,4 @@
-"""Columns in detail, by output; names, units and meanings are declared in :mod:`schemas.details`.
+"""Columns in detail, by output; names, units and meanings are declared in :mod:`schemas.sweep.details`.
 
 What a single answer has of every bearing, row and load case, worked out in a sweep only where it is asked for.
 """

@@ -12,9 +12,9 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.output import Columns
 from optimizer.outputs.peaks import FLOOR_TOLERANCE, bearing_and_bending_curves, bearing_influence, of_shaft, one_by_one
 from optimizer.responses.curve import floors
-from schemas.drive import Bearing
-from schemas.outputs import labels
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.answer.outputs import labels
+from schemas.machine.drive import Bearing
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 def _specific(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

@@ -6,7 +6,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS
 from optimizer.outputs.output import Columns
-from schemas.details import keys_of
+from schemas.sweep.details import keys_of
 
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:

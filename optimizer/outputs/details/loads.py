@@ -11,7 +11,7 @@ from optimizer.outputs.details.rows import by_part, of_chambers
 from optimizer.outputs.loads import at_dead_centres, on_bearings, on_guides, whole_weight
 from optimizer.outputs.output import Columns
 from optimizer.outputs.peaks import of_rows
-from schemas.reciprocating import ReciprocatingMachine
+from schemas.machine.reciprocating import ReciprocatingMachine
 
 
 def _over_the_turn(scene: Prepared, _fitted: Complex) -> dict[str, Real]:

@@ -7,7 +7,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.dynamics import CASES
 from optimizer.outputs.output import Columns
 from optimizer.outputs.peaks import of_rows
-from schemas.details import Of, keys_of, parts_of
+from schemas.sweep.details import Of, keys_of, parts_of
 
 
 def by_part(scene: Prepared, name: str, of: Of, values: Real) -> dict[str, Real]:

@@ -24,10 +24,10 @@ from optimizer.mechanics.turn import fluctuation, mean, panels
 from optimizer.mechanics.whole_turn import break_angles
 from optimizer.numerics.arrays import Real
 from optimizer.studies.accuracy.ladder import median_ms, timed
-from schemas.accuracy import EffectRow
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scene import Fidelity
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.accuracy import EffectRow
+from schemas.request.scene import Fidelity
 
 STEPS_DEG = (30.0, 15.0, 10.0, 5.0, 2.0, 1.0, 0.5, 0.1)
 #: rows of a machine up to which the ladder is made

@@ -24,9 +24,17 @@ from optimizer.studies.accuracy.ladder import LADDER_S, Clock, Trial, frontier, 
 from optimizer.studies.accuracy.methods import POSITIONS, Task, methods
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
-from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, Environment, ProgramSize, Reference, Status
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.version import package_version
+from schemas.base.version import package_version
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.accuracy import (
+    AccuracyAnswer,
+    AccuracyRequest,
+    AccuracyRow,
+    Environment,
+    ProgramSize,
+    Reference,
+    Status,
+)
 
 _LOG = logging.getLogger(__name__)
 #: gap asked of the reference

@@ -22,10 +22,10 @@ from optimizer.mechanics.whole_turn import TurnCurves, WholeTurn
 from optimizer.numerics.arrays import Complex
 from optimizer.studies.accuracy.effects import MAX_ROWS
 from optimizer.studies.accuracy.ladder import median_ms, timed
-from schemas.accuracy import PeakRow
-from schemas.machine import Machine
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.scene import Fidelity
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.accuracy import PeakRow
+from schemas.request.scene import Fidelity
 
 TOLERANCES = (1e-3, 1e-6, 1e-9)
 STEPS_DEG = (30.0, 10.0, 5.0, 1.0, 0.1, 0.01)

@@ -16,9 +16,9 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.studies.matching.problem import Minorants, Problem
-from schemas.match import MatchRequest
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.throws import Row
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.throws import Row
+from schemas.match.request import MatchRequest
 
 #: asked of every program, in units of its objective without counterweights
 _GAP = 1e-6

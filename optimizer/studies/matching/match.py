@@ -22,13 +22,13 @@ from optimizer.studies.matching.exhaustion import candidates
 from optimizer.studies.matching.fitted import Best, as_fitted, few
 from optimizer.studies.matching.problem import Minorants, Problem, stated
 from optimizer.studies.matching.search import searched
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer, Timing
-from schemas.first_order import FirstOrder, Residual
-from schemas.fitted import GivenCounterweight
-from schemas.match import MatchRequest
-from schemas.match_answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import Accuracy, AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
+from schemas.answer.first_order import FirstOrder, Residual
+from schemas.machine.fitted import GivenCounterweight
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.match.answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
+from schemas.match.request import MatchRequest
+from schemas.request.requests import Accuracy, AnalyzeRequest, OptimizeRequest
 
 #: rounds of a search with counterweights, and programs in one of them
 _ROUNDS = 12

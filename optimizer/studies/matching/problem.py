@@ -15,7 +15,7 @@ from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import Layout, layout, spread, stacked
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.responses.response import Response
-from schemas.match import MatchRequest
+from schemas.match.request import MatchRequest
 
 
 @dataclass(frozen=True)

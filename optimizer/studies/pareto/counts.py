@@ -19,13 +19,13 @@ from optimizer.program.verdict import CONTRADICTED
 from optimizer.solve.choice import certified_choice
 from optimizer.solve.design import certified_one
 from optimizer.solve.minimum_mass import certified_light, certified_light_over_turn
-from schemas.answers import Certificate
-from schemas.catalogue import Catalogue
-from schemas.counterweights import Counterweight
-from schemas.counts import Counted, CountFront, CountPoint, CountTrade
-from schemas.machine import Machine
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate
+from schemas.answer.counterweights import Counterweight
+from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
+from schemas.front.pareto import ParetoRequest
+from schemas.machine.catalogue import Catalogue
+from schemas.machine.machine import Machine
+from schemas.request.requests import OptimizeRequest
 
 #: of a mass, relative: by which sums of masses are rounded
 _ROUNDING = 1e-12

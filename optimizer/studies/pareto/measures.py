@@ -15,9 +15,9 @@ from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, OverTurn
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
-from schemas.objective import Objective
-from schemas.requests import OptimizeRequest
-from schemas.trade import Traded
+from schemas.front.trade import Traded
+from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of what is traded
 _CLOSE = 1e-10

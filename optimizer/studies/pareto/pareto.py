@@ -25,9 +25,9 @@ from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, Point, front
 from optimizer.studies.pareto.trade import Trade, trade
 from optimizer.studies.pareto.trades import needed, traded_front
-from schemas.answers import Timing
-from schemas.machine import Machine
-from schemas.pareto import (
+from schemas.answer.answers import Timing
+from schemas.answer.proof import EndMultipliers, Multipliers
+from schemas.front.pareto import (
     CornerCertificate,
     Ends,
     ParetoAnswer,
@@ -38,8 +38,8 @@ from schemas.pareto import (
     Scale,
     Status,
 )
-from schemas.proof import EndMultipliers, Multipliers
-from schemas.requests import OptimizeRequest
+from schemas.machine.machine import Machine
+from schemas.request.requests import OptimizeRequest
 
 #: a front whose points lie nearer to the straight line between its ends than this share of its range has no knee
 _STRAIGHT = 1e-4

@@ -14,8 +14,8 @@ from optimizer.program.norms import Norms
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.statement import Statement
 from optimizer.responses.response import Response
-from schemas.machine import Machine
-from schemas.objective import Objective
+from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
 
 
 @dataclass(frozen=True)

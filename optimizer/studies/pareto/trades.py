@@ -23,10 +23,10 @@ from optimizer.program.verdict import Claim, mass_resolution, verdict
 from optimizer.solve.first_order import finite_or_null
 from optimizer.solve.whole_turn import whole_turn_of
 from optimizer.studies.pareto.measures import Measures, alone, measures, unit_of
-from schemas.machine import Machine
-from schemas.pareto import ParetoRequest
-from schemas.requests import OptimizeRequest
-from schemas.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
+from schemas.front.pareto import ParetoRequest
+from schemas.front.trade import Traded, TradedCertificate, TradedFront, TradedPoint, TradedResponse
+from schemas.machine.machine import Machine
+from schemas.request.requests import OptimizeRequest
 
 #: at an end the others may use so much of what counts first, as a share of its yardstick
 _END_SLACK = 1e-6

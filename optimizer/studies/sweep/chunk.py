@@ -10,7 +10,7 @@ from optimizer.solve.process_solver import own_solver
 from optimizer.studies.sweep.plan import block_rows
 from optimizer.studies.sweep.rows import rows
 from optimizer.studies.sweep.table import result_schema, result_table
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 
 
 def run_chunk(request_json: bytes, start: int, stop: int) -> pa.Table:
@@ -20,7 +20,7 @@ def run_chunk(request_json: bytes, start: int, stop: int) -> pa.Table:
 
     Parameters
     ----------
-    request_json : a valid :class:`schemas.sweep.SweepRequest`.
+    request_json : a valid :class:`schemas.sweep.request.SweepRequest`.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.certify import Certified, certified
 from optimizer.studies.sweep.proofs import multipliers_as_text
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.columns import MULTIPLIERS
 
 Columns = dict[str, Any]

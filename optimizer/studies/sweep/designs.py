@@ -12,7 +12,9 @@ from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Real
 from optimizer.studies.sweep.crank_orders import orders
-from schemas.sweep import Axis, SweepRequest, Target
+from schemas.base.target import Target
+from schemas.sweep.axes import Axis
+from schemas.sweep.request import SweepRequest
 
 Indices = NDArray[np.int64]
 _Words = NDArray[np.uint64]

@@ -12,7 +12,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.solve.certify import Certified
 from optimizer.solve.design import certified_one
 from optimizer.studies.sweep.counterweights import Columns, columns_of
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 
 
 def optimal_alone(request: OptimizeRequest, solver: Solver, multipliers: bool) -> tuple[Columns, Complex]:

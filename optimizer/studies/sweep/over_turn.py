@@ -10,10 +10,10 @@ from optimizer.outputs.registry import prepare
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.solve import solve
-from schemas.answers import Certificate, GoalReached
-from schemas.infeasibility import Infeasibility
-from schemas.proof import DesignMultipliers
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate, GoalReached
+from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.proof import DesignMultipliers
+from schemas.request.requests import OptimizeRequest
 from schemas.sweep.columns import CERTIFICATE, MULTIPLIERS, goal_columns
 
 

@@ -11,12 +11,14 @@ from optimizer.outputs.registry import missing_inputs
 from optimizer.outputs.requirements import missing
 from optimizer.studies.sweep.table import result_schema
 from optimizer.studies.sweep.work import curves_over_turn, work_per_design, worked_out_alone
-from schemas.base import FieldProblem
-from schemas.objective import OVER_THE_TURN
-from schemas.requests import OptimizeRequest
-from schemas.rules import Path
-from schemas.sweep import Column, SweepColumn, SweepEstimate, SweepRequest
-from schemas.variation import with_fields
+from schemas.answer.outputs import Column
+from schemas.base.model import FieldProblem
+from schemas.base.rules import Path
+from schemas.base.variation import with_fields
+from schemas.request.objective import OVER_THE_TURN
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.answers import SweepColumn, SweepEstimate
+from schemas.sweep.request import SweepRequest
 
 #: seconds of work in a chunk: long against the cost of handing it out, short against the patience of a client
 _CHUNK_S = 1.0

@@ -4,8 +4,8 @@ import numpy as np
 
 from optimizer.solve.certify import Certified
 from optimizer.solve.proof import implied_max_mass, named_proofs, physical_proofs
-from schemas.proof import DesignMultipliers
-from schemas.requests import OptimizeRequest
+from schemas.answer.proof import DesignMultipliers
+from schemas.request.requests import OptimizeRequest
 
 
 def multipliers_as_text(request: OptimizeRequest, best: Certified) -> np.ndarray:

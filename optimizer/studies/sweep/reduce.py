@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from optimizer.numerics.arrays import Real
 from optimizer.studies.sweep.table import result_schema
-from schemas.sweep import SweepRequest, TopFilter
+from schemas.sweep.request import SweepRequest, TopFilter
 
 Mask = NDArray[np.bool_]
 Places = NDArray[np.intp]

@@ -18,10 +18,11 @@ from optimizer.studies.sweep.designs import axis_values
 from optimizer.studies.sweep.one_by_one import optimal_alone
 from optimizer.studies.sweep.over_turn import optimal_over_turn
 from optimizer.studies.sweep.work import work_per_design
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.rules import Path, Rule, all_rules
-from schemas.sweep import SweepRequest, pointer
-from schemas.variation import with_fields
+from schemas.base.rules import Path, Rule, all_rules
+from schemas.base.target import pointer
+from schemas.base.variation import with_fields
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 
 _LOG = logging.getLogger(__name__)
 Designs = NDArray[np.int64]

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pyarrow as pa
 
-from schemas.sweep import SweepRequest
-from schemas.version import package_version
+from schemas.base.version import package_version
+from schemas.sweep.request import SweepRequest
 
 #: keys of the table's metadata
 REQUEST, VERSIONS, SEED = b"counterweight.request", b"counterweight.versions", b"counterweight.seed"

@@ -5,7 +5,7 @@ import pyarrow as pa
 from optimizer.studies.sweep.chunk import blocks, run_chunk
 from optimizer.studies.sweep.plan import plan
 from optimizer.studies.sweep.reduce import reducer
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 
 
 def sweep_table(request: SweepRequest) -> pa.Table:

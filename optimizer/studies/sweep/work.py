@@ -3,9 +3,9 @@
 from optimizer.effects.registry import effects_of
 from optimizer.mechanics.cylinders import cycle_turns, entry_count
 from optimizer.outputs.registry import column_groups
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 
 
 def work_per_design(request: OptimizeRequest | AnalyzeRequest, always: tuple[str, ...], wanted: frozenset[str]) -> int:

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from schemas.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow, PeakRow
+from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest, AccuracyRow, EffectRow, PeakRow
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, number, table
 
 _METHODS = {

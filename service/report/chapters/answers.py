@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.machine import Machine
-from schemas.outputs import OutputFields
-from schemas.requests import AnalyzeRequest, OptimizeRequest
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.outputs import OutputFields
+from schemas.machine.machine import Machine
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
 from service.report.chapters.balance_quality import balance_quality

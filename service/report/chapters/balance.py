@@ -3,13 +3,13 @@
 import math
 from collections.abc import Iterator, Sequence
 
-from schemas.answers import Certificate, OptimizeAnswer
-from schemas.base import FieldProblem
-from schemas.counterweights import Counterweight
-from schemas.first_order import FirstOrder, Floor
-from schemas.machine import Machine
-from schemas.outputs import Hodographs, Stage
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.first_order import FirstOrder, Floor
+from schemas.answer.outputs import Hodographs, Stage
+from schemas.base.model import FieldProblem
+from schemas.machine.machine import Machine
+from schemas.request.requests import OptimizeRequest
 from service.report.blocks import (
     Block,
     Chapter,

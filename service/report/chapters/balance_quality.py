@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.machine import Machine
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.machine.machine import Machine
 from service.report.blocks import Chapter, Paragraph, table
 
 

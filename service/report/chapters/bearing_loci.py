@@ -4,8 +4,8 @@ import cmath
 import math
 from collections.abc import Iterator, Sequence
 
-from schemas.dynamics import BearingLoad, MainBearing, MainBearings
-from schemas.machine import Machine
+from schemas.answer.dynamics import BearingLoad, MainBearing, MainBearings
+from schemas.machine.machine import Machine
 from service.drawings.svg import AFTER, BEFORE, Drawing
 from service.report.blocks import Figure
 from service.report.loci import Curve, locus

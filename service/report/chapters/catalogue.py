@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from schemas.effects import EffectCatalogue
+from schemas.answer.effects import EffectCatalogue
 from service.report.blocks import Chapter, table
 
 

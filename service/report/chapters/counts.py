@@ -1,6 +1,6 @@
 """What one counterweight, or one part number, more is worth."""
 
-from schemas.counts import CountFront, CountPoint
+from schemas.front.counts import CountFront, CountPoint
 from service.report.blocks import Block, Cell, Number, table
 
 _COUNTED = {"weights": "counterweights", "part_numbers": "part numbers"}

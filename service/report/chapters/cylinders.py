@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from schemas.cylinder import Cylinder
+from schemas.machine.cylinder import Cylinder
 from service.report.blocks import Block, table
 
 _ACTING = {"double": "both sides", "head": "head side", "crank": "crank side", None: "sides with gas data"}

@@ -6,7 +6,7 @@ from dataclasses import replace
 from operator import itemgetter
 from typing import Any, TypeVar
 
-from schemas.dynamics import (
+from schemas.answer.dynamics import (
     BearingLoad,
     Flywheel,
     Gas,
@@ -19,7 +19,7 @@ from schemas.dynamics import (
     RowSeries,
     Torque,
 )
-from schemas.machine import Machine
+from schemas.machine.machine import Machine
 from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Samples, extremes, facts, table
 from service.report.chapters.bearing_loci import bearing_loci
 from service.report.chapters.inputs import row_name

@@ -3,14 +3,14 @@
 from collections.abc import Iterator, Sequence
 
 from optimizer.formulation.formulate import span
-from schemas.catalogue import Catalogue
-from schemas.machine import Machine
-from schemas.over_turn import ForceTable, TorqueTable
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import OptimizeRequest
-from schemas.scroll_machine import ScrollMachine
-from schemas.throws import Row, Throw, row_cylinders
-from schemas.webs import Web
+from schemas.machine.catalogue import Catalogue
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.machine.scroll_machine import ScrollMachine
+from schemas.machine.throws import Row, Throw, row_cylinders
+from schemas.machine.webs import Web
+from schemas.request.requests import OptimizeRequest
+from schemas.scroll.over_turn import ForceTable, TorqueTable
 from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, facts, table
 from service.report.chapters.cylinders import cylinders
 from service.report.chapters.objective import objective

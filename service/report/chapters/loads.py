@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.loads import Loads
-from schemas.machine import Machine
+from schemas.answer.loads import Loads
+from schemas.machine.machine import Machine
 from service.report.blocks import Block, Chapter, facts, table
 from service.report.chapters.dynamics import figure
 from service.report.chapters.inputs import row_name

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from schemas.counterweights import Counterweight
-from schemas.machine import Machine
+from schemas.answer.counterweights import Counterweight
+from schemas.machine.machine import Machine
 from service.report.blocks import Block, digits, table
 
 

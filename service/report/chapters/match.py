@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.match import MatchRequest
-from schemas.match_answer import MatchAnswer, MatchedRow
+from schemas.match.answer import MatchAnswer, MatchedRow
+from schemas.match.request import MatchRequest
 from service.report.blocks import Chapter, Paragraph, facts, table
 
 _PROVEN = {

@@ -1,8 +1,8 @@
 """What was asked to be small."""
 
 from optimizer.formulation.formulate import given_ceilings, weights
-from schemas.objective import Priority
-from schemas.requests import OptimizeRequest
+from schemas.request.objective import Priority
+from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Table, facts
 
 #: fields of the objective that look at the whole turn, in words

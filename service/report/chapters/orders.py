@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from functools import partial
 
-from schemas.first_order import ResidualOrders
-from schemas.outputs import ForceOrder, MomentOrder, Order, OrdersComparison
+from schemas.answer.first_order import ResidualOrders
+from schemas.answer.outputs import ForceOrder, MomentOrder, Order, OrdersComparison
 from service.report.blocks import Chapter, Figure, Paragraph, Table, table
 from service.report.charts import after, before, hodograph
 

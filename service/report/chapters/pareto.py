@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from schemas.objective import Objective
-from schemas.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
-from schemas.trade import TradedFront, TradedPoint
+from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest, Reason
+from schemas.front.trade import TradedFront, TradedPoint
+from schemas.request.objective import Objective
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, digits, table
 from service.report.chapters.balance import limits
 from service.report.chapters.counts import counted

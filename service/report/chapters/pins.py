@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.scroll import PinLoads, PinLoadsAnswer, PinLoadsRequest
-from schemas.scroll_losses import Losses
+from schemas.scroll.losses import Losses
+from schemas.scroll.pin_loads import PinLoads, PinLoadsAnswer, PinLoadsRequest
 from service.report.blocks import Block, Chapter, Equation, Paragraph, digits, facts, table
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from schemas.rating import RatingRequest
-from schemas.rating_answer import Choice, RatingAnswer, StageRating, TandemLoads
+from schemas.rating.answer import Choice, RatingAnswer, StageRating, TandemLoads
+from schemas.rating.request import RatingRequest
 from service.report.blocks import Chapter, Paragraph, Table, facts, table
 
 _FIGURES: tuple[tuple[str, str, Callable[[StageRating], float | None]], ...] = (

@@ -7,9 +7,9 @@ from importlib.metadata import version
 from typing import Any
 
 from optimizer.effects.registry import EFFECTS
-from schemas.answers import EffectUse
-from schemas.report import ReportRequest
-from schemas.version import package_version
+from schemas.answer.answers import EffectUse
+from schemas.base.version import package_version
+from schemas.request.report import ReportRequest
 from service.report.blocks import Chapter, Listing, Paragraph, table
 
 #: characters of a line of the listing

@@ -1,7 +1,7 @@
 """The roll moment on the frame."""
 
-from schemas.machine import Machine
-from schemas.roll import Roll
+from schemas.answer.roll import Roll
+from schemas.machine.machine import Machine
 from service.report.blocks import Chapter, Paragraph, facts
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line

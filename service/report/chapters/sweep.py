@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from schemas.sweep import SweepEstimate
+from schemas.sweep.answers import SweepEstimate
 from service.report.blocks import Chapter, facts, table
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 
-from schemas.answers import Certificate, OptimizeAnswer
-from schemas.infeasibility import Infeasibility
-from schemas.limits import CeilingField
-from schemas.objective import Objective
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import Certificate, OptimizeAnswer
+from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.limits import CeilingField
+from schemas.request.objective import Objective
+from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
 from service.report.chapters.balance import limits, shown, which
 from service.report.formula import formula

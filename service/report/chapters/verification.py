@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from schemas.verify import Claim, VerifyAnswer
+from schemas.request.verify import Claim, VerifyAnswer
 from service.report.blocks import Cell, Chapter, Number, table
 
 

@@ -6,12 +6,12 @@ from typing import Any, NamedTuple
 from optimizer.analyze import analyze
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
-from schemas.answers import OptimizeAnswer
-from schemas.base import FieldProblem
-from schemas.counterweights import Counterweight
-from schemas.first_order import FirstOrder
-from schemas.report import DesignVersion, ReportRequest
-from schemas.requests import AnalyzeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.first_order import FirstOrder
+from schemas.base.model import FieldProblem
+from schemas.request.report import DesignVersion, ReportRequest
+from schemas.request.requests import AnalyzeRequest
 from service.report.blocks import Block, Chapter, Paragraph, Table, digits, table, typeset
 from service.report.chapters.balance import shown
 from service.validation import pointer

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.answers import OptimizeAnswer
-from schemas.machine import Machine
+from schemas.answer.answers import OptimizeAnswer
+from schemas.machine.machine import Machine
 from service.drawings.parts import parts
 from service.drawings.sheet import sheet
 from service.report.blocks import Chapter, Figure

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator
 
-from schemas.answers import OptimizeAnswer
-from schemas.requests import OptimizeRequest
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Paragraph, facts, table
 
 

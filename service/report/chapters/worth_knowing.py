@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
 from service.report.blocks import Block, Chapter, Paragraph, table
 
 _HEADS = ["throw", "#balance rate", "#sideways"]

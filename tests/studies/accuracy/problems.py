@@ -11,7 +11,7 @@ from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.responses.response import Phasors, Response
 from optimizer.studies.accuracy.methods import Task
 from optimizer.studies.accuracy.rivals.sampled import OverTheTurn, WeightedResponse
-from schemas.accuracy import AccuracyRequest
+from schemas.request.accuracy import AccuracyRequest
 from service.documents.examples import load
 from tests.program.cases import random_limits, random_point, random_responses
 

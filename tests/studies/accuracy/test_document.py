@@ -9,7 +9,7 @@ import pytest
 from optimizer.mechanics.layout import layout
 from optimizer.studies.accuracy.measure import accuracy
 from optimizer.studies.accuracy.peaks import peaks_ladder
-from schemas.accuracy import AccuracyAnswer
+from schemas.request.accuracy import AccuracyAnswer
 from service.report.chapters.accuracy import method_name
 from tests.studies.accuracy.problems import request
 

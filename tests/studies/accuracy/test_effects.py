@@ -17,10 +17,10 @@ from optimizer.studies.accuracy.effects import (
     _torque,
     effects_ladder,
 )
-from schemas.accuracy import EffectRow
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
-from schemas.scene import Fidelity
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.accuracy import EffectRow
+from schemas.request.requests import AnalyzeRequest
+from schemas.request.scene import Fidelity
 from tests.analyze.engines import engine
 from tests.builders import RADIUS, machine, row, throw
 from tests.studies.accuracy.problems import body

@@ -15,8 +15,8 @@ from optimizer.studies.accuracy import ladder, measure
 from optimizer.studies.accuracy.ladder import Clock, frontier, survey, time_rounds
 from optimizer.studies.accuracy.measure import _judged, accuracy
 from optimizer.studies.accuracy.methods import GAPS, POSITIONS, Found, Method, Run, Task, methods
-from schemas.accuracy import AccuracyAnswer, AccuracyRequest
-from schemas.requests import OptimizeRequest
+from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
+from schemas.request.requests import OptimizeRequest
 from tests.studies.accuracy.problems import body, random_task, request, single
 
 NAMES = ("single-horizontal", "2d12", "v8-cross-plane", "m-type-four")

@@ -6,9 +6,9 @@ import pytest
 from optimizer.analyze import analyze
 from optimizer.mechanics.layout import layout
 from optimizer.studies.accuracy.peaks import PLACES, STEPS_DEG, TOLERANCES, peaks_ladder
-from schemas.accuracy import PeakRow
-from schemas.reciprocating import ReciprocatingMachine
-from schemas.requests import AnalyzeRequest
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.accuracy import PeakRow
+from schemas.request.requests import AnalyzeRequest
 from tests.analyze.engines import FOUR, engine
 from tests.builders import machine, row, throw
 from tests.studies.accuracy.problems import body

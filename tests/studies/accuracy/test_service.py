@@ -12,7 +12,7 @@ import pytest
 from click.testing import Result
 from typer.testing import CliRunner
 
-from schemas.accuracy import AccuracyAnswer
+from schemas.request.accuracy import AccuracyAnswer
 from service.accuracy_picture import draw
 from service.cli import app
 from tests.studies.accuracy.problems import body

@@ -6,8 +6,8 @@ from typing import Any
 import numpy as np
 
 from optimizer.studies.matching.match import match
-from schemas.match import MatchRequest
-from schemas.match_answer import MatchAnswer
+from schemas.match.answer import MatchAnswer
+from schemas.match.request import MatchRequest
 
 RADIUS, OMEGA = 0.12, 50.0
 

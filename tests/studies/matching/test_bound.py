@@ -7,7 +7,7 @@ import pytest
 from optimizer.studies.matching.bound import best_plane
 from optimizer.studies.matching.problem import stated
 from optimizer.studies.matching.search import searched
-from schemas.match import MatchRequest
+from schemas.match.request import MatchRequest
 from tests.studies.matching.cases import machine, parts
 
 

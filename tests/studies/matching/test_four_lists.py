@@ -7,7 +7,7 @@ from optimizer.studies.matching.four_lists import near_to_nothing
 from optimizer.studies.matching.kernel.meeting import met
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import stated
-from schemas.match import MatchRequest
+from schemas.match.request import MatchRequest
 from tests.studies.matching.cases import every, machine, mirrored, objective, parts
 
 

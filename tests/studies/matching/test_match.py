@@ -9,8 +9,8 @@ import pytest
 from optimizer.optimize import optimize
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import stated
-from schemas.match import MatchRequest
-from schemas.requests import OptimizeRequest
+from schemas.match.request import MatchRequest
+from schemas.request.requests import OptimizeRequest
 from service.documents.examples import bodies
 from tests.studies.matching.cases import OMEGA, RADIUS, every, machine, matched, mirrored, objective, parts
 

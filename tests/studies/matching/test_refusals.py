@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from schemas.match import MatchRequest
+from schemas.match.request import MatchRequest
 from service.validation import InvalidRequest, check, pointer
 from tests.studies.matching.cases import machine, parts
 

@@ -10,7 +10,7 @@ from optimizer.studies.matching.bound import best_plane
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import Problem, stated
 from optimizer.studies.matching.row_halves import exhausted
-from schemas.match import MatchRequest
+from schemas.match.request import MatchRequest
 from tests.studies.matching.cases import machine, mirrored, parts
 
 #: cranks in some order: a moment is left of equal masses; three axes: nothing cancels

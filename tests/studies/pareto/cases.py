@@ -3,7 +3,7 @@
 from typing import Any
 
 from optimizer.studies.pareto.pareto import pareto
-from schemas.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest
+from schemas.front.pareto import ParetoAnswer, ParetoFront, ParetoPoint, ParetoRequest
 from tests.optimize.machines import machine, row, throw, web
 
 RPM = 600.0

@@ -8,8 +8,8 @@ from pydantic import ValidationError
 
 from optimizer.errors import MissingInput
 from optimizer.studies.pareto.pareto import pareto
-from schemas.counts import CountFront
-from schemas.pareto import ParetoRequest
+from schemas.front.counts import CountFront
+from schemas.front.pareto import ParetoRequest
 from tests.optimize import choices
 from tests.verification.checking import optimized
 

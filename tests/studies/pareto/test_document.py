@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from optimizer.studies.pareto.pareto import pareto
-from schemas.pareto import ParetoAnswer, ParetoRequest
+from schemas.front.pareto import ParetoAnswer, ParetoRequest
 from tests.docs.test_documents import agrees
 
 ROOT = Path(__file__).parents[3]

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from optimizer.studies.pareto.pareto import pareto
-from schemas.pareto import ParetoRequest
+from schemas.front.pareto import ParetoRequest
 from tests.optimize import by_hand
 from tests.optimize.machines import random_machine
 

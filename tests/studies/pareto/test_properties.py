@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from optimizer.program.verdict import MASS_GAP
-from schemas.pareto import ParetoFront
+from schemas.front.pareto import ParetoFront
 from tests.optimize.machines import first_order, random_machine
 from tests.studies.pareto.cases import ask, below_a_corner, four_webs, front, straight, traded
 from tests.verification.checking import optimized

@@ -13,7 +13,7 @@ from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 from optimizer.studies.pareto.front import Front, front
 from optimizer.studies.pareto.trade import Trade, trade
-from schemas.pareto import ParetoRequest
+from schemas.front.pareto import ParetoRequest
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.optimize import by_hand
 from tests.studies.pareto.cases import ask

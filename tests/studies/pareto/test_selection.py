@@ -3,7 +3,7 @@
 import pytest
 
 from optimizer.studies.pareto.pareto import knee, undominated
-from schemas.pareto import ParetoPoint
+from schemas.front.pareto import ParetoPoint
 from tests.studies.pareto.cases import front, straight
 
 POINT = front(straight(), points=2).points[0]

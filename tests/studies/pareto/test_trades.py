@@ -8,9 +8,9 @@ import pytest
 from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from optimizer.studies.pareto import pareto as home
-from schemas.pareto import ParetoAnswer, ParetoRequest
-from schemas.requests import OptimizeRequest
-from schemas.trade import TradedFront
+from schemas.front.pareto import ParetoAnswer, ParetoRequest
+from schemas.front.trade import TradedFront
+from schemas.request.requests import OptimizeRequest
 from service.validation import InvalidRequest, check
 from tests.studies.sweep.test_over_turn import opposed
 

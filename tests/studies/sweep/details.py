@@ -5,9 +5,9 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from schemas.answers import AnalyzeAnswer, OptimizeAnswer
-from schemas.details import DETAILS, Of, parts_of
-from schemas.sweep import SweepRequest
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.sweep.details import DETAILS, Of, parts_of
+from schemas.sweep.request import SweepRequest
 
 _ELLIPSE = ("minor", "peak_x", "peak_y", "co_rotating")
 _OF_ROWS = (

@@ -6,9 +6,9 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 
 from pydantic import BaseModel
 
-from schemas.answers import BalanceRate
-from schemas.first_order import Residual
-from schemas.outputs import OutputFields
+from schemas.answer.answers import BalanceRate
+from schemas.answer.first_order import Residual
+from schemas.answer.outputs import OutputFields
 
 
 def every_figure() -> tuple[str, ...]:

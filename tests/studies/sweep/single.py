@@ -13,12 +13,12 @@ from optimizer.optimize import optimize
 from optimizer.program.cuts import optimum as cuts
 from optimizer.program.solution import CLOSED_FORM, CONE_PROGRAM
 from optimizer.studies.sweep import run_chunk
-from schemas.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
-from schemas.objective import OVER_THE_TURN
-from schemas.outputs import Order
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.sweep import SweepRequest
-from schemas.target import BadPointer, find_target
+from schemas.answer.answers import AnalyzeAnswer, Certificate, OptimizeAnswer
+from schemas.answer.outputs import Order
+from schemas.base.target import BadPointer, find_target
+from schemas.request.objective import OVER_THE_TURN
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service.validation import InvalidRequest, check, pointer
 from tests.studies.sweep.details import detail_figures
 

@@ -11,11 +11,11 @@ from optimizer.optimize import optimize
 from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep import plan
 from optimizer.studies.sweep.rows import Group
-from schemas.pareto import ParetoRequest
-from schemas.proof import DesignMultipliers
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.answer.proof import DesignMultipliers
+from schemas.front.pareto import ParetoRequest
+from schemas.request.requests import OptimizeRequest
 from schemas.sweep.alone import MAX_SEARCHED
+from schemas.sweep.request import SweepRequest
 from service.validation import InvalidRequest
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, sweep, table
 

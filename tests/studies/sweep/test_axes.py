@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from schemas.sweep import SweepRequest
-from schemas.target import BadPointer, find_target
+from schemas.base.target import BadPointer, find_target
+from schemas.sweep.request import SweepRequest
 from service.validation import InvalidRequest, check, pointer
 from tests.studies.sweep.single import example, numeric_paths, sweep
 

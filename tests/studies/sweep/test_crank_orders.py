@@ -10,7 +10,7 @@ from pydantic import ValidationError
 from optimizer.mechanics.slider_crank import acceleration_harmonic
 from optimizer.studies.sweep.chunk import run_chunk
 from optimizer.studies.sweep.crank_orders import orders
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 
 RADIUS, MASS, RATIO, RPM, PITCH = 0.1, 3.0, 0.25, 600.0, 0.4
 UNIT = MASS * RADIUS * (RPM * np.pi / 30) ** 2 * PITCH

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optimizer.studies.sweep.designs import axis_values, permuted, uniform
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.studies.sweep.single import example, sweep
 
 SPEED, MASS = "/machine/speed_rpm", "/machine/webs/0/max_mass_kg"

@@ -7,8 +7,8 @@ import pytest
 
 from optimizer.outputs.details import DETAILED
 from optimizer.studies.sweep import plan
-from schemas.details import DETAILS, keys_of
-from schemas.sweep import SweepRequest
+from schemas.sweep.details import DETAILS, keys_of
+from schemas.sweep.request import SweepRequest
 from service.validation import InvalidRequest
 from tests.analyze.driven import STYLES, random_driven
 from tests.studies.sweep.details import FIGURES

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from optimizer.studies.sweep import rows
-from schemas.requests import OptimizeRequest
+from schemas.request.requests import OptimizeRequest
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, sweep, table
 
 #: the design that is made to break down

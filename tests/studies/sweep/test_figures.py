@@ -4,9 +4,9 @@ from fnmatch import fnmatchcase
 
 import pytest
 
-from schemas.details import DETAILS, keys_of, usual_keys
-from schemas.outputs import OUTPUT_COLUMNS
-from schemas.sweep import SweepRequest
+from schemas.answer.outputs import OUTPUT_COLUMNS
+from schemas.sweep.details import DETAILS, keys_of, usual_keys
+from schemas.sweep.request import SweepRequest
 from tests.studies.sweep.details import FIGURES
 from tests.studies.sweep.figures import every_figure
 from tests.studies.sweep.single import example, sweep

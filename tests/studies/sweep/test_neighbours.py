@@ -5,7 +5,7 @@ from typing import Any
 import pyarrow as pa
 import pytest
 
-from schemas.sweep import SweepRequest
+from schemas.sweep.request import SweepRequest
 from tests.analyze.engines import UNEVEN, cylinder, engine, trace
 from tests.studies.sweep.single import sweep, table
 from tests.studies.sweep.test_rows import DRIVE, fitted

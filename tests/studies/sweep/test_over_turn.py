@@ -7,7 +7,7 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.studies.sweep import plan
-from schemas.proof import DesignMultipliers
+from schemas.answer.proof import DesignMultipliers
 from tests.pairs.asking import body_of
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, single, sweep, table
 

@@ -10,8 +10,8 @@ import pytest
 from optimizer.program.reference.solver import Solver
 from optimizer.studies.sweep import run_chunk
 from optimizer.studies.sweep.rows import rows
-from schemas.requests import OptimizeRequest
-from schemas.sweep import SweepRequest
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service.verification import checker
 from tests.hard.cases.case import machine, throw, web
 from tests.optimize import by_hand

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from optimizer.studies.sweep import ParetoFilter, Reducer, Top, reducer
 from optimizer.studies.sweep.reduce import TooManyRows, unbeaten
-from schemas.sweep import SweepRequest, TopFilter
+from schemas.sweep.request import SweepRequest, TopFilter
 from tests.studies.sweep.single import example, sweep, table
 
 #: few different values, so that there are ties; None has nothing to compare

@@ -5,9 +5,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from schemas.outputs import OUTPUT_COLUMNS
-from schemas.sweep import SweepRequest
-from schemas.target import find_target
+from schemas.answer.outputs import OUTPUT_COLUMNS
+from schemas.base.target import find_target
+from schemas.sweep.request import SweepRequest
 from tests.analyze.driven import STYLES, random_driven
 from tests.analyze.engines import UNEVEN, cylinder, engine, trace
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, numeric_paths, sweep, table

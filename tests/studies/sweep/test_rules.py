@@ -8,10 +8,10 @@ import pytest
 
 from optimizer.errors import MissingInput
 from optimizer.outputs.registry import require_inputs
-from schemas.requests import AnalyzeRequest, OptimizeRequest
-from schemas.rules import Rule, first_of, larger
-from schemas.sweep import SweepRequest
-from schemas.target import find_target, pointer
+from schemas.base.rules import Rule, first_of, larger
+from schemas.base.target import find_target, pointer
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service.validation import InvalidRequest, check
 from tests.analyze.driven import random_driven
 from tests.studies.sweep.single import numeric_paths, put, sweep, table

@@ -13,7 +13,8 @@ import pytest
 from optimizer.errors import MissingInput
 from optimizer.studies.sweep import plan, run_chunk
 from optimizer.studies.sweep.table import REQUEST, SEED, VERSIONS
-from schemas.sweep import SweepRequest, pointer
+from schemas.base.target import pointer
+from schemas.sweep.request import SweepRequest
 from tests.studies.sweep.single import example, sweep, table
 
 MASS = {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "start": 150, "stop": 400}

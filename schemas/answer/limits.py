@@ -1,0 +1,53 @@
+"""What limits are called, and what each costs."""
+
+from typing import Literal
+
+from pydantic import Field
+
+from schemas.base.model import Model
+from schemas.base.quantities import (
+    Name,
+)
+
+WebLimit = Literal[
+    "max_mass",
+    "envelope",
+    "max_centrifugal_force",
+    "sector",
+]
+
+
+CeilingField = Literal[
+    "force_ceiling_N", "force_ceiling_x_N", "force_ceiling_y_N",
+    "moment_ceiling_Nm", "moment_ceiling_x_Nm", "moment_ceiling_y_Nm",
+    "bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm",
+]  # fmt: skip
+
+
+MachineLimit = Literal[
+    "max_total_mass", "force_ceiling", "force_ceiling_x", "force_ceiling_y",
+    "moment_ceiling", "moment_ceiling_x", "moment_ceiling_y",
+    "bearing_ceiling", "specific_load_ceiling", "bending_ceiling",
+]  # fmt: skip
+
+
+PriceUnit = Literal[
+    "N/kg", "N/(kg m)", "N/deg", "N/N", "N/(N m)", "N/Pa",
+    "N m/kg", "N m/(kg m)", "N m/deg", "N m/N", "N m/(N m)", "N m/Pa",
+    "Pa/kg", "Pa/(kg m)", "Pa/deg", "Pa/N", "Pa/(N m)", "Pa/Pa",
+]  # fmt: skip
+
+
+class ShadowPrice(Model):
+    """What a limit costs: how much the smallest objective falls per unit by which the limit is raised."""
+
+    limit: WebLimit | MachineLimit = Field(description="the limit", examples=["max_mass"])
+    web: Name | None = Field(description="web whose limit it is; null for a limit of the machine", examples=["1a"])
+    value: float = Field(
+        ge=0,
+        description="fall of the objective per unit of the limit, the objective taken as a force (over the force "
+        "weight) or, where the force has no weight, as a moment, then as a bearing load, bending moment or roll; 0 if "
+        "it cannot be told from 0 by the certificate",
+        examples=[102.8],
+    )
+    unit: PriceUnit = Field(description="unit of the value; sectors are opened to both sides", examples=["N/kg"])

@@ -1,0 +1,120 @@
+"""How the JSON schema of a model reads to those who make forms of it.
+
+Every field has its title, its place and its heading beside its type, and its unit always there, never deeper. What
+takes plain values of several types, such as 0.09, "90 mm" and null, is one schema with a list of types in place of
+alternatives, so that a form has one input for it and nothing to choose.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+from schemas.base.form_groups import headings
+from schemas.base.titles import field_title, model_title
+
+Schema = dict[str, Any]
+
+_UNIT = ("x-unit", "x-accepted-units")
+#: the order of a list of types; forms that know one type only take the first
+_TYPES = ("number", "integer", "string", "boolean", "object", "array", "null")
+#: what holds for values of every type, so that it cannot stand beside a second one
+_ANY_TYPE = ("enum", "const")
+_NULL = "null"
+
+
+def hinted(model: type, schema: Schema) -> None:
+    """Add to the schema of a model what a form needs; models without fields have none of it."""
+    if "properties" not in schema:
+        return
+    schema["title"] = model_title(model.__name__)
+    _condition(schema)
+    heading = headings([one.__name__ for one in model.__mro__])
+    given: Schema = schema["properties"]
+    names = [name for name in heading if name in given] + [name for name in given if name not in heading]
+    schema["properties"] = {
+        name: {
+            **_collapsed(_without_unit(given[name])),
+            "title": field_title(model.__name__, name),
+            **_unit(given[name]),
+            "x-order": place,
+            **({"x-group": heading[name]} if name in heading else {}),
+        }
+        for place, name in enumerate(names)
+    }
+
+
+def _condition(schema: Schema) -> None:
+    """Of fields that go together, the usual ones are required unless others are there: alternatives of a whole model
+    would be a choice in a form, and no type at all in languages.
+    """
+    usual, *others = schema.get("anyOf", [{}])
+    if others:
+        del schema["anyOf"]
+        schema |= {"if": {"not": {"anyOf": others}}, "then": usual}
+
+
+def _unit(node: Any) -> Schema:
+    """The unit of a field, wherever in it that is said; what a reference leads to has its own."""
+    if isinstance(node, dict):
+        if _UNIT[0] in node:
+            return {key: node[key] for key in _UNIT if key in node}
+        node = list(node.values())
+    return next(filter(None, map(_unit, node)), {}) if isinstance(node, list) else {}
+
+
+def _without_unit(node: Any) -> Any:
+    if isinstance(node, dict):
+        return {key: _without_unit(value) for key, value in node.items() if key not in _UNIT}
+    return [_without_unit(one) for one in node] if isinstance(node, list) else node
+
+
+def _collapsed(node: Schema) -> Schema:
+    """The same schema, with as few alternatives as there can be."""
+    inner = {key: _collapsed(node[key]) for key in ("items",) if key in node}
+    options: list[Schema] = []
+    for one in _options(node):
+        # a unit may be said twice, of a quantity and of the quantity or null
+        options += [one] if one not in options else []
+    if options == [node]:
+        return node | inner
+    own = {key: value for key, value in node.items() if key not in ("anyOf", "oneOf")} | inner
+    plain = sorted((one for one in options if _plain(one)), key=lambda one: _TYPES.index(one["type"]))
+    others = [one for one in options if not _plain(one)]
+    if not others and _joinable(plain):
+        return own | _joined(plain)
+    null = [{"type": _NULL, "title": "None"}] if any(one["type"] == _NULL for one in plain) else []
+    values = [one for one in plain if one["type"] != _NULL]
+    if _joinable(values):
+        values = [{**_joined(values), "title": "One value"}]
+    return {**own, "anyOf": [*values, *others, *null]}
+
+
+def _options(node: Schema) -> Iterator[Schema]:
+    """All alternatives, however deep; those that a field of theirs tells apart stay one."""
+    alternatives = node.get("anyOf") or node.get("oneOf")
+    if alternatives is None or "discriminator" in node:
+        yield node
+        return
+    for one in alternatives:
+        yield from _options(_collapsed(one) if "items" in one else one)
+
+
+def _plain(node: Schema) -> bool:
+    return isinstance(node.get("type"), str)
+
+
+def _joinable(options: list[Schema]) -> bool:
+    """Whether one schema with a list of types says the same: no two of a type, nothing that holds for all of them."""
+    types = [one["type"] for one in options]
+    values = [one for one in options if one["type"] != _NULL]
+    mixed = len(values) > 1 and any(key in one for key in _ANY_TYPE for one in values)
+    return bool(options) and len(set(types)) == len(types) and not mixed
+
+
+def _joined(options: list[Schema]) -> Schema:
+    types = [one["type"] for one in options]
+    joined = {key: value for one in options for key, value in one.items() if key not in ("title", "description")}
+    if _NULL in types:
+        known = joined.get("enum", [joined["const"]] if "const" in joined else None)
+        joined |= {} if known is None else {"enum": [*known, None]}
+        joined.pop("const", None)
+    return {**joined, "type": types if len(types) > 1 else types[0]}

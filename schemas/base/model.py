@@ -1,0 +1,70 @@
+"""The base of every model, and what is wrong with a field."""
+
+from typing import NamedTuple
+
+from pydantic import BaseModel, ConfigDict, Field, GetCoreSchemaHandler, GetJsonSchemaHandler
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from schemas.base.form_hints import hinted
+from schemas.base.notebook import shown
+from schemas.base.version import package_version
+
+
+class Model(BaseModel):
+    """Frozen, refuses unknown fields, NaN and infinities."""
+
+    model_config = ConfigDict(
+        frozen=True,
+        extra="forbid",
+        allow_inf_nan=False,
+        hide_input_in_errors=True,
+        use_attribute_docstrings=False,
+        # a process builds the models that it meets; all of them are a sixth of an import
+        defer_build=True,
+    )
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        made = handler(schema)
+        hinted(cls, handler.resolve_ref_schema(made))
+        return made
+
+
+class Answer(Model):
+    """An answer of a computation, which says who computed it."""
+
+    version: str = Field(
+        default_factory=package_version, description="version of the package that answered", examples=["0.1.0"]
+    )
+
+    def _repr_html_(self) -> str:
+        """What a notebook shows."""
+        return shown(self)
+
+
+class NotEmpty:
+    """Annotation of a tuple that holds at least one thing.
+
+    pydantic's own min_length counts the things that are valid, and so reports a tuple as too short
+    because one of them is not.
+    """
+
+    @staticmethod
+    def _check(value: tuple[object, ...]) -> tuple[object, ...]:
+        if not value:
+            raise PydanticCustomError("too_short", "must hold at least one item")
+        return value
+
+    def __get_pydantic_core_schema__(self, source: object, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_after_validator_function(self._check, handler(source))
+
+    def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        return {**handler(schema), "minItems": 1}
+
+
+class FieldProblem(NamedTuple):
+    """One thing wrong with one field; ``path`` is relative to the model that found it."""
+
+    path: tuple[str | int, ...]
+    message: str

@@ -1,0 +1,1 @@
+"""The trade-off of responses, of mass, or of the number of counterweights."""

@@ -1,0 +1,309 @@
+"""The trade-off between peak force and peak moment: what is asked, and what is answered."""
+
+from collections.abc import Iterator
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from schemas.answer.answers import EffectUse, Timing
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.first_order import FirstOrder, Floor
+from schemas.answer.infeasibility import Infeasibility
+from schemas.answer.limits import MachineLimit
+from schemas.answer.proof import EndMultipliers, Multipliers
+from schemas.base.model import Answer, Model, NotEmpty
+from schemas.base.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
+from schemas.base.rules import Rule, first_of
+from schemas.base.units import Unit, between
+from schemas.front.counts import CountFront, CountTrade
+from schemas.front.trade import MAX_TRADED_POINTS, TradedFront, TradedNames
+from schemas.machine.reciprocating import no_balance_shafts
+from schemas.machine.rotor import no_catalogue
+from schemas.request.requests import OptimizeRequest
+
+MAX_POINTS = 201
+MAX_BUDGETS = 10
+#: points of all fronts of one request
+MAX_POINTS_TOGETHER = 600
+#: the same times the webs: what bounds the work
+MAX_PLACES = 20_000
+
+Status = Literal["optimal", "inaccurate", "infeasible"]
+_NO_ORDER = "a front has no order of its goals"
+
+Reason = Literal["reached_together", "resolution", "undecided"]
+Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MAX_BUDGETS), NotEmpty()]
+
+
+class ParetoRequest(OptimizeRequest):
+    """The force-moment front of a machine, and its change with the total mass.
+
+    Of the objective, direction weights, ceilings and ``least_mass`` count, and where responses are named what says how
+    they are measured; how they are weighed and combined does not. Of the outputs, the residual alone is computed.
+    """
+
+    points: Annotated[Count, between(2, MAX_POINTS)] = Field(
+        21, description="number of points of each front, its ends included", examples=[21]
+    )
+    total_mass_budgets_kg: Budgets | None = Field(
+        None,
+        description="a front for each of these limits of the total mass, in place of the machine's own"
+        " max_total_mass_kg; null is one front with the machine's own",
+        examples=[[120.0, 180.0, 240.0]],
+    )
+
+    responses: TradedNames | None = Field(
+        None,
+        description="any two or three to trade for one another, in `trades` of the answer; null is force against moment"
+        " of the first order, in `fronts`",
+        examples=[["bearings", "mass"]],
+    )
+
+    counts: CountTrade | None = Field(
+        None,
+        description="the number of counterweights, or of part numbers, against the least objective or mass that so few"
+        " come to, in `counts` of the answer; for counterweights that are chosen from a catalogue",
+        examples=[{"of": "weights", "least": "objective"}],
+    )
+
+    multipliers: Flag = Field(
+        False, description="the multipliers of every point's certificate, and of the ends'", examples=[False]
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        yield from self.worst_case_rules("a front is of one machine as it is given")
+        yield from self.envelope_rules("a front is of counterweights of a known radius: sweep force_ceiling_N")
+        yield from self._trade_rules()
+        yield from no_balance_shafts(self.machine, ("machine",), "a front")
+        if self.counts is None:
+            yield from no_catalogue(self.machine, ("machine",), "a front but for one of counts: sweep force_ceiling_N")
+        else:
+            yield from self._count_rules(self.counts)
+        budgets = self.total_mass_budgets_kg or ()
+        fixed = sum((web.fixed.mass_kg for web in self.machine.webs if web.fixed is not None), 0.0)
+        for index, budget in enumerate(budgets):
+            path = ("total_mass_budgets_kg", index)
+            yield Rule(budget in budgets[:index], path, "this budget is in the list already")
+            yield Rule(budget < fixed, path, "the weights that are fixed are heavier")
+        together, places = self.points * len(budgets), self.points * max(1, len(budgets)) * len(self.machine.webs)
+        points = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
+        work = f"points times budgets times webs must be at most {MAX_PLACES}"
+        yield from first_of(
+            [Rule(together > MAX_POINTS_TOGETHER, ("points",), points), Rule(places > MAX_PLACES, ("points",), work)]
+        )
+
+    def _count_rules(self, counts: CountTrade) -> Iterator[Rule]:
+        message = "counterweights that are counted are chosen from a catalogue: give masses and angles that there are"
+        yield Rule(not self.machine.discrete, ("counts",), message)
+        yield Rule(self.responses is not None, ("responses",), "give either responses or counts")
+        yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
+        ceilings = [name for name in type(self.objective).model_fields if "_ceiling_" in name]
+        limited = any(getattr(self.objective, name) is not None for name in ceilings)
+        message = "the least mass of all is none: give ceilings that are to be kept"
+        yield Rule(counts.least == "mass" and not limited, ("counts", "least"), message)
+        ordered = bool(self.objective.priorities) and self.responses is None
+        yield Rule(ordered, ("objective", "priorities"), _NO_ORDER)
+
+    def _trade_rules(self) -> Iterator[Rule]:
+        if self.responses is None:
+            for name in self.objective.over_the_turn if self.counts is None else ():
+                message = "a front is of the first-order peaks: what the whole turn asks for needs responses"
+                yield Rule(True, ("objective", name), message)
+            return
+        yield Rule(bool(self.objective.priorities), ("objective", "priorities"), _NO_ORDER)
+        for k, web in enumerate(self.machine.webs):
+            fixed = web.fixed is not None
+            yield Rule(fixed, ("machine", "webs", k, "fixed"), "serves only the front of force and moment")
+        for index, name in enumerate(self.responses):
+            yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
+        yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
+        together = self.points * max(1, len(self.total_mass_budgets_kg or ()))
+        most = f"points times budgets must be at most {MAX_TRADED_POINTS} where responses are named"
+        yield Rule(together > MAX_TRADED_POINTS, ("points",), most)
+
+
+class Scale(Model):
+    """What gaps are relative to: the weighted peaks without counterweights.
+
+    Where there is no such peak, what the counterweights at the other end do one by one.
+    """
+
+    force_N: Newtons = Field(description="of forces", examples=[10006.1])
+    moment_Nm: NewtonMetres = Field(description="of moments", examples=[48734.5])
+
+
+class CornerCertificate(Model):
+    """The proof of a point: no counterweights within the limits are below this corner in both peaks."""
+
+    force_N: Newtons | None = Field(
+        description="no counterweights have a weighted peak force up to this and a smaller weighted peak moment than"
+        " moment_Nm; null if nothing is proven",
+        examples=[7504.59],
+    )
+    moment_Nm: NewtonMetres | None = Field(
+        description="no counterweights have a weighted peak moment up to this and a smaller weighted peak force than"
+        " force_N; null if nothing is proven",
+        examples=[20123.27],
+    )
+    relative_gap: float | None = Field(
+        description="how far the point is above the corner: the larger of both differences, each relative to its"
+        " yardstick; null if nothing is proven",
+        examples=[8e-13],
+    )
+    yardstick: Scale = Field(
+        description="what the relative gap is relative to: the front's scale", examples=[{"force_N": 10006.1}]
+    )
+    mass_lower_bound_kg: Kilograms | None = Field(
+        description="no counterweights that are as good in both peaks, to within that gap, have a smaller total mass;"
+        " null if least mass was not asked for",
+        examples=[236.35],
+    )
+    mass_relative_gap: float | None = Field(
+        description="total mass above that bound, over its yardstick; null likewise", examples=[3e-8]
+    )
+    mass_yardstick_kg: Kilograms | None = Field(
+        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the least mass that"
+        " could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does most, so that"
+        " the gap allowed changes none by more than ceilings may be exceeded by. Null if least mass was not asked for",
+        examples=[236.35],
+    )
+    mass_force_limit_N: Newtons | None = Field(
+        description="largest weighted peak force that the bound of the mass allows; null if least mass was not asked"
+        " for",
+        examples=[7504.6],
+    )
+    mass_moment_limit_Nm: NewtonMetres | None = Field(
+        description="largest weighted peak moment that the bound of the mass allows; null likewise",
+        examples=[20123.28],
+    )
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        description="largest masses that the bounds count with, of webs without a limit or with one beyond any need:"
+        " those of the front, as a bound at one point speaks of all others",
+        examples=[{"1a": 412.5}],
+    )
+    method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
+
+
+class ParetoPoint(Model):
+    """Counterweights that no others beat in both peaks."""
+
+    status: Literal["optimal", "inaccurate"] = Field(
+        description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
+        examples=["optimal"],
+    )
+    status_reason: str = Field(
+        description="why the status is what it is, in a sentence",
+        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
+    )
+    force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
+    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
+    weighted_force_peak_N: Newtons = Field(
+        description="peak of the force with direction weights, which is traded; the peak force where both are 1",
+        examples=[7504.6],
+    )
+    weighted_moment_peak_Nm: NewtonMetres = Field(
+        description="peak of the moment with direction weights, which is traded; the peak moment where both are 1",
+        examples=[20123.28],
+    )
+    total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[236.35])
+    counterweights: tuple[Counterweight, ...] = Field(
+        description="one for each web, in the machine's order", examples=[[]]
+    )
+    active_limits: tuple[MachineLimit, ...] = Field(
+        description="limits of the whole machine that the point touches", examples=[["max_total_mass"]]
+    )
+    certificate: CornerCertificate = Field(description="the proof", examples=[{"relative_gap": 8e-13}])
+    multipliers: Multipliers | None = Field(
+        None,
+        description="the multipliers of corner and mass, if asked for; the rows are the weighted peaks, in 1/N and"
+        " 1/(N m), or kg/N and kg/(N m)",
+        examples=[None],
+    )
+
+
+class Ends(Model):
+    """Where each weighted peak is smallest and, among all such, the other is smallest."""
+
+    smallest_force_N: Newtons = Field(description="weighted peak force at the first point", examples=[5003.07])
+    smallest_force_lower_bound_N: Newtons = Field(
+        description="certified: no counterweights within the limits have a smaller one", examples=[5003.06]
+    )
+    moment_at_smallest_force_Nm: NewtonMetres = Field(
+        description="weighted peak moment at the first point", examples=[20298.4]
+    )
+    smallest_moment_Nm: NewtonMetres = Field(description="weighted peak moment at the last point", examples=[19948.2])
+    smallest_moment_lower_bound_Nm: NewtonMetres = Field(
+        description="certified: no counterweights within the limits have a smaller one", examples=[19948.1]
+    )
+    force_at_smallest_moment_N: Newtons = Field(description="weighted peak force at the last point", examples=[10006.1])
+    multipliers: EndMultipliers | None = Field(
+        None, description="the multipliers of both bounds, if asked for", examples=[None]
+    )
+
+
+class ParetoFront(Model):
+    """The front under one limit of the total mass."""
+
+    max_total_mass_kg: Kilograms | None = Field(
+        description="limit of the total mass of this front; null is none", examples=[None]
+    )
+    status: Status = Field(
+        description="optimal: every point is; inaccurate: a point is not; infeasible: no counterweights satisfy the"
+        " ceilings",
+        examples=["optimal"],
+    )
+    points: tuple[ParetoPoint, ...] = Field(
+        description="in the order of rising force and falling moment; none if infeasible", examples=[[]]
+    )
+    reason: Reason | None = Field(
+        None,
+        description="why there are fewer points than asked for. reached_together: both peaks are smallest at the same"
+        " counterweights, within the asked gap. resolution: points that rounding could not tell apart were left out."
+        " undecided: the ceilings are on the very boundary of what can be reached, and the point comes closest",
+        examples=[None],
+    )
+    knee: int | None = Field(
+        None,
+        description="index of the point farthest from the straight line between the ends, in the plane of shares of the"
+        " range; null where the front is a point or straight",
+        examples=[10],
+    )
+    ends: Ends | None = Field(None, description="the ends; null if infeasible", examples=[None])
+    scale: Scale | None = Field(None, description="what gaps are relative to; null if infeasible", examples=[None])
+    implied_max_mass_kg: dict[Name, Kilograms] = Field(
+        default_factory=dict,
+        description="largest masses that every bound of the front counts with, of webs without a limit or with one"
+        " beyond any need: it is proven that whatever the front is made of, and the lightest, lies within them",
+        examples=[{"1a": 412.5}],
+    )
+    infeasibility: Infeasibility | None = Field(
+        None, description="which ceilings conflict; only if infeasible", examples=[None]
+    )
+
+
+class ParetoAnswer(Answer):
+    """The certified trade-off of force, moment and mass."""
+
+    status: Status = Field(description="the worst of the fronts", examples=["optimal"])
+    fronts: tuple[ParetoFront, ...] = Field(
+        description="one for each budget of the total mass, in the order asked; without budgets one. None where"
+        " responses are named",
+        examples=[[]],
+    )
+    trades: tuple[TradedFront, ...] = Field(
+        (), description="the same of the responses that are named; none without", examples=[[]]
+    )
+    counts: tuple[CountFront, ...] = Field(
+        (), description="the same of the number of counterweights or of part numbers; none without", examples=[[]]
+    )
+    without_counterweights: FirstOrder = Field(
+        description="first order without counterweights", examples=[{"force": {"peak_N": 10006.1}}]
+    )
+    floor: Floor = Field(description="what no counterweights can remove", examples=[{"force_N": 5003.1}])
+    reference_plane_m: Metres = Field(description="plane of the moments", examples=[0.0])
+    effects: dict[str, EffectUse] = Field(
+        description="every effect, whether it was simulated, for which outputs, and its time",
+        examples=[{"rotating_inertia": {"simulated": True, "needed_by": ["residual"], "time_ms": 0.1}}],
+    )
+    timing: Timing = Field(description="where the time went", examples=[{"total_ms": 210.0}])

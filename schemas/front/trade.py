@@ -1,0 +1,118 @@
+"""The trade-off of any two or three responses: what is answered about each point of it."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.infeasibility import Infeasibility
+from schemas.base.model import Model
+from schemas.base.quantities import Kilograms, NewtonMetres, Newtons
+
+Traded = Literal["force", "moment", "bearings", "bending", "mass"]
+TradedNames = Annotated[tuple[Traded, ...], Field(min_length=2, max_length=3)]
+#: points of all fronts of one request
+MAX_TRADED_POINTS = 100
+
+
+class TradedResponse(Model):
+    """One of the responses that are traded."""
+
+    response: Traded = Field(
+        description="force, moment: their peaks as weighed across the shaft, of the first order or of all as `orders`"
+        " says; bearings: the largest load as `bearing_measure` says; bending: the largest moment; mass: the total",
+        examples=["bearings"],
+    )
+    unit: str = Field(description="unit of its values", examples=["N"])
+    without_counterweights: float = Field(description="its value without counterweights", examples=[103000.0])
+    smallest: float = Field(description="its value where it alone counts", examples=[98000.0])
+    lower_bound: float = Field(
+        description="certified: no counterweights within the limits and ceilings have a smaller one", examples=[97999.9]
+    )
+    yardstick: float = Field(
+        description="what gaps are relative to: its value without counterweights, or where there is none what the"
+        " counterweights at the ends do one by one",
+        examples=[103000.0],
+    )
+
+
+class TradedCertificate(Model):
+    """The proof of a point: no counterweights within limits and ceilings are below this corner in every response."""
+
+    corner: tuple[float | None, ...] = Field(
+        description="one value for each response, in their order; null if nothing is proven", examples=[[98000.0, 41.2]]
+    )
+    relative_gap: float | None = Field(
+        description="how far the point is above the corner: the largest difference over its yardstick; null likewise",
+        examples=[3e-7],
+    )
+    mass_lower_bound_kg: Kilograms | None = Field(
+        description="no counterweights that are as good in every response, to within that gap, have a smaller total"
+        " mass; null if least mass was not asked for, or the mass is traded",
+        examples=[41.2],
+    )
+    mass_relative_gap: float | None = Field(
+        description="total mass above that bound, over the mass; null likewise", examples=[2e-6]
+    )
+    cuts: int = Field(description="cuts of what is known over the turn", examples=[12])
+    rounds: int = Field(description="programs that were solved", examples=[4])
+    method: str = Field(description="what found the counterweights", examples=["cuts, clarabel"])
+
+
+class TradedPoint(Model):
+    """Counterweights of the trade-off."""
+
+    status: Literal["optimal", "inaccurate"] = Field(
+        description="optimal: certified to the asked gap; inaccurate: certified to a larger gap, which is reported",
+        examples=["optimal"],
+    )
+    status_reason: str = Field(
+        description="why the status is what it is, in a sentence",
+        examples=["The gap to the proven lower bound is within the asked one, and every limit is kept."],
+    )
+    values: tuple[float, ...] = Field(
+        description="one for each response, in their order; of what is known by a bracket its upper end",
+        examples=[[99000.0, 41.2]],
+    )
+    beaten_by: int | None = Field(
+        None,
+        description="index of a point that is as small in every response and smaller in one; null if there is none."
+        " Points nearer to each other than their gaps may beat one another, and where three are traded the edge of"
+        " the triangle may lie behind the front",
+        examples=[None],
+    )
+    force_peak_N: Newtons = Field(description="first-order peak force", examples=[7504.6])
+    moment_peak_Nm: NewtonMetres = Field(description="first-order peak moment", examples=[20123.28])
+    total_mass_kg: Kilograms = Field(description="total mass of the counterweights", examples=[41.2])
+    counterweights: tuple[Counterweight, ...] = Field(
+        description="one for each web, in the machine's order", examples=[[]]
+    )
+    certificate: TradedCertificate = Field(description="the proof", examples=[{"relative_gap": 3e-7}])
+
+
+class TradedFront(Model):
+    """The trade-off under one limit of the total mass."""
+
+    max_total_mass_kg: Kilograms | None = Field(
+        description="limit of the total mass of this front; null is none", examples=[None]
+    )
+    status: Literal["optimal", "inaccurate", "infeasible"] = Field(
+        description="optimal: every point is; inaccurate: a point is not; infeasible: no counterweights satisfy the"
+        " ceilings",
+        examples=["optimal"],
+    )
+    reason: Literal["reached_together"] | None = Field(
+        None,
+        description="why there is a single point: all responses are smallest at the same counterweights, within the"
+        " asked gap",
+        examples=[None],
+    )
+    responses: tuple[TradedResponse, ...] = Field(
+        description="what is traded, in the order asked; none if infeasible", examples=[[{"response": "bearings"}]]
+    )
+    points: tuple[TradedPoint, ...] = Field(
+        description="of two responses in the order of the rising first; none if infeasible", examples=[[]]
+    )
+    infeasibility: Infeasibility | None = Field(
+        None, description="which ceilings conflict; only if infeasible", examples=[None]
+    )

@@ -1,0 +1,65 @@
+"""What there is to fit: masses, angles, how many counterweights and of how many part numbers."""
+
+from collections.abc import Iterator, Sequence
+from typing import Annotated, Any
+
+from pydantic import Field
+
+from schemas.base.quantities import Angle, Count, Mass
+from schemas.base.rules import Path, Rule, Ruled
+from schemas.base.units import Unit, positive
+
+MAX_MASSES, MAX_HOLES = 1_000, 720
+#: certified gap that discrete choices are asked for where nothing is said
+DISCRETE_GAP = 1e-3
+#: by which an angle may be outside of its sector, degrees: the rounding of angles of a turn, which bounds allow for
+_ANGLE = 2e-13
+
+Masses = Annotated[tuple[Mass, ...], Field(max_length=MAX_MASSES)]
+Holes = Annotated[tuple[Angle, ...], Field(max_length=MAX_HOLES)]
+
+
+class Catalogue(Ruled):
+    """What counterweights are chosen from; every web may also be left without one."""
+
+    masses_kg: Masses | None = Field(
+        None, description="masses that there are, for webs without a list of their own", examples=[[5, 10, 20]]
+    )
+    mass_step_kg: Annotated[float, positive(1e15), Unit("kg")] | None = Field(
+        None, description="in place of a list: all whole multiples of it up to max_mass_kg of the web", examples=[None]
+    )
+    angle_step_deg: Annotated[float, Field(gt=0, le=180), Unit("deg")] | None = Field(
+        None,
+        description="angles that there are, counted from the own crank, for webs without holes; a turn must hold a"
+        " whole number of them",
+        examples=[15.0],
+    )
+    max_part_numbers: Annotated[Count, Field(ge=1, le=MAX_MASSES)] | None = Field(
+        None, description="most different masses that may be used; null is no limit", examples=[2]
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield from masses_rules(("masses_kg",), self.masses_kg)
+        both = self.masses_kg is not None and self.mass_step_kg is not None
+        yield Rule(both, ("mass_step_kg",), "give either the masses or their step")
+        if self.angle_step_deg is not None:
+            steps = 360 / self.angle_step_deg
+            broken = abs(steps - round(steps)) > 1e-9 * steps
+            yield Rule(broken, ("angle_step_deg",), "360 degrees must be a whole number of steps")
+
+
+def in_sector(angle_deg: Any, centre_deg: float, half_angle_deg: float) -> Any:
+    """Whether an angle, or each of an array, is in a sector, but for rounding."""
+    off = abs((angle_deg % 360.0 - centre_deg % 360.0 + 180.0) % 360.0 - 180.0)
+    return off <= half_angle_deg + _ANGLE
+
+
+def masses_rules(path: Path, masses: Sequence[float] | None) -> Iterator[Rule]:
+    """What a list of masses has to hold, kg; None is no list."""
+    if masses is None:
+        return
+    yield Rule(not any(mass > 0 for mass in masses), path, "must hold a mass above 0")
+    seen: set[float] = set()
+    for n, mass in enumerate(masses):
+        yield Rule(mass in seen, (*path, n), "this mass is in the list already")
+        seen.add(mass)

@@ -1,0 +1,53 @@
+"""Rules between a catalogue and the webs that are chosen from it."""
+
+from collections.abc import Iterator, Sequence
+
+from schemas.base.rules import Path, Rule
+from schemas.machine.catalogue import Catalogue, in_sector, masses_rules
+from schemas.machine.webs import Web
+
+#: masses times angles of one web, and of all webs together
+MAX_OPTIONS, MAX_OPTIONS_TOGETHER = 20_000, 200_000
+
+
+def catalogue_rules(catalogue: Catalogue, webs: Sequence[Web]) -> Iterator[Rule]:
+    """What the discrete choices of a machine have to hold; paths from the machine."""
+    together = 0
+    for k, web in enumerate(webs):
+        if web.fixed is not None:
+            continue
+        yield from masses_rules(("webs", k, "catalogue_masses_kg"), web.catalogue_masses_kg)
+        yield from _hole_rules(("webs", k, "hole_angles_deg"), web)
+        step = catalogue.mass_step_kg if web.catalogue_masses_kg is None else None
+        no_masses = web.catalogue_masses_kg is None and catalogue.masses_kg is None and step is None
+        message = "chosen from a catalogue: give the masses of this web, or masses or their step for all"
+        yield Rule(no_masses, ("webs", k, "catalogue_masses_kg"), message)
+        no_angles = web.hole_angles_deg is None and catalogue.angle_step_deg is None
+        message = "chosen from a catalogue: give the holes of this web, or a step of angles for all"
+        yield Rule(no_angles, ("webs", k, "hole_angles_deg"), message)
+        endless = step is not None and web.max_mass_kg is None
+        yield Rule(endless, ("webs", k, "max_mass_kg"), "steps of mass need a largest mass")
+        if no_masses or no_angles or endless:
+            continue
+        masses = len(web.catalogue_masses_kg or catalogue.masses_kg or ())
+        if step is not None:
+            masses = int(min((web.max_mass_kg or 0.0) / step, 1e9))
+        angles = len(web.hole_angles_deg or ()) or round(360 / (catalogue.angle_step_deg or 360))
+        together += masses * angles
+        message = f"masses times angles of a web must be at most {MAX_OPTIONS}"
+        yield Rule(masses * angles > MAX_OPTIONS, ("webs", k), message)
+    message = f"masses times angles of all webs together must be at most {MAX_OPTIONS_TOGETHER}"
+    yield Rule(together > MAX_OPTIONS_TOGETHER, ("webs",), message)
+
+
+def _hole_rules(path: Path, web: Web) -> Iterator[Rule]:
+    if web.hole_angles_deg is None:
+        return
+    yield Rule(not web.hole_angles_deg, path, "must hold at least one angle")
+    seen: set[float] = set()
+    for n, angle in enumerate(web.hole_angles_deg):
+        yield Rule(angle % 360.0 in seen, (*path, n), "this hole is in the list already")
+        seen.add(angle % 360.0)
+        if web.sector is not None:
+            inside = in_sector(angle, web.sector.centre_deg, web.sector.half_angle_deg)
+            yield Rule(not inside, (*path, n), "this hole is outside the sector")

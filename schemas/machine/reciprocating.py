@@ -1,0 +1,178 @@
+"""The reciprocating machine: throws, rows, bearings, balance shafts."""
+
+from collections.abc import Iterator, Sequence
+from functools import reduce
+from operator import or_
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from schemas.base.model import Model, NotEmpty
+from schemas.base.quantities import Angle, Mass, Name, Position
+from schemas.base.rules import Path, Rule, larger
+from schemas.base.units import Unit
+from schemas.machine.drive import MAX_BEARINGS, Bearing, FlywheelData, Friction
+from schemas.machine.parts import MAX_PARTS, ShaftPart
+from schemas.machine.rotor import MAX_WEBS, Rotor, unique_names
+from schemas.machine.throws import MAX_THROWS, Row, Throw, row_cylinders
+from schemas.machine.webs import Web
+
+MAX_ROWS_TOGETHER = 500
+MAX_BALANCE_SHAFTS = 20
+
+
+class BalanceShaft(Model):
+    """A shaft beside the crankshaft, geared to it, whose unbalance is chosen as well."""
+
+    name: Name = Field(description="name of the shaft, unique in the machine", examples=["upper"])
+    speed_ratio: Literal[-2, -1, 1, 2] = Field(
+        description="turns of it for one of the crankshaft; negative against its sense of rotation", examples=[-1]
+    )
+    x_m: Position = Field(0.0, description="place of its axis across the crankshaft", examples=[0.05])
+    y_m: Position = Field(0.0, description="place of its axis across the crankshaft", examples=[0.2])
+    webs: Annotated[tuple[Web, ...], NotEmpty()] = Field(
+        max_length=MAX_WEBS,
+        description="places where its unbalances can sit; angles as drawn at shaft angle 0",
+        examples=[[{"name": "upper", "position_m": 0.0, "counterweight_radius_m": 0.03, "max_mass_kg": 4}]],
+    )
+
+
+#: fields of webs that those of balance shafts do not have
+_OF_THE_CRANKSHAFT = (
+    "catalogue_masses_kg", "hole_angles_deg", "fixed", "max_centrifugal_force_N", "min_fitted_mass_kg",
+)  # fmt: skip
+
+
+class ReciprocatingMachine(Rotor):
+    """A reciprocating compressor or engine of any layout."""
+
+    kind: Literal["reciprocating"] = Field(description="kind of machine", examples=["reciprocating"])
+    throws: Annotated[tuple[Throw, ...], NotEmpty()] = Field(
+        max_length=MAX_THROWS,
+        description="the throws of the crankshaft",
+        examples=[[{"name": "1", "position_m": 0.175, "crank_radius_m": 0.14, "crank_angle_deg": 0}]],
+    )
+
+    friction: Friction | None = Field(
+        None, description="mechanical losses; null takes none into account", examples=[{"mechanical_efficiency": 0.94}]
+    )
+    flywheel: FlywheelData | None = Field(
+        None, description="turning inertia; needed only by the output flywheel", examples=[{"irregularity": 0.01}]
+    )
+    gravity_deg: Annotated[Angle | None, Unit("deg")] = Field(
+        None,
+        description="direction in which weight acts across the shaft, as drawn; needed only by the guides and "
+        "weights of loads",
+        examples=[270.0],
+    )
+    shaft_parts: tuple[ShaftPart, ...] = Field(
+        (),
+        max_length=MAX_PARTS,
+        description="parts of the shaft that are balanced in themselves; needed only by the weights of loads",
+        examples=[[]],
+    )
+    stationary_mass_kg: Annotated[Mass | None, Unit("kg")] = Field(
+        None,
+        description="what stands still: frame, cylinders, covers; needed only by the weight on the foundation of loads",
+        examples=[None],
+    )
+    bearings: tuple[Bearing, ...] = Field(
+        (),
+        max_length=MAX_BEARINGS,
+        description="main bearings; needed only by the output main_bearings",
+        examples=[[{"name": "A", "position_m": -0.4}, {"name": "B", "position_m": 0.4}]],
+    )
+
+    balance_shafts: tuple[BalanceShaft, ...] = Field(
+        (),
+        max_length=MAX_BALANCE_SHAFTS,
+        description="shafts geared to the crankshaft, whose unbalances are chosen together with the counterweights",
+        examples=[[]],
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield from super().rules()
+        rows = sum(len(throw.rows) for throw in self.throws)
+        message = f"all throws together must hold at most {MAX_ROWS_TOGETHER} rows"
+        yield Rule(rows > MAX_ROWS_TOGETHER, ("throws",), message)
+        yield from unique_names(("throws",), [throw.name for throw in self.throws])
+        for t, throw in enumerate(self.throws):
+            yield from _throw_rules(("throws", t), throw, 1.0 if self.rotation == "ccw" else -1.0)
+        for k, web in enumerate(self.webs):
+            if web.throw is not None:
+                beyond = web.throw >= len(self.throws)
+                yield Rule(beyond, ("webs", k, "throw"), f"the machine has {len(self.throws)} throw(s), counted from 0")
+        if self.friction is not None:
+            yield from self.friction.row_rules(rows)
+        if self.balance_shafts:
+            yield from self.no_envelopes("not beside balance shafts")
+        for n, shaft in enumerate(self.balance_shafts):
+            for k, web in enumerate(shaft.webs):
+                path = ("balance_shafts", n, "webs", k, "envelope")
+                yield Rule(web.envelope is not None, path, "a balance shaft's weights have a known radius")
+        yield from _bearing_rules(self.bearings)
+        yield from unique_names(("shaft_parts",), [part.name for part in self.shaft_parts])
+        if self.balance_shafts:
+            yield from self._shaft_rules()
+
+    def _shaft_rules(self) -> Iterator[Rule]:
+        """Rules of the balance shafts."""
+        yield from unique_names(("balance_shafts",), [shaft.name for shaft in self.balance_shafts])
+        places = sum((len(shaft.webs) for shaft in self.balance_shafts), len(self.webs))
+        yield Rule(places > MAX_WEBS, ("balance_shafts",), f"all shafts together must hold at most {MAX_WEBS} webs")
+        taken = {web.name for web in self.webs}
+        for i, shaft in enumerate(self.balance_shafts):
+            for k, web in enumerate(shaft.webs):
+                path = ("balance_shafts", i, "webs", k)
+                message = "this name is taken already; names of webs must be unique on all shafts"
+                yield Rule(web.name in taken, (*path, "name"), message)
+                yield Rule(web.throw is not None, (*path, "throw"), "a balance shaft has no throws")
+                for name in _OF_THE_CRANKSHAFT:
+                    yield Rule(getattr(web, name) is not None, (*path, name), "of the crankshaft's webs only")
+                taken.add(web.name)
+        message = "with balance shafts the total mass has no limit: limit the masses of the webs"
+        yield Rule(self.max_total_mass_kg is not None, ("max_total_mass_kg",), message)
+
+
+def no_balance_shafts(machine: Rotor, path: Path, what: str) -> Iterator[Rule]:
+    """Refuses balance shafts, where something is of the crankshaft alone."""
+    if isinstance(machine, ReciprocatingMachine):
+        message = f"{what} has no balance shafts: it is of the crankshaft alone"
+        yield Rule(bool(machine.balance_shafts), (*path, "balance_shafts"), message)
+
+
+def _throw_rules(path: Path, throw: Throw, sense: float) -> Iterator[Rule]:
+    yield from unique_names((*path, "rows"), [row.name for row in throw.rows])
+    for i, row in enumerate(throw.rows):
+        if row.connecting_rod is not None and row.connecting_rod.length_m is not None:
+            short = row.connecting_rod.length_m <= throw.crank_radius_m
+            message = "the connecting rod must be longer than the crank radius"
+            yield Rule(short, (*path, "rows", i, "connecting_rod", "length_m"), message)
+        yield from _cylinder_rules((*path, "rows", i), throw, row, sense)
+
+
+def _cylinder_rules(path: Path, throw: Throw, row: Row, sense: float) -> Iterator[Rule]:
+    both = row.cylinder is not None and bool(row.cylinders)
+    yield Rule(both, (*path, "cylinders"), "give either one cylinder or several")
+    yield from unique_names((*path, "cylinders"), [one.name for one in row.cylinders])
+    for k, one in enumerate(row.cylinders):
+        overlaps = reduce(or_, (one.overlaps(other) for other in row.cylinders[:k]), False)
+        yield Rule(overlaps, (*path, "cylinders", k, "from_m"), "overlaps another cylinder of the row")
+    for at, cylinder in row_cylinders(row):
+        if cylinder.pressure is not None:
+            for broken, rest, words in cylinder.pressure.row_rules(sense, throw.crank_angle_deg, row.axis_deg):
+                yield Rule(broken, (*path, *at, "pressure", *rest), words)
+
+
+def _bearing_rules(bearings: Sequence[Bearing]) -> Iterator[Rule]:
+    yield from unique_names(("bearings",), [bearing.name for bearing in bearings])
+    if not bearings:
+        return
+    places = [bearing.position_m for bearing in bearings]
+    extent = reduce(larger, places) + reduce(larger, [-place for place in places])
+    # nearer than this no arithmetic tells them apart
+    near = larger(1e-8 * extent, 1e-14 * reduce(larger, map(abs, places)))
+    for k, place in enumerate(places):
+        coincides = reduce(or_, (abs(place - other) <= near for other in places[:k]), False)
+        yield Rule(coincides, ("bearings", k, "position_m"), "another bearing is in this plane")
+    yield Rule(len(places) == 1, ("bearings",), "a shaft needs at least two bearings")

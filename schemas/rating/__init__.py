@@ -1,0 +1,1 @@
+"""Thermal design of the cylinders."""

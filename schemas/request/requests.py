@@ -1,0 +1,209 @@
+"""What a client asks: optimise or analyse a machine."""
+
+from collections.abc import Iterator
+from typing import Annotated, Any, Self, cast
+
+from pydantic import (
+    Field,
+    GetJsonSchemaHandler,
+    SerializerFunctionWrapHandler,
+    Strict,
+    model_serializer,
+    model_validator,
+)
+from pydantic.json_schema import JsonSchemaValue
+from pydantic_core import CoreSchema
+
+from schemas.base.model import Model
+from schemas.base.rules import Rule, Ruled
+from schemas.base.units import Unit
+from schemas.machine.catalogue import DISCRETE_GAP
+from schemas.machine.fitted import GivenCounterweight, fitted_rules
+from schemas.machine.reciprocating import no_balance_shafts
+from schemas.machine.rotor import MAX_WEBS
+from schemas.request.objective import Objective
+from schemas.request.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
+from schemas.request.scene import Scene
+
+#: ways round what does not go together, see "What goes together" in docs/api.md
+_FIX_THE_CHOICE = "choose without, then ask with the choice as fixed weights"
+
+
+class Accuracy(Model):
+    """How close to the optimum the answer has to be."""
+
+    relative_gap: Annotated[float, Strict()] = Field(
+        1e-6,
+        ge=1e-12,
+        le=1,
+        description="certified gap asked for, relative to the objective without counterweights; 1e-3 if not said where"
+        " counterweights are chosen from a catalogue",
+        examples=[1e-6],
+    )
+    time_limit_s: Annotated[float, Strict(), Unit("s")] = Field(
+        5.0,
+        gt=0,
+        le=30,
+        description="computing time after which a search over the whole turn or among"
+        " discrete choices ends and says its gap [s]",
+        examples=[5.0],
+    )
+
+    def usual(self, discrete: bool) -> "Accuracy":
+        """The same with the usual gap of such a machine, where none is said."""
+        name = "relative_gap"
+        if name in self.model_fields_set:
+            return self
+        gap = DISCRETE_GAP if discrete else type(self).model_fields[name].default
+        found = self.model_copy(update={name: gap})
+        # it is still not said, and another machine has another one
+        found.model_fields_set.discard(name)
+        return found
+
+    @model_serializer(mode="wrap")
+    def _said(self, handler: SerializerFunctionWrapHandler) -> dict[str, Any]:
+        """Without the gap where none is said: who reads it again takes the usual one of the machine."""
+        found: dict[str, Any] = handler(self)
+        if "relative_gap" not in self.model_fields_set:
+            found.pop("relative_gap", None)
+        return found
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
+        # what is left out changes nothing of what the fields are
+        return super().__get_pydantic_json_schema__(_fields_alone(schema), handler)
+
+
+def _fields_alone(schema: CoreSchema) -> CoreSchema:
+    return cast(CoreSchema, {name: part for name, part in schema.items() if name != "serialization"})
+
+
+class OptimizeRequest(Scene, Ruled):
+    """Choose the counterweights of a machine."""
+
+    objective: Objective = Field(Objective(), description="what is to be small", examples=[{"combine": "sum"}])
+    accuracy: Accuracy = Field(Accuracy(), description="how close to the optimum", examples=[{"relative_gap": 1e-6}])
+    scenarios: tuple[Scenario, ...] = Field(
+        (),
+        max_length=MAX_SCENARIOS,
+        description="operating points, loads or variants that the counterweights are to suit: the largest weighted"
+        " objective of all counts, and ceilings hold in each; the machine as it is given counts only where it is"
+        " listed, with no changes",
+        examples=[[{"name": "overspeed", "changes": [{"path": "/machine/speed_rpm", "value": 600}]}]],
+    )
+    tolerances: Tolerances | None = Field(
+        None,
+        description="what may be off: the worst case is minimised, and ceilings hold in it",
+        examples=[{"mass_relative": 0.02, "angle_deg": 2}],
+    )
+
+    @property
+    def robust(self) -> bool:
+        """Whether more counts than the machine as it is given."""
+        return bool(self.scenarios) or (self.tolerances is not None and self.tolerances.any)
+
+    def rules(self) -> Iterator[Rule]:
+        yield from scenario_rules(self, self.scenarios)
+        yield from self._shaft_rules()
+        yield from self._catalogue_rules()
+        yield from self._fitted_rules()
+        if self.tolerances is not None and self.objective.over_the_turn:
+            squares = self.objective.bearing_weight > 0 and self.objective.bearing_measure == "rms"
+            scatters = squares and self.tolerances.reciprocating_mass_relative > 0
+            message = "of peaks only: not with objective.bearing_measure rms"
+            yield Rule(scatters, ("tolerances", "reciprocating_mass_relative"), message)
+        if not any(web.envelope is not None for web in self.machine.webs):
+            return
+        if self.objective.over_the_turn or self.robust:
+            also = "scenarios and tolerances" if self.robust else f"objective.{self.objective.over_the_turn[0]}"
+            yield from self.envelope_rules(f"not with {also}: optimise without, then give the radius that is found")
+        limits = self.machine.max_total_mass_kg is not None and any(
+            getattr(self.objective, name) is not None
+            for name in type(self.objective).model_fields
+            if "_ceiling_" in name
+        )
+        if limits:
+            yield from self.envelope_rules("not with a budget and ceilings together: sweep the budget")
+
+    def envelope_rules(self, message: str) -> Iterator[Rule]:
+        """Envelopes that are given where only a counterweight of a known radius can be asked for."""
+        for broken, path, said in self.machine.no_envelopes(message):
+            yield Rule(broken, ("machine", *path), said)
+
+    def worst_case_rules(self, message: str) -> Iterator[Rule]:
+        """Scenarios and tolerances that are given where only the machine as it is can be asked for."""
+        yield Rule(bool(self.scenarios), ("scenarios",), message)
+        yield Rule(self.tolerances is not None, ("tolerances",), message)
+
+    def _catalogue_rules(self) -> Iterator[Rule]:
+        """What does not go with discrete choices."""
+        machine = self.machine
+        if not machine.discrete:
+            return
+        yield from self._choice_rules("a catalogue")
+        yield from no_balance_shafts(machine, ("machine",), "a choice from a catalogue")
+        for broken, path, message in machine.no_envelopes(
+            "what is chosen from a catalogue has a radius: give that of the plate"
+        ):
+            yield Rule(broken, ("machine", *path), message)
+
+    def _choice_rules(self, what: str) -> Iterator[Rule]:
+        """What does not go with either."""
+        yield Rule(self.tolerances is not None, ("tolerances",), f"does not go with {what}: {_FIX_THE_CHOICE}")
+
+    def _fitted_rules(self) -> Iterator[Rule]:
+        """What does not go with a least mass of what is fitted."""
+        machine = self.machine
+        if not machine.semicontinuous:
+            return
+        yield from self._choice_rules("min_fitted_mass_kg")
+        yield from no_balance_shafts(machine, ("machine",), "a machine with min_fitted_mass_kg")
+        for broken, path, message in machine.no_envelopes(
+            "not beside min_fitted_mass_kg: optimise without, then give the radius that is found"
+        ):
+            yield Rule(broken, ("machine", *path), message)
+        for k, web in enumerate(machine.webs):
+            message = "with min_fitted_mass_kg the masses of all webs have a limit"
+            endless = web.max_mass_kg is None and web.fixed is None and web.envelope is None
+            yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
+
+    @property
+    def with_usual_gap(self) -> Self:
+        """The same with the gap that its machine is usually asked for, where none is said."""
+        machine = self.machine
+        return self.model_copy(update={"accuracy": self.accuracy.usual(machine.discrete or machine.semicontinuous)})
+
+    @model_validator(mode="after")
+    def _usual_gap(self) -> Self:
+        # frozen for all others: nobody has seen it yet
+        self.__dict__["accuracy"] = self.with_usual_gap.accuracy
+        return self
+
+    def _shaft_rules(self) -> Iterator[Rule]:
+        """What does not go with balance shafts."""
+        machine, goal = self.machine, self.objective
+        shafts = machine.balance_shafts if machine.kind == "reciprocating" else ()
+        if shafts:
+            yield from self.worst_case_rules("does not go with balance shafts")
+        else:
+            message = "balance shafts alone change the roll moment, and the machine has none"
+            yield Rule(goal.roll_weight != 0, ("objective", "roll_weight"), message)
+        if any(shaft.speed_ratio == -1 for shaft in shafts):
+            for name in ("force_ceiling_N", "moment_ceiling_Nm"):
+                whole = (getattr(goal, name) is not None) & (goal.orders == "first")
+                message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
+                yield Rule(whole, ("objective", name), message)
+
+
+class AnalyzeRequest(Scene, Ruled):
+    """The machine as it stands, or with given counterweights."""
+
+    counterweights: tuple[GivenCounterweight, ...] = Field(
+        (),
+        max_length=MAX_WEBS,
+        description="counterweights on the machine, at most one for each web, and others in planes of their own",
+        examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
+    )
+
+    def rules(self) -> Iterator[Rule]:
+        yield from fitted_rules(self.machine, self.counterweights)
