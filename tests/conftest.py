@@ -1,8 +1,10 @@
 """Settings of the whole test run."""
 
+import logging
 import os
 import tempfile
 from collections import Counter
+from collections.abc import Iterator
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -31,6 +33,15 @@ providers.is_local_module_file = lambda _: False
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
 check_every_answer()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def server_log_reaches_the_root() -> Iterator[None]:
+    """The file that gives the server's log another way fails, not the one that looks for its lines afterwards."""
+    yield
+    for name in ("uvicorn", "uvicorn.error"):
+        logger = logging.getLogger(name)
+        assert (logger.propagate, logger.handlers) == (True, []), f"{name} keeps what this file did to it: log_config"
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
