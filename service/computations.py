@@ -78,7 +78,7 @@ class Computation:
     picture : () -> (title, answer) -> SVG, for the command line.
     workbook : request, answer -> xlsx, for the command line; then requests may be workbooks too.
     examples : folder of example bodies.
-    long : takes seconds: such computations never occupy all workers.
+    long : takes seconds: such computations have turns of their own, behind all others.
     later : may be asked for as a job, by `Prefer: respond-async`.
     scope : what a key must allow.
     """

@@ -94,10 +94,11 @@ class _Work(BaseSettings):
     concurrent_solves: int = Field(
         default_factory=lambda: os.cpu_count() or 1,
         ge=1,
-        description="computations at the same time, a process each; two above them for clients that had little lately",
+        description="short computations at the same time, a process each; two above them for clients that had little"
+        " lately, and half as many for long ones, one at least",
     )
     queue_length: int = Field(
-        128, ge=0, description="requests that wait for a computation; further ones are answered 429"
+        128, ge=0, description="requests that wait for a short computation, and for a long one; more are answered 429"
     )
     queue_length_each: int = Field(
         64, ge=0, description="requests of one client that wait for a computation; further ones are answered 429"

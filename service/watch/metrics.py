@@ -108,7 +108,8 @@ class _Work(Collector):
         yield _gauge("counterweight_computations_waiting", "requests that wait for a worker", self._pool.queued)
         events = CounterMetricFamily(
             "counterweight_worker_events",
-            "workers started, found dead, ended late or with their client gone; requests refused as too many wait",
+            "workers started, found dead, ended late or with their client gone; requests refused as too many wait;"
+            " computations that turned out to be long, and went on as such or were begun anew",
             labels=["event"],
         )
         for name, count in asdict(self._pool.counts).items():

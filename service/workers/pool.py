@@ -1,19 +1,20 @@
 """Workers lent to requests: started when needed, ended when a client is gone or its time over, replaced when dead."""
 
 import logging
-from asyncio import timeout
+from asyncio import FIRST_COMPLETED, ensure_future, gather, timeout, wait
 from collections.abc import Callable
-from contextlib import suppress
-from dataclasses import dataclass, field
+from contextlib import ExitStack, suppress
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeVar
 
 from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
+from service.workers import length
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
-from service.workers.task import Task
-from service.workers.turns import ABOVE, Full, Turns
-from service.workers.worker import Answer, Crashed, Outcome
+from service.workers.task import Priority, Task
+from service.workers.turns import ABOVE, Full, Turn, Turns
+from service.workers.worker import Answer, Crashed, Long, Outcome
 
 _LOG = logging.getLogger(__name__)
 #: a request whose client is gone may end within this time, which is cheaper than another worker
@@ -58,16 +59,22 @@ class PoolCounts:
     ended_late: int = 0
     ended_gone: int = 0
     refused_busy: int = 0
+    moved_long: int = 0
+    begun_anew: int = 0
 
 
 @dataclass
 class Pool:
     """So many computations at a time, each in a process.
 
+    Long ones (:mod:`service.workers.length`) have turns of their own, half as many and one at least, and so they have
+    processes of their own. What turns out to be long goes on in a turn of the long ones if there is one; else it goes
+    on in its own until somebody waits for that, and is then begun anew when it has one.
+
     Parameters
     ----------
-    size : computations at a time; two above them for owners who had little lately.
-    waiting : requests that may wait for one.
+    size : short computations at a time; two above them for owners who had little lately.
+    waiting : requests that may wait for one, and as many for a long one.
     each : requests of one owner that may wait.
     timeout_s : for waiting and computing [s].
     memory_mb : of one worker [MB].
@@ -83,14 +90,16 @@ class Pool:
     counts: PoolCounts = field(default_factory=PoolCounts)
 
     def __post_init__(self) -> None:
-        self._turns = Turns(self.size, self.waiting, self.each)
+        most_long = max(1, self.size // 2)
+        self._short = Turns(self.size, self.waiting, self.each)
+        self._long = Turns(most_long, self.waiting, self.each, above=0)
         # who has no turn while all have one is not to wait for a start
-        self._kept = self.size + ABOVE
-        self._threads = CapacityLimiter(2 * (self.size + ABOVE))
+        self._kept = self.size + ABOVE + most_long
+        self._threads = CapacityLimiter(2 * self._kept)
         self._idle: list[Worker] = []
         self._busy: set[Worker] = set()
-        # of recent computations, for Retry-After [s]
-        self._typical_s = 0.1
+        # of recent computations, short and long, for Retry-After [s]
+        self._typical_s = {False: 0.1, True: length.BRIEF_S}
         self._closed = False
 
     @property
@@ -99,7 +108,7 @@ class Pool:
 
     @property
     def queued(self) -> int:
-        return self._turns.waiting
+        return self._short.waiting + self._long.waiting
 
     @property
     def pids(self) -> tuple[int, ...]:
@@ -132,25 +141,44 @@ class Pool:
         Busy, TooSlow, WorkerDied, WorkersFailed
         """
         computing = False
+        short, long = self._short.turn(owner), self._long.turn(owner)
         try:
             async with timeout(self.timeout_s):
-                async with self._turns.turn(owner, task.computation.long):
+                with ExitStack() as ends:
+                    ends.callback(short.end)
+                    ends.callback(long.end)
+                    if not task.long:
+                        await short.granted()
+                        computing = True
+                        outcome = await self._computed(task, self._priority(owner), short, long)
+                        if not isinstance(outcome, Long):
+                            return outcome
+                        computing = False
+                        short.end()
+                    await long.granted()
                     computing = True
-                    return await self._computed(task, self._turns.more(owner))
+                    outcome = await self._computed(replace(task, long=True), Priority.LONG, short, long)
+                    assert not isinstance(outcome, Long), "it has a turn of the long ones"
+                    return outcome
         except Full:
             self.counts.refused_busy += 1
-            raise Busy(self.queued, max(1, round(self._typical_s * self.queued / self.size))) from None
+            turns = self._long if long.wanted else self._short
+            seconds = self._typical_s[long.wanted] * turns.waiting / turns.size
+            raise Busy(turns.waiting, max(1, round(seconds))) from None
         except TimeoutError:
             self.counts.ended_late += 1
             raise TooSlow(self.timeout_s, computing) from None
 
-    async def _computed(self, task: Task, behind: bool) -> Outcome:
+    def _priority(self, owner: str) -> Priority:
+        return Priority.FURTHER if self._short.more(owner) else Priority.FIRST
+
+    async def _computed(self, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:
         # the second one is new: the first may have died long before, and the next idle one with it
         for take in (self._free, self._fresh):
             worker = await take()
             self._busy.add(worker)
             try:
-                outcome = await self._asked(worker, task, behind)
+                outcome = await self._outcome(worker, task, priority, short, long)
             except Dead:
                 if not self._closed:
                     _LOG.warning("a worker died while it computed")
@@ -161,31 +189,57 @@ class Pool:
                 await self._in_thread(worker.end)
                 raise
             else:
-                await self._keep(worker, outcome)
+                await self._keep(worker, outcome, task.long)
                 return outcome
             finally:
                 self._busy.discard(worker)
         raise WorkerDied("The process that computed this died; try again later.")
 
-    async def _asked(self, worker: Worker, task: Task, behind: bool) -> Outcome:
+    async def _outcome(self, worker: Worker, task: Task, priority: Priority, short: Turn, long: Turn) -> Outcome | Long:
         try:
             if len(task.body) < _AT_ONCE_BYTES:
-                worker.send(task, behind)
+                worker.send(task, priority)
             else:
-                await self._in_thread(worker.send, task, behind)
-            return await worker.outcome()
+                await self._in_thread(worker.send, task, priority)
+            if task.long or short.ended:
+                return await worker.outcome()
+            with move_on_after(length.BRIEF_S):
+                return await worker.outcome()
+            return await self._overrun(worker, short, long)
         except get_cancelled_exc_class():
             with CancelScope(shield=True):
                 await self._abandon(worker)
             raise
+
+    async def _overrun(self, worker: Worker, short: Turn, long: Turn) -> Outcome | Long:
+        """The outcome of what is long though it did not look so; its worker is not used again."""
+        worker.lower()
+        outcome, place = ensure_future(worker.outcome()), ensure_future(long.granted())
+        crowd = ensure_future(self._short.crowded.wait())
+        try:
+            await wait((outcome, place, crowd), return_when=FIRST_COMPLETED)
+            if outcome.done():
+                return outcome.result()
+            if not place.done():
+                self.counts.begun_anew += 1
+                return Long()
+            place.result()
+            self.counts.moved_long += 1
+            short.end()
+            return await outcome
+        finally:
+            for waiting in (outcome, place, crowd):
+                waiting.cancel()
+            await gather(outcome, place, crowd, return_exceptions=True)
 
     async def _abandon(self, worker: Worker) -> None:
         with suppress(Dead, OSError), move_on_after(_GRACE_S):
             left = await worker.outcome()
             if isinstance(left, Answer) and left.file is not None:
                 left.file.close()
-            self._idle.append(worker)
-            return
+            if not worker.lowered:
+                self._idle.append(worker)
+                return
         self.counts.ended_gone += 1
         await self._in_thread(worker.end)
 
@@ -222,14 +276,15 @@ class Pool:
         else:
             worker.end()
 
-    async def _keep(self, worker: Worker, outcome: Outcome) -> None:
-        resident = getattr(outcome, "resident", 0)
-        if isinstance(outcome, Crashed) or resident > self.memory_mb * _MB / 2 or len(self._idle) >= self._kept:
+    async def _keep(self, worker: Worker, outcome: Outcome | Long, long: bool) -> None:
+        spent = isinstance(outcome, Crashed) or worker.lowered
+        if spent or getattr(outcome, "resident", 0) > self.memory_mb * _MB / 2 or len(self._idle) >= self._kept:
             # fresh ones hold no more than they need, and there are no more of them than needed
             await self._in_thread(worker.end)
         else:
             self._idle.append(worker)
-        self._typical_s += 0.1 * (getattr(outcome, "seconds", self._typical_s) - self._typical_s)
+        typical = self._typical_s[long]
+        self._typical_s[long] += 0.1 * (getattr(outcome, "seconds", typical) - typical)
 
     async def _in_thread(self, work: Callable[..., Result], *given: object) -> Result:
         # whoever leaves a thread behind ends its worker, and with it the thread

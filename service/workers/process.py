@@ -15,8 +15,8 @@ from pathlib import Path
 from threading import Lock, Timer
 
 from service.workers.messages import Listener
-from service.workers.task import Task
-from service.workers.worker import Outcome, serve
+from service.workers.task import Priority, Task
+from service.workers.worker import LONG_NICENESS, Long, Outcome, serve
 
 _LOG = logging.getLogger(__name__)
 #: what the process has loaded that workers are forked from; every worker runs ``__main__`` anew, which is the last one
@@ -45,6 +45,8 @@ class Worker:
     """
 
     def __init__(self, memory_bytes: int, folder: Path | None) -> None:
+        #: whether its priority was lowered, which nobody can undo
+        self.lowered = False
         context = multiprocessing.get_context("forkserver")
         self._connection, theirs = socket.socketpair()
         self._says = Listener(self._connection)
@@ -70,19 +72,27 @@ class Worker:
     def alive(self) -> bool:
         return not self._says.gone
 
-    def send(self, task: Task, behind: bool) -> None:
-        """Have a task computed, behind what others have asked for or not."""
+    def send(self, task: Task, priority: Priority) -> None:
+        """Have a task computed."""
         try:
-            self._connection.sendall(task.said(behind))
+            self._connection.sendall(task.said(priority))
         except OSError as error:
             raise Dead from error
 
-    async def outcome(self) -> Outcome:
+    async def outcome(self) -> Outcome | Long:
         try:
             outcome, file = await self._says.heard()
         except EOFError as error:
             raise Dead from error
         return outcome if file is None else replace(outcome, file=file)
+
+    def lower(self) -> None:
+        """Have whatever it computes go on behind all others, as long ones do."""
+        self.lowered = True
+        # priorities are those of threads
+        with suppress(OSError):
+            for thread in os.listdir(f"/proc/{self.pid}/task"):
+                os.setpriority(os.PRIO_PROCESS, int(thread), LONG_NICENESS)
 
     def kill(self) -> None:
         """Kill it; who waits for its answer is told that it is dead."""

@@ -3,6 +3,7 @@
 import pickle
 import struct
 from dataclasses import dataclass
+from enum import IntEnum
 from functools import lru_cache
 from typing import BinaryIO
 
@@ -10,10 +11,18 @@ from service.coding import Coding
 from service.computations import Computation, Form
 from service.guard.sizes import SizeLimits
 
-#: whether it is computed behind others, and how many bytes follow that say what to do, and with what
-_HEAD = struct.Struct("!?IQ")
+#: its priority, and how many bytes follow that say what to do, and with what
+_HEAD = struct.Struct("!BIQ")
 #: of what to do there are some for each computation
 _KEPT = 256
+
+
+class Priority(IntEnum):
+    """Before whom a task is computed: one of a client who has no other, further ones of a client, long ones."""
+
+    FIRST = 0
+    FURTHER = 1
+    LONG = 2
 
 
 @dataclass(frozen=True)
@@ -21,6 +30,7 @@ class Task:
     """What to compute, and in which form and coding to answer; all data: what it names is looked up in the worker.
 
     workbook : whether the body is one; else it is JSON.
+    long : it has a turn of the long ones; else a worker that finds it to be long hands it back.
     """
 
     computation: Computation
@@ -29,24 +39,25 @@ class Task:
     limits: SizeLimits
     coding: Coding | None = None
     workbook: bool = False
+    long: bool = False
 
-    def said(self, behind: bool) -> bytes:
-        """The task as it goes to a worker, behind what others have asked for or not."""
-        order = _said(self.computation, self.form, self.limits, self.coding, self.workbook)
-        return b"".join((_HEAD.pack(behind, len(order), len(self.body)), order, self.body))
+    def said(self, priority: Priority) -> bytes:
+        """The task as it goes to a worker."""
+        order = _said(self.computation, self.form, self.limits, self.coding, self.workbook, self.long)
+        return b"".join((_HEAD.pack(priority, len(order), len(self.body)), order, self.body))
 
     @classmethod
-    def heard(cls, stream: BinaryIO) -> tuple["Task", bool]:
-        """The next task in a stream, and whether it is behind others.
+    def heard(cls, stream: BinaryIO) -> tuple["Task", Priority]:
+        """The next task in a stream, and its priority.
 
         Raises
         ------
         EOFError
             if nobody asks any more.
         """
-        behind, order, body = _HEAD.unpack(_read(stream, _HEAD.size))
-        computation, form, limits, coding, workbook = _heard(_read(stream, order))
-        return cls(computation, form, _read(stream, body), limits, coding, workbook), behind
+        priority, order, body = _HEAD.unpack(_read(stream, _HEAD.size))
+        computation, form, limits, coding, workbook, long = _heard(_read(stream, order))
+        return cls(computation, form, _read(stream, body), limits, coding, workbook, long), Priority(priority)
 
 
 # pickled and read once: dozens of names cost more than to check a request
@@ -56,8 +67,8 @@ def _said(*order: object) -> bytes:
 
 
 @lru_cache(_KEPT)
-def _heard(order: bytes) -> tuple[Computation, Form, SizeLimits, Coding | None, bool]:
-    found: tuple[Computation, Form, SizeLimits, Coding | None, bool] = pickle.loads(order)
+def _heard(order: bytes) -> tuple[Computation, Form, SizeLimits, Coding | None, bool, bool]:
+    found: tuple[Computation, Form, SizeLimits, Coding | None, bool, bool] = pickle.loads(order)
     return found
 
 

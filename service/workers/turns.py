@@ -20,35 +20,50 @@ class Full(Exception):
 
 
 @dataclass(eq=False)
-class _Turn:
-    """Asked for, waited for and had in an ``async with``.
+class Turn:
+    """Asked for, waited for and had in an ``async with``; or step by step, and then ended in any case.
 
     above : it is one above the size.
     """
 
     turns: "Turns"
     owner: str
-    long: bool
     decided: asyncio.Event = field(default_factory=asyncio.Event)
+    wanted: bool = False
     begun: bool = False
+    ended: bool = False
     above: bool = False
+
+    async def granted(self) -> None:
+        """Wait until it begins; who has stopped waiting may wait again.
+
+        Raises
+        ------
+        Full
+            at once, or when the place is given to another owner.
+        """
+        self.turns.ask(self)
+        await self.decided.wait()
+        if not self.begun:
+            raise Full
+
+    def end(self) -> None:
+        """It was had, or is not wanted any more."""
+        self.turns.end(self)
 
     async def __aenter__(self) -> None:
         try:
-            self.turns.ask(self)
-            await self.decided.wait()
-            if not self.begun:
-                raise Full
+            await self.granted()
         except BaseException:
-            self.turns.end(self)
+            self.end()
             raise
 
     async def __aexit__(self, *raised: object) -> None:
-        self.turns.end(self)
+        self.end()
 
 
 class Turns:
-    """So many turns at a time, and two above them for owners who have none, and had little lately.
+    """So many turns at a time, and some above them for owners who have none, and had little lately.
 
     Next is the owner who has had turns for the least time, each in the order in which it asked; but nobody waits for
     ever, however many come who have had nothing. When as many wait as may, the owner of whom most wait gives up its
@@ -62,22 +77,25 @@ class Turns:
     size : turns at a time.
     waiting : who may wait altogether.
     each : who may wait of one owner.
+    above : turns above the size.
     clock : seconds that only go forward.
     """
 
-    def __init__(self, size: int, waiting: int, each: int, clock: Callable[[], float] = time.monotonic) -> None:
-        self._size = size
+    def __init__(
+        self, size: int, waiting: int, each: int, above: int = ABOVE, clock: Callable[[], float] = time.monotonic
+    ) -> None:
+        self.size = size
         self._most = waiting
         self._each = each
-        # those that take seconds never take every turn, if there are two at least
-        self._most_long = max(1, size // 2)
+        self._most_above = above
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
         self._running: Counter[str] = Counter()
-        self._running_long = 0
         self._above = 0
+        #: set while anybody waits
+        self.crowded = asyncio.Event()
         # who began last is last
-        self._waiting: OrderedDict[str, deque[_Turn]] = OrderedDict()
+        self._waiting: OrderedDict[str, deque[Turn]] = OrderedDict()
         # when they began to wait, or had a turn
         self._since: dict[str, float] = {}
 
@@ -90,23 +108,19 @@ class Turns:
         """Whether an owner has more than one turn, or waits for one."""
         return self._running[owner] > 1 or owner in self._waiting
 
-    def turn(self, owner: str, long: bool) -> _Turn:
-        """Wait for a turn, and have it.
+    def turn(self, owner: str) -> Turn:
+        """A turn to wait for, and to have."""
+        return Turn(self, owner)
 
-        Raises
-        ------
-        Full
-            at once, or when the place is given to another owner.
-        """
-        return _Turn(self, owner, long)
-
-    def end(self, turn: _Turn) -> None:
+    def end(self, turn: Turn) -> None:
         """It was had, or is not wanted any more."""
+        if turn.ended:
+            return
+        turn.ended = True
         if turn.begun:
             self._running[turn.owner] -= 1
             if not self._running[turn.owner]:
                 del self._running[turn.owner]
-            self._running_long -= turn.long
             self._above -= turn.above
             self._take(turn.owner, -1)
         else:
@@ -116,8 +130,11 @@ class Turns:
         if self._waiting:
             self._go_on()
 
-    def ask(self, turn: _Turn) -> None:
+    def ask(self, turn: Turn) -> None:
         """Have it begin, or wait for its decision."""
+        if turn.wanted:
+            return
+        turn.wanted = True
         if turn.owner not in self._accounts:
             self._accounts.come(turn.owner)
         # whoever waits may not begin, so nobody is overtaken
@@ -138,11 +155,10 @@ class Turns:
             self._waiting[turn.owner] = deque()
             self._since[turn.owner] = self._clock()
         self._waiting[turn.owner].append(turn)
+        self.crowded.set()
 
-    def _may_begin(self, turn: _Turn) -> bool:
-        if turn.long and self._running_long >= self._most_long:
-            return False
-        return self._is_free() or (self._above < ABOVE and self._had_little(turn.owner))
+    def _may_begin(self, turn: Turn) -> bool:
+        return self._is_free() or (self._above < self._most_above and self._had_little(turn.owner))
 
     def _had_little(self, owner: str) -> bool:
         if self._running[owner]:
@@ -151,13 +167,12 @@ class Turns:
         return had <= 0.5 * max(others) and (not self._above or had <= min(others))
 
     def _is_free(self) -> bool:
-        return self._running.total() - self._above < self._size
+        return self._running.total() - self._above < self.size
 
-    def _begin(self, turn: _Turn) -> None:
+    def _begin(self, turn: Turn) -> None:
         turn.begun, turn.above = True, not self._is_free()
         self._above += turn.above
         self._running[turn.owner] += 1
-        self._running_long += turn.long
         self._take(turn.owner, 1)
         turn.decided.set()
 
@@ -165,12 +180,14 @@ class Turns:
         self._accounts.take(owner, turns)
         self._loads.take(owner, turns)
 
-    def _leave(self, turn: _Turn) -> None:
+    def _leave(self, turn: Turn) -> None:
         place = self._waiting.get(turn.owner)
         if place is not None and turn in place:
             place.remove(turn)
             if not place:
                 del self._waiting[turn.owner], self._since[turn.owner]
+        if not self._waiting:
+            self.crowded.clear()
 
     def _go_on(self) -> None:
         while (turn := next(self._ready(), None)) is not None:
@@ -180,10 +197,10 @@ class Turns:
                 self._since[turn.owner] = self._clock()
             self._begin(turn)
 
-    def _ready(self) -> Iterator[_Turn]:
+    def _ready(self) -> Iterator[Turn]:
         # most often the turn that ended has been given to another: who cannot begin is not asked one by one
         free = self._is_free()
-        if self._above >= ABOVE and not free:
+        if self._above >= self._most_above and not free:
             return
         patient_s = self._clock() - PATIENCE_S
 

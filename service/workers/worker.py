@@ -13,7 +13,7 @@ import time
 import traceback
 from collections.abc import Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import AbstractContextManager, nullcontext
+from contextlib import AbstractContextManager, ExitStack, nullcontext
 from dataclasses import dataclass, replace
 from functools import cache, partial
 from pathlib import Path
@@ -25,11 +25,14 @@ from service.coding import SMALL_BYTES, Coding, coded
 from service.faults import kept
 from service.private import make_folder
 from service.validation import InvalidRequest, UnreadableBody, check, read_json
+from service.workers.length import long_by_size
 from service.workers.messages import say
-from service.workers.task import Task
+from service.workers.task import Priority, Task
 
-#: below the event loop, above the workers of sweeps; and so much more for a client of whom more is computed or waits
-_NICENESS, _BEHIND = 2, 3
+#: below the event loop, above the workers of sweeps; and so much more for further ones of a client, and long ones
+_NICENESS = 2
+_BEHIND = {Priority.FURTHER: 3, Priority.LONG: 7}
+LONG_NICENESS = _NICENESS + _BEHIND[Priority.LONG]
 #: an answer that is larger goes to the service in a file
 LARGE_BYTES = 262_144
 #: faults of the request; anything else is a fault of the service
@@ -105,6 +108,11 @@ class Crashed:
     message: str
 
 
+@dataclass(frozen=True)
+class Long:
+    """The request is long, and nothing of it was computed: it has to wait for a turn of the long ones."""
+
+
 Outcome = Answer | Refused | Crashed
 
 
@@ -125,17 +133,22 @@ def serve(connection: socket.socket, memory_bytes: int, folder: Path | None) -> 
     try:
         connection.sendall(pickle.dumps(getattr(preload, "failure", None)))
         # a thread is as nice as it says and starts with its first task; a process that was nice once may not go back
-        with connection.makefile("rb") as asked, ThreadPoolExecutor(1, initializer=partial(os.nice, _BEHIND)) as nicer:
+        with ExitStack() as ends:
+            asked = ends.enter_context(connection.makefile("rb"))
+            nicer = {
+                priority: ends.enter_context(ThreadPoolExecutor(1, initializer=partial(os.nice, more)))
+                for priority, more in _BEHIND.items()
+            }
             while True:
-                task, nicely = Task.heard(asked)
-                outcome = nicer.submit(perform, task).result() if nicely else perform(task)
+                task, priority = Task.heard(asked)
+                outcome = nicer[priority].submit(perform, task).result() if priority in nicer else perform(task)
                 _send(connection, outcome, folder)
                 del task, outcome
     except (EOFError, BrokenPipeError, ConnectionResetError):
         return
 
 
-def _send(connection: socket.socket, outcome: Outcome, folder: Path | None) -> None:
+def _send(connection: socket.socket, outcome: Outcome | Long, folder: Path | None) -> None:
     """Hand over an outcome; of a large answer an open file, which the service need not hold in memory."""
     if not (isinstance(outcome, Answer) and len(outcome.content) > LARGE_BYTES):
         say(connection, outcome)
@@ -153,7 +166,7 @@ def _send(connection: socket.socket, outcome: Outcome, folder: Path | None) -> N
         say(connection, Refused.because(NoRoom("There is no room on disk for so large an answer; try again later.")))
 
 
-def perform(task: Task) -> Outcome:
+def perform(task: Task) -> Outcome | Long:
     """The outcome of a task; nothing escapes."""
     begun = time.perf_counter()
     try:
@@ -161,6 +174,8 @@ def perform(task: Task) -> Outcome:
         with said:
             asked = check(task.computation.asks, body)
             task.limits.require(asked)
+            if not task.long and long_by_size(task.computation, asked):
+                return Long()
             with kept() as faults:
                 found = task.computation.function(asked)
         content = task.form.content(asked, found)

@@ -3,7 +3,7 @@
 ``python -m tests.network.bystander`` prints, for each kind of traffic, what became of the bystander's requests and how
 much memory the service took above rest; it fails if one of his was refused or the memory is over its limit. All clients
 are on this machine: the bystander has an address of his own (127.0.0.2), those who press the service share another, or
-four of them.
+four or six of them.
 Those are a process of their own, of low priority: what they compute is not what the service costs, and other machines
 would compute it.
 """
@@ -19,6 +19,7 @@ from collections import Counter
 from collections.abc import AsyncIterator, Awaitable, Callable
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
+from functools import cache
 from multiprocessing.synchronize import Event
 from pathlib import Path
 from random import Random
@@ -26,7 +27,10 @@ from typing import Any
 
 import psutil
 
+from schemas.request.requests import OptimizeRequest
+from service.computations import XLSX
 from service.documents.examples import bodies
+from service.workbook.answers import requested
 from tests.network.load import start_sweep
 from tests.network.serving import Service, read, request, service
 
@@ -108,7 +112,38 @@ TORQUE = json.dumps(
     {"machine": MACHINES["2d12"]["machine"], "outputs": ["torque"], "angles": {"step_deg": 0.05}}
 ).encode()
 
+
+def search(throws: int = 30) -> bytes:
+    """Choices among castings that cannot be proven to be best within the longest time that may be asked for."""
+    body: dict[str, Any] = json.loads(largest(throws))
+    machine = body["machine"]
+    random = Random(20261123)
+    for number, (throw, web) in enumerate(zip(machine["throws"], machine["webs"], strict=True)):
+        throw["crank_angle_deg"] = random.uniform(0, 360)
+        web |= {"max_mass_kg": 50, "throw": number}
+    machine["catalogue"] = {"masses_kg": sorted(random.uniform(5, 50) for _ in range(12)), "angle_step_deg": 10}
+    body["accuracy"] = {"relative_gap": 1e-9, "time_limit_s": 30}
+    return json.dumps(body).encode()
+
+
+@cache
+def book() -> bytes:
+    """The largest machine as a workbook."""
+    return requested(OptimizeRequest.model_validate_json(largest(500)), None)
+
+
 Press = Callable[[Aim, int], Awaitable[None]]
+
+
+async def again(target: Aim, number: int, asked: bytes) -> None:
+    """Asks for the same again and again, each time on a connection of its own."""
+    while True:
+        async with connected(target.port, target.address(number)) as (reader, writer):
+            writer.write(asked)
+            with suppress(ConnectionError):
+                await writer.drain()
+            await read(reader)
+        await asyncio.sleep(0.2)
 
 
 async def stalled_body(target: Aim, number: int) -> None:
@@ -130,14 +165,23 @@ async def stopped_reader(target: Aim, number: int) -> None:
 
 
 async def largest_machine(target: Aim, number: int) -> None:
-    """Asks for the optimum of a machine of hundreds of webs, again and again."""
-    while True:
-        async with connected(target.port, target.address(number)) as (reader, writer):
-            writer.write(request("POST", "/v1/optimize", largest(300)))
-            with suppress(ConnectionError):
-                await writer.drain()
-            await read(reader)
-        await asyncio.sleep(0.2)
+    """Asks for the optimum of a machine of hundreds of webs."""
+    await again(target, number, request("POST", "/v1/optimize", largest(300)))
+
+
+async def catalogue(target: Aim, number: int) -> None:
+    """Asks for a search of half a minute."""
+    await again(target, number, request("POST", "/v1/optimize", search()))
+
+
+async def workbooks(target: Aim, number: int) -> None:
+    """Sends the largest machine as a workbook, and asks for one."""
+    await again(target, number, request("POST", "/v1/optimize", book(), {"Content-Type": XLSX, "Accept": XLSX}))
+
+
+async def documents(target: Aim, number: int) -> None:
+    """Asks for a document on the largest machine."""
+    await again(target, number, request("POST", "/v1/report", largest(500), {"Accept": "application/pdf"}))
 
 
 async def stream(target: Aim, number: int) -> None:
@@ -172,6 +216,9 @@ PRESSES: dict[str, Press] = {
     "silent connections": silent,
     "states of a sweep": state,
 }
+
+#: one from each address takes all that the service computes at a time, where it may
+COSTLY: dict[str, Press] = {"catalogue": catalogue, "workbooks": workbooks, "PDF": documents}
 
 
 async def mixed(target: Aim, number: int) -> None:
@@ -259,7 +306,7 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--clients", type=int, default=1000)
     parser.add_argument("--seconds", type=float, default=60.0)
-    parser.add_argument("--only", help="a kind of traffic, besides none")
+    parser.add_argument("--only", help="kinds of traffic whose name begins so, besides none")
     given = parser.parse_args()
     failures, quiet, quiet_work = 0, 0.0, 0.0
     presses: dict[str, tuple[Press, int, int]] = {
@@ -267,9 +314,10 @@ def main() -> int:
         **{name: (press, min(300, given.clients), 1) for name, press in PRESSES.items()},
         "a mix of all": (mixed, given.clients, 1),
         "a mix of four": (mixed, given.clients, 4),
+        **{f"{name}, {n}": (press, n, n) for name, press in COSTLY.items() for n in (1, 4, 6)},
     }
     if given.only is not None:
-        presses = {name: presses[name] for name in ("nobody", given.only)}
+        presses = {name: one for name, one in presses.items() if name == "nobody" or name.startswith(given.only)}
     with service(log_level="warning", rate_limit="") as target:
         target.sweep = asyncio.run(start_sweep(target))  # type: ignore[attr-defined]
         print(f"at rest: {held_mb(target):.0f} MB")

@@ -71,5 +71,5 @@ def task(compute: Callable[[OptimizeRequest], Problem], name: str = "x", long: b
     body["machine"]["name"] = name
     content = json.dumps(body).encode()
     reference = f"{compute.__module__}:{compute.__name__}"
-    computation = replace(COMPUTATIONS["optimize"], compute=reference, long=long)
-    return Task(computation, JSON, content, SizeLimits.of(Settings()))
+    computation = replace(COMPUTATIONS["optimize"], compute=reference)
+    return Task(computation, JSON, content, SizeLimits.of(Settings()), long=long)

@@ -11,7 +11,7 @@ from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.guard.sizes import SizeLimits
 from service.settings import Settings
 from service.validation import check
-from tests.network.bystander import CEILING_MB, PRESSES, TORQUE, beside, largest, mixed
+from tests.network.bystander import CEILING_MB, PRESSES, TORQUE, beside, largest, mixed, search
 from tests.network.load import start_sweep
 from tests.network.serving import Service, service
 
@@ -28,7 +28,9 @@ def pressed() -> Iterator[Service]:
         asyncio.run(made.ask("DELETE", made.sweep))  # type: ignore[attr-defined]
 
 
-@pytest.mark.parametrize(("model", "body"), [(OptimizeRequest, largest(500)), (AnalyzeRequest, TORQUE)])
+@pytest.mark.parametrize(
+    ("model", "body"), [(OptimizeRequest, largest(500)), (AnalyzeRequest, TORQUE), (OptimizeRequest, search())]
+)
 def test_what_presses_is_legal(model: type[Model], body: bytes) -> None:
     # a refusal costs next to nothing
     SizeLimits.of(Settings()).require(check(model, json.loads(body)))

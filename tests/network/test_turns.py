@@ -26,9 +26,9 @@ class Clock:
 class Turns(_Turns):
     """With a clock of its own, which stands."""
 
-    def __init__(self, size: int, waiting: int, each: int) -> None:
+    def __init__(self, size: int, waiting: int, each: int, above: int = ABOVE) -> None:
         self.clock = Clock()
-        super().__init__(size, waiting, each, self.clock)
+        super().__init__(size, waiting, each, above, self.clock)
 
 
 async def settled() -> None:
@@ -47,13 +47,13 @@ class Asked:
         self._group = group
         self._ends: dict[str, anyio.Event] = {}
 
-    async def ask(self, name: str, long: bool = False) -> None:
+    async def ask(self, name: str) -> None:
         """Ask for a turn of the owner that the first letter of a name names."""
         self._ends[name] = anyio.Event()
 
         async def have() -> None:
             try:
-                async with self.turns.turn(name[0], long):
+                async with self.turns.turn(name[0]):
                     self.begun.append(name)
                     await self._ends[name].wait()
             except Full:
@@ -195,16 +195,38 @@ def test_an_owner_has_its_share_of_the_places_and_gives_up_the_last_to_others() 
     play(Turns(1, 4, 4), story)
 
 
-def test_long_ones_leave_a_turn_to_the_others_of_their_owner() -> None:
+def test_none_above_the_size_where_there_are_none() -> None:
     async def story(asked: Asked) -> None:
-        await asked.ask("a0", long=True)
-        await asked.ask("a1", long=True)
-        await asked.ask("a2")
-        assert asked.begun == ["a0", "a2"]
-        await asked.end("a0")
-        assert asked.begun[2:] == ["a1"]
+        for name in ("a0", "b0", "b1", "c0"):
+            await asked.ask(name)
+        assert asked.begun == ["a0"]
+        await asked.end("a0", "b0", after_s=1.0)
+        assert asked.begun[1:] == ["b0", "c0"]
 
-    play(Turns(2, 4, 4), story)
+    play(Turns(1, 4, 4, above=0), story)
+
+
+async def _step_by_step(turns: Turns) -> None:
+    first, second = turns.turn("a"), turns.turn("b")
+    await first.granted()
+    assert not turns.crowded.is_set()
+    with anyio.move_on_after(0.01):
+        await second.granted()
+    # who has stopped waiting keeps the place, and waits for it again
+    assert (turns.waiting, turns.crowded.is_set()) == (1, True)
+    first.end()
+    await second.granted()
+    # what has ended ends once
+    first.end()
+    assert (second.begun, turns.waiting, turns.crowded.is_set()) == (True, 0, False)
+    second.end()
+    turns.turn("c").end()
+    async with turns.turn("d"):
+        pass
+
+
+def test_a_turn_is_had_step_by_step() -> None:
+    anyio.run(_step_by_step, Turns(1, 4, 4, above=0))
 
 
 def test_nobody_waits_where_nobody_may() -> None:
@@ -217,12 +239,12 @@ def test_nobody_waits_where_nobody_may() -> None:
 
 
 async def _leave(turns: Turns) -> None:
-    async with turns.turn("a", False):
+    async with turns.turn("a"):
         with anyio.move_on_after(0.01):
-            async with turns.turn("a", False):
+            async with turns.turn("a"):
                 pytest.fail("there is one turn")
         assert turns.waiting == 0
-    async with turns.turn("a", False):
+    async with turns.turn("a"):
         pass
 
 
@@ -230,16 +252,14 @@ def test_who_goes_away_leaves_no_place_taken() -> None:
     anyio.run(_leave, Turns(1, 4, 4))
 
 
-@given(st.lists(st.tuples(st.sampled_from("abc"), st.booleans(), st.booleans()), max_size=40), st.integers(1, 3))
-def test_everybody_is_served_or_refused_and_never_more_than_there_are(
-    steps: list[tuple[str, bool, bool]], size: int
-) -> None:
+@given(st.lists(st.tuples(st.sampled_from("abc"), st.booleans()), max_size=40), st.integers(1, 3))
+def test_everybody_is_served_or_refused_and_never_more_than_there_are(steps: list[tuple[str, bool]], size: int) -> None:
     turns = Turns(size, 6, 4)
 
     async def story(asked: Asked) -> None:
         open_turns: list[str] = []
-        for index, (owner, long, end) in enumerate(steps):
-            await asked.ask(f"{owner}{index}", long)
+        for index, (owner, end) in enumerate(steps):
+            await asked.ask(f"{owner}{index}")
             open_turns = [name for name in asked.begun if not asked._ends[name].is_set()]
             assert len(open_turns) <= size + ABOVE
             assert turns.waiting <= 6
@@ -247,7 +267,7 @@ def test_everybody_is_served_or_refused_and_never_more_than_there_are(
                 await asked.end(open_turns[0])
         while left := [name for name in asked.begun if not asked._ends[name].is_set()]:
             await asked.end(left[0])
-        assert Counter([*asked.begun, *asked.refused]) == Counter(f"{o}{k}" for k, (o, _, _) in enumerate(steps))
+        assert Counter([*asked.begun, *asked.refused]) == Counter(f"{o}{k}" for k, (o, _) in enumerate(steps))
 
     play(turns, story)
 

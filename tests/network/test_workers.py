@@ -6,6 +6,7 @@ import signal
 import stat
 import time
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -17,6 +18,7 @@ from service.workers.process import WorkersFailed
 from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused
 from tests.network import tasks
 from tests.network.tasks import task
+from tests.network.test_length import SAMPLED
 from tests.processes import children
 
 
@@ -70,6 +72,102 @@ def test_who_asks_for_more_is_computed_behind_the_others(pool: Pool) -> None:
     assert {process for _, process in many} == {first}
     # and whoever is alone again is not behind anybody
     assert said(*run(pool, task(tasks.niceness))) == [[first, first]]
+
+
+def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:
+    [found] = run(pool, task(tasks.niceness, long=True))
+    assert isinstance(found, Answer)
+    own, process = (int(each) for each in json.loads(found.content)["title"].split())
+    here = os.getpriority(os.PRIO_PROCESS, 0)
+    assert (own, process) == (min(19, here + 9), min(19, here + 2))
+
+
+def test_what_turns_out_to_be_long_gives_its_turn_back(pool: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    run(pool, task(tasks.quick))
+    before = pool.pids
+    # it goes on where it is, as nobody else is long
+    [found] = run(pool, task(tasks.slow))
+    assert isinstance(found, Answer)
+    assert (pool.counts.moved_long, pool.counts.begun_anew) == (1, 0)
+    # the priority of a process is lowered for good
+    assert not set(before) & set(pool.pids)
+    assert (pool.running, pool.queued) == (0, 0)
+
+
+def test_what_is_long_is_begun_anew_where_others_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    pool = Pool(size=1, waiting=8, each=8, timeout_s=180, memory_mb=2000)
+
+    async def more_than_there_are_turns() -> None:
+        async with anyio.create_task_group() as group:
+            # the only turn of the long ones
+            group.start_soon(pool.run, task(tasks.endless, long=True), "one")
+            group.start_soon(pool.run, task(tasks.slow), "one")
+            await anyio.wait_all_tasks_blocked()
+            # of the same client, so that it waits for the same turn
+            assert isinstance(await pool.run(task(tasks.quick), "one"), Answer)
+            assert (pool.counts.moved_long, pool.counts.begun_anew) == (0, 1)
+            assert (pool.running, pool.queued) == (1, 1)
+            group.cancel_scope.cancel()
+
+    try:
+        anyio.run(more_than_there_are_turns)
+    finally:
+        pool.close()
+
+
+def test_no_number_of_long_ones_keeps_another_client_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    pool = Pool(size=2, waiting=64, each=64, timeout_s=180, memory_mb=2000)
+
+    async def beside_six_clients() -> None:
+        async with anyio.create_task_group() as group:
+            for owner in "abcdef" * 2:
+                group.start_soon(pool.run, task(tasks.endless), owner)
+            await anyio.wait_all_tasks_blocked()
+            with anyio.fail_after(120):
+                for _ in range(10):
+                    assert isinstance(await pool.run(task(tasks.quick), "bystander"), Answer)
+            group.cancel_scope.cancel()
+
+    try:
+        anyio.run(beside_six_clients)
+    finally:
+        pool.close()
+
+
+def test_what_a_worker_finds_to_be_long_waits_for_the_long_ones(pool: Pool) -> None:
+    handed_back = replace(task(tasks.quick), body=SAMPLED)
+
+    async def beside_a_long_one() -> None:
+        async with anyio.create_task_group() as group:
+            group.start_soon(pool.run, task(tasks.endless, long=True), "one")
+            group.start_soon(pool.run, handed_back, "two")
+            with anyio.fail_after(180):
+                while not pool.queued:
+                    await anyio.sleep(0.01)
+            assert isinstance(await pool.run(task(tasks.quick), "two"), Answer)
+            assert pool.queued == 1
+            group.cancel_scope.cancel()
+
+    anyio.run(beside_a_long_one)
+    [found] = run(pool, handed_back)
+    assert isinstance(found, Answer)
+
+
+@pytest.mark.parametrize("waits", [False, True])
+def test_more_long_ones_than_may_wait_are_refused(waits: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    # those that turn out to be long too, whose computation ends with that
+    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    pool = Pool(size=1, waiting=0, each=0, timeout_s=180, memory_mb=2000)
+    try:
+        first, second = run(pool, task(tasks.slow, long=True), task(tasks.slow, long=not waits))
+        assert isinstance(first, Answer)
+        assert isinstance(second, Busy)
+        assert (pool.running, pool.queued, pool.counts.refused_busy) == (0, 0, 1)
+    finally:
+        pool.close()
 
 
 def test_a_task_that_takes_too_long_is_ended_with_its_worker(pool: Pool) -> None:
