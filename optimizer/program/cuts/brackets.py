@@ -64,9 +64,10 @@ class Brackets:
         found: dict[int, Reached] = {}
         peak: list[int] = []
         for q in chosen:
+            # a curve of rounding has the peak of what is added to it, at once where that stands still
             if quantities[q].measure == "rms":
                 found[q] = quantities[q].rms(u, scatter)
-            elif self._cancelled[q]:
+            elif self._cancelled[q] and (quantities[q].response.turning is None or not np.any(u)):
                 size = abs(quantities[q].response.offset(u))
                 found[q] = quantities[q].peak(u, scatter, size, size, quantities[q].cut(0.0, 0j))
             else:

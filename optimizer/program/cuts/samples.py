@@ -183,8 +183,7 @@ class Samples:
         self.cancelled = [False] * len(quantities)
         for some, curves in self._curves:
             for q, nothing in zip(some, curves.nothing.tolist(), strict=True):
-                still = quantities[q].response.turning is None
-                self.cancelled[q] = nothing and still and not quantities[q].masses > 0.0
+                self.cancelled[q] = nothing and not quantities[q].masses > 0.0
 
     def first(self) -> tuple[tuple[Cut, ...], ...]:
         """Cuts to begin with: what holds the smallest circle, or the still and the moving part by themselves."""

@@ -67,6 +67,13 @@ class Point:
     mass: float  # kg
 
 
+class _Promise(NamedTuple):
+    """What a point comes to at least."""
+
+    figure: float
+    unbalance: Complex  # (K,) kg m
+
+
 class Stage(NamedTuple):
     """What one stage came to."""
 
@@ -123,7 +130,9 @@ class Search:
         statement = self._posed()
         best, proof = self.inside, self._closed(None, statement)
         attempts, gap = list(FREELY if self.free else WITHIN), np.inf
-        rounds, timed_out, promised = 0, False, None
+        rounds, timed_out = 0, False
+        # the best that no brackets were asked for: rounds that follow may wander off where optima are many
+        promised = none = _Promise(np.inf, best.unbalance)
         while attempts and rounds < _MOST_ROUNDS and not self._late():
             rounds += 1
             found = self._solved(statement, attempts[0])
@@ -138,8 +147,8 @@ class Search:
             matters, mass = self._matters(statement, u), self._mass(u)
             # what is seen at some angles is no more than the truth: while that is too much no bracket is needed
             seen, places = self.program.seen(u, matters)
-            promised = Point(u, seen, mass)
-            figure = self._promise(promised)
+            figure = self._promise(Point(u, seen, mass))
+            promised = min(promised, _Promise(figure, u), key=lambda one: one.figure)
             gap = figure - bound
             lost = self.free and self._said(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap
             if gap > self._wanted(enough, best) and not told(figure, bound) and self._learnt(places, u, matters):
@@ -152,7 +161,8 @@ class Search:
             narrow = _COARSE
             if gap <= self._wanted(enough, best):
                 narrow = _CLOSE if self.of_mass else _JUDGED
-            point, promised = self._evaluated(u, min(self._width(enough, gap), narrow)), None
+            point = self._evaluated(u, min(self._width(enough, gap), narrow))
+            promised = none if promised.unbalance is u else promised
             best = min(best, self._kept(point), key=self.figure)
             gap = self.figure(best) - bound
             if gap <= self._wanted(enough, best) or told(self.figure(best), bound):
@@ -167,8 +177,9 @@ class Search:
             statement = self._posed()
         else:
             timed_out = self._late()
-        if promised is not None:
-            best = min(best, self._kept(self._evaluated(promised.unbalance, self._width(enough, gap))), key=self.figure)
+        if promised.figure < self.figure(best):
+            width = self._width(enough, promised.figure - (-np.inf if proof is None else proof.bound))
+            best = min(best, self._kept(self._evaluated(promised.unbalance, width)), key=self.figure)
         return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
 
     def _wanted(self, enough: float, best: Point) -> float:
