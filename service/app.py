@@ -14,7 +14,7 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 
 from schemas.base.version import package_version
-from service import validation
+from service.common import validation
 from service.documents import faults as document_faults
 from service.guard import faults as guard_faults
 from service.guard.access import Access
@@ -26,15 +26,10 @@ from service.guard.shares import Shares
 from service.guard.threads import Threads
 from service.guard.users import Users
 from service.http import faults as http_faults
-from service.http import leaving
 from service.http.computing import Computing
-from service.http.cors import Cors
 from service.http.direct import Direct
 from service.http.errors import ErrorAnswers, joined
 from service.http.openapi import Documented
-from service.http.pacing import Pacing
-from service.http.rounds import Rounds
-from service.http.security_headers import SecurityHeaders
 from service.jobs import faults as job_faults
 from service.jobs.desk import Desk
 from service.jobs.events import Watch
@@ -48,6 +43,11 @@ from service.watch.needs import database, disk
 from service.watch.readiness import Readiness
 from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
+from service.wire import leaving
+from service.wire.cors import Cors
+from service.wire.pacing import Pacing
+from service.wire.rounds import Rounds
+from service.wire.security_headers import SecurityHeaders
 from service.workers import faults as worker_faults
 from service.workers.pool import Pool
 

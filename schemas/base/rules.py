@@ -35,7 +35,7 @@ class Ruled(Model):
         """Raise one error that carries every rule that is broken.
 
         pydantic places an error raised by a model validator at the model; the paths in the context let the door
-        (``service.validation``) point at the very field.
+        (``service.common.validation``) point at the very field.
 
         Raises
         ------

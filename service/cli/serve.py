@@ -21,9 +21,9 @@ def serve(
     from pydantic import ValidationError
 
     from service.app import create_app
-    from service.http.server import listen, run, url
     from service.settings import Settings, unknown_variables, wrong_values
     from service.watch import logs
+    from service.wire.server import listen, run, url
 
     options = {"host": host, "port": port, "engine": engine}
     given: dict[str, Any] = {key: value for key, value in options.items() if value is not None}

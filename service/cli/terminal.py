@@ -43,7 +43,7 @@ def question(model: type[Question], file: str, given: Mapping[str, object] | Non
 
 def asked(model: type[Question], file: str, given: Mapping[str, object] | None = None) -> Asked[Question]:
     """The same, and where it stands: of a workbook in which cell."""
-    from service.validation import InvalidRequest, check
+    from service.common.validation import InvalidRequest, check
 
     body, where = _cells(file) if file.lower().endswith(WORKBOOK) else (content(file), _pointer)
     if given and isinstance(body, dict):
@@ -72,14 +72,14 @@ def _cells(file: str) -> "tuple[Any, Callable[[FieldProblem], str]]":
 
 
 def _pointer(problem: "FieldProblem") -> str:
-    from service.validation import pointer
+    from service.common.validation import pointer
 
     return pointer(problem.path) or "the request"
 
 
 def content(file: str) -> Any:
     """The JSON in a file."""
-    from service.validation import UnreadableJson, read_json
+    from service.common.validation import UnreadableJson, read_json
 
     source = "standard input" if file == "-" else file
     try:
@@ -117,7 +117,7 @@ def fail_fields(
 
 
 def fail(*lines: str) -> NoReturn:
-    from service.plain import plain
+    from service.common.plain import plain
 
     for line in lines:
         # it may quote the file, whose texts are no commands to the terminal
@@ -130,7 +130,7 @@ def show(chapters: "Iterable[Chapter]", name: str | None = None, status: str | N
     from rich.console import Console, Group
     from rich.text import Text
 
-    from service.plain import plain
+    from service.common.plain import plain
     from service.report.terminal import terminal
 
     ending = (f": {status}", _STYLES.get(status, "bold yellow")) if status else ""

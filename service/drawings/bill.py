@@ -5,9 +5,9 @@ import io
 from collections.abc import Iterator
 
 from schemas.answer.counterweights import Counterweight
+from service.common.plain import inert, plain
 from service.drawings.drawn import DrawingSet
 from service.drawings.parts import Part
-from service.plain import inert, plain
 
 HEADS = (
     "part", "pieces", "web", "mass, kg", "plane z, mm", "angle as drawn, deg", "angle from its crank, deg",

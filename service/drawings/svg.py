@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Literal
 from xml.etree import ElementTree
 
-from service.plain import plain
+from service.common.plain import plain
 
 Point = tuple[float, float]
 Anchor = Literal["start", "middle", "end"]

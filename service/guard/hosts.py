@@ -9,9 +9,9 @@ from collections.abc import Iterable
 
 from starlette.types import Scope
 
+from service.common.headers import header
 from service.guard.addresses import is_loopback
 from service.guard.refusals import ForeignHost
-from service.headers import header
 
 _HOST = re.compile(r"(?:\[([0-9A-Fa-f:.]+)\]|([^:\[\]/@]+))(?::[0-9]*)?")
 

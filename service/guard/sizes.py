@@ -11,8 +11,8 @@ from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.report import ReportRequest
 from schemas.request.scene import Scene
 from schemas.sweep.request import SweepRequest
+from service.common.validation import InvalidRequest
 from service.settings import Settings
-from service.validation import InvalidRequest
 
 #: what says how many designs there are, where it is not the axes
 _COUNTED = {"latin_hypercube": "samples", "crank_orders": "angles_deg"}

@@ -6,8 +6,8 @@ from typing import TypeVar
 
 from starlette.requests import Request
 
-from service.coding import CODINGS, Coding
-from service.headers import joined
+from service.common.coding import CODINGS, Coding
+from service.common.headers import joined
 
 Offer = TypeVar("Offer")
 Name = TypeVar("Name", bound=str)

@@ -12,20 +12,20 @@ from starlette.requests import Request
 from starlette.responses import Response, StreamingResponse
 
 from schemas.base.model import Model
+from service.common.validation import check, read_json
 from service.computations import XLSX, Computation, Form
 from service.guard.shares import holding
 from service.guard.sizes import SizeLimits
 from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, coding_of, liked
 from service.http.file_names import file_name
-from service.http.leaving import Waited
 from service.http.request_body import announced, read_body
 from service.jobs.accepting import accepted, desk_of, idempotency_key, prefers_later
 from service.settings import Settings
-from service.validation import check, read_json
 from service.watch.metrics import Metrics
 from service.watch.readiness import Readiness
 from service.watch.tracing import Tracing
+from service.wire.leaving import Waited
 from service.workers.length import long_by_kind
 from service.workers.pool import Pool
 from service.workers.task import Task

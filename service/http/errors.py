@@ -7,8 +7,8 @@ from fastapi import FastAPI
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.http.refusal import response
-from service.problems import FaultTable
+from service.common.problems import FaultTable
+from service.wire.refusal import response
 
 
 def joined(*tables: FaultTable) -> FaultTable:

@@ -6,10 +6,10 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 
+from service.common.problems import Fault, FaultTable, fixed
 from service.http.accept import NotAcceptable
 from service.http.computing import ComputationFailed
 from service.http.request_body import BodyTooLarge, BodyTooSlow, UnsupportedMedia
-from service.problems import Fault, FaultTable, fixed
 
 _HTTP_DETAILS = {
     404: "There is nothing at this path.",

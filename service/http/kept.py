@@ -8,7 +8,7 @@ from functools import cached_property
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.coding import SMALL_BYTES
+from service.common.coding import SMALL_BYTES
 from service.http.accept import preferred
 
 #: kept by who has it, who asks each time whether it is still the same

@@ -15,11 +15,11 @@ from starlette.responses import Response
 from schemas.answer.problem import Problem
 from schemas.base.model import Model
 from schemas.sweep.request import SweepRequest
+from service.common.problems import PROBLEM_JSON
 from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
 from service.guard.keys import PUBLIC
 from service.http.kept import Kept
-from service.problems import PROBLEM_JSON
 
 #: statuses that every computing route may answer with
 COMPUTE_PROBLEMS = (400, 408, 413, 415, 422, 503)

@@ -6,9 +6,9 @@ from contextlib import nullcontext
 
 from starlette.requests import ClientDisconnect, Request
 
+from service.common.headers import header
 from service.guard.shares import Holding
-from service.headers import header
-from service.http.leaving import client_of
+from service.wire.leaving import client_of
 
 _TOKEN = r"[!#$%&'*+.^_`|~0-9A-Za-z-]+"
 #: RFC 9110, 8.3.1 and 5.6.6; a parameter may be empty

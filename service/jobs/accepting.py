@@ -5,9 +5,9 @@ import re
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.common.headers import joined
 from service.guard.keys import caller_of
 from service.guard.refusals import BadHeader
-from service.headers import joined
 from service.jobs.job import Job
 from service.jobs.owner_jobs import OwnerJobs
 

@@ -10,8 +10,8 @@ from sqlalchemy import URL, Connection, Engine, create_engine, event, make_url
 from sqlalchemy.exc import ArgumentError, DBAPIError, IntegrityError, NoSuchModuleError, ProgrammingError
 from sqlalchemy.exc import TimeoutError as PoolTimeout
 
+from service.common.private import close, make_file, make_folder
 from service.jobs.schema import prepare
-from service.private import close, make_file, make_folder
 
 
 class DatabaseUnavailable(Exception):

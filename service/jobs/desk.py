@@ -5,6 +5,7 @@ from contextlib import suppress
 from pathlib import Path
 from threading import Event
 
+from service.common.private import close, close_unless_shared
 from service.jobs import worker
 from service.jobs.coordinator import Coordinator
 from service.jobs.database import Database, DatabaseUnavailable
@@ -19,7 +20,6 @@ from service.jobs.retention import Retention
 from service.jobs.rows import Limits
 from service.jobs.schema import WrongSchema
 from service.jobs.store import Store
-from service.private import close, close_unless_shared
 from service.settings import Settings
 
 _DAY_S = 86_400.0

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pyarrow as pa
 
+from service.common.replacing import replaced
 from service.jobs.formats import ARROW_FILE, FORMATS, Format
 from service.jobs.results import description
-from service.replacing import replaced
 
 #: formats by the end of the name
 WRITERS: Mapping[str, Format] = {

@@ -1,5 +1,6 @@
 """What is said about jobs that are not there, not done, or too many, and about where they are kept."""
 
+from service.common.problems import Fault, FaultTable, fixed, later
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.files import FilesUnavailable
 from service.jobs.owner_jobs import NotFinished, RowsDamaged
@@ -8,7 +9,6 @@ from service.jobs.rows import UnknownJob
 from service.jobs.schema import WrongSchema
 from service.jobs.store import KeyReused, QuotaExceeded, TooManyJobs
 from service.jobs.worksheet import TooLargeForWorksheet
-from service.problems import Fault, FaultTable, fixed, later
 
 
 def _not_finished(error: NotFinished) -> Fault:

@@ -9,9 +9,9 @@ from errno import EIO
 from pathlib import Path
 from typing import BinaryIO
 
+from service.common.private import FILE, make_folder
+from service.common.replacing import HALF, replaced, synchronise
 from service.jobs.job import Record
-from service.private import FILE, make_folder
-from service.replacing import HALF, replaced, synchronise
 
 _FLAG = "stop"
 _MARK = ".database"

@@ -40,8 +40,8 @@ def same(order: Order, known: str, request: bytes) -> bool:
 def _read_again(kind: str, request: bytes) -> object:
     """All that a stored request says today, with today's defaults; None if it says nothing any more."""
     from schemas.sweep.request import SweepRequest
+    from service.common.validation import InvalidRequest, check
     from service.computations import COMPUTATIONS
-    from service.validation import InvalidRequest, check
 
     model = SweepRequest if kind == "sweep" else COMPUTATIONS[kind].asks
     try:

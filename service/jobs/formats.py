@@ -10,10 +10,10 @@ import pyarrow.compute as pc
 import pyarrow.csv as pa_csv
 import pyarrow.parquet as pq
 
+from service.common.plain import FORMULA, SECOND_CELL, TEXT_CELL
 from service.computations import XLSX
 from service.jobs.outbox import Outbox
 from service.jobs.worksheet import worksheet
-from service.plain import FORMULA, SECOND_CELL, TEXT_CELL
 
 Name = Literal["ndjson", "csv", "parquet", "arrow", "xlsx"]
 Batches = Iterable[pa.RecordBatch]

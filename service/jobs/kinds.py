@@ -97,7 +97,7 @@ def _piece(table: "pa.Table") -> Piece:
 def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Piece]:
     def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
         from optimizer.errors import NotComputable
-        from service.validation import check, pointer, read_json
+        from service.common.validation import check, pointer, read_json
 
         try:
             found = asked_for.function(check(asked_for.asks, read_json(request)))

@@ -6,7 +6,7 @@ import threading
 from dataclasses import replace
 from multiprocessing import parent_process
 
-from service.faults import kept
+from service.common.faults import kept
 from service.jobs.kinds import KINDS
 from service.jobs.piece import Piece, Stopped
 

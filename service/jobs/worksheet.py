@@ -11,8 +11,8 @@ from zipfile import ZIP_DEFLATED, ZipFile
 import pyarrow as pa
 import pyarrow.compute as pc
 
+from service.common.plain import plain
 from service.jobs.outbox import Outbox
-from service.plain import plain
 
 #: of a worksheet, without the line of names
 MOST_ROWS = 2**20 - 1

@@ -5,8 +5,8 @@ from functools import cache
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
 from markupsafe import Markup
 
+from service.common.plain import plain
 from service.drawings.svg import Drawing
-from service.plain import plain
 from service.report.blocks import Block, Document, Number, typeset
 
 

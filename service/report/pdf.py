@@ -12,7 +12,7 @@ from functools import cache
 from importlib.resources import files
 from typing import Any
 
-from service.plain import plain
+from service.common.plain import plain
 from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table, typeset
 
 #: comes with the library, so that documents look the same everywhere; other scripts use fonts of the system

@@ -7,7 +7,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table as Grid
 from rich.text import Text
 
-from service.plain import plain
+from service.common.plain import plain
 from service.report.blocks import (
     Block,
     Cell,

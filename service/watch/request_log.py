@@ -9,7 +9,7 @@ from typing import Any
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.headers import header
+from service.common.headers import header
 from service.watch.logs import REQUEST
 from service.watch.metrics import Metrics
 from service.watch.tracing import Tracing

@@ -5,7 +5,7 @@ from contextlib import contextmanager
 
 from optimizer.errors import NotComputable
 from schemas.base.model import FieldProblem
-from service.validation import InvalidRequest
+from service.common.validation import InvalidRequest
 from service.workbook.files import workbook_sheets
 from service.workbook.sheets import REQUEST, Misplaced, Read, read
 

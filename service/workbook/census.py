@@ -15,7 +15,7 @@ from zipfile import ZipFile
 
 from openpyxl.utils import column_index_from_string, get_column_letter
 
-from service.validation import UnreadableBody
+from service.common.validation import UnreadableBody
 
 MOST_LINES = 10_000
 MOST_COLUMNS = 300

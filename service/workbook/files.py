@@ -9,7 +9,7 @@ from openpyxl import Workbook, load_workbook
 from openpyxl.styles import Font
 from openpyxl.utils import get_column_letter
 
-from service.plain import plain
+from service.common.plain import plain
 from service.workbook.census import UnreadableWorkbook, census
 from service.workbook.sheets import Cell, Misplaced, Sheets
 

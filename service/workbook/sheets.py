@@ -16,7 +16,7 @@ from openpyxl.utils import get_column_letter
 
 from schemas.base.model import FieldProblem
 from schemas.base.rules import Path
-from service.validation import UnreadableJson, json_value
+from service.common.validation import UnreadableJson, json_value
 
 Cell = str | float | int | bool | None
 #: lines of cells by sheet, the headings first

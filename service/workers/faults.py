@@ -1,6 +1,6 @@
 """What is said where no worker answers."""
 
-from service.problems import FaultTable, fixed, later, later_by_error
+from service.common.problems import FaultTable, fixed, later, later_by_error
 from service.workers.pool import Busy, TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
 from service.workers.worker import NoRoom, OutOfMemory

@@ -7,7 +7,7 @@ from enum import IntEnum
 from functools import lru_cache
 from typing import BinaryIO
 
-from service.coding import Coding
+from service.common.coding import Coding
 from service.computations import Computation, Form
 from service.guard.sizes import SizeLimits
 

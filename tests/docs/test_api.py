@@ -22,9 +22,9 @@ from schemas.match.request import MatchRequest
 from schemas.rating.request import RatingRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.app import FAULTS, create_app
+from service.common.problems import problem
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES
-from service.problems import problem
 from service.settings import Settings
 from tests.docs.reading import ROOT, agrees, blocks, section
 

@@ -18,10 +18,10 @@ from optimizer.optimize import optimize
 from schemas.request.drawings import DrawingsRequest
 from schemas.request.requests import OptimizeRequest
 from service.cli import app
+from service.common.plain import inert
 from service.drawings.archive import zipped
 from service.drawings.bill import HEADS
 from service.drawings.drawn import drawings
-from service.plain import inert
 from tests.drawings.exchange import File, names
 
 EXAMPLE = Path("examples/drawings/2d12-plates.json")

@@ -28,8 +28,8 @@ from schemas.front.pareto import ParetoRequest
 from schemas.match.request import MatchRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
-from service import faults
-from service.validation import InvalidRequest, check
+from service.common import faults
+from service.common.validation import InvalidRequest, check
 from tests.hard.random_bodies import Body, Draw, body
 from tests.hard.random_features import FEATURES, with_feature
 from tests.verification.checking import broken

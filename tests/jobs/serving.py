@@ -32,10 +32,10 @@ def serve(**given: Any) -> None:
     # workers import this module as well, and need none of these
     from optimizer.studies.sweep import plan
     from service.app import create_app
-    from service.http.server import listen, run, url
     from service.jobs.desk import Desk
     from service.jobs.pace import Pace
     from service.settings import Settings
+    from service.wire.server import listen, run, url
 
     # a sweep of some thousand designs in hundreds of chunks instead of 16
     plan._FEWEST_CHUNKS = 400

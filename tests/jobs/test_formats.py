@@ -13,8 +13,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from service.common.plain import inert
 from service.jobs.formats import ARROW_FILE, FORMATS, _groups
-from service.plain import inert
 
 SCHEMA = pa.schema(
     [

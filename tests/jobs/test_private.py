@@ -10,11 +10,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from schemas.sweep.request import SweepRequest
+from service.common.private import close, make_folder
 from service.jobs import worker
 from service.jobs.database import Database
 from service.jobs.desk import Desk
 from service.jobs.files import JobFiles
-from service.private import close, make_folder
 from service.settings import Settings
 from tests.jobs.routes import finished, ready
 from tests.jobs.sweeps import analyses

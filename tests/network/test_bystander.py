@@ -8,9 +8,9 @@ import pytest
 
 from schemas.base.model import Model
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from service.common.validation import check
 from service.guard.sizes import SizeLimits
 from service.settings import Settings
-from service.validation import check
 from tests.network.bystander import CEILING_MB, PRESSES, TORQUE, beside, largest, mixed, search
 from tests.network.load import start_sweep
 from tests.network.serving import Service, service

@@ -12,11 +12,11 @@ from uvicorn import Config
 from uvicorn.server import ServerState
 
 from service.guard.doors import _PROBING_EACH, Doors
-from service.http.connections import Connection, connections
-from service.http.entrance import Entrance
-from service.http.rounds import Rounds
-from service.http.server import listen
 from service.settings import Settings
+from service.wire.connections import Connection, connections
+from service.wire.entrance import Entrance
+from service.wire.rounds import Rounds
+from service.wire.server import listen
 from tests.network.serving import Reply, read, request
 
 SETTINGS = Settings(port=0)

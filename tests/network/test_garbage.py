@@ -13,9 +13,9 @@ from uvicorn.server import ServerState
 
 from service.app import create_app
 from service.guard.shares import Holding
-from service.http.connections import Connection, connections
-from service.http.rounds import Rounds
 from service.settings import Settings
+from service.wire.connections import Connection, connections
+from service.wire.rounds import Rounds
 
 #: of the connection, of a request, and of the framework
 OURS = (_SelectorSocketTransport, Connection, RequestResponseCycle, Holding, AsyncExitStack)

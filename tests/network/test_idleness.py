@@ -5,7 +5,7 @@ from typing import Any, cast
 
 import pytest
 
-from service.http.idleness import Idleness
+from service.wire.idleness import Idleness
 
 
 class Timer:

@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
+from service.common.validation import check
 from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
-from service.validation import check
 from service.workers.length import long_by_kind, long_by_size
 from tests.network.bystander import TORQUE, largest
 

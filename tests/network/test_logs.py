@@ -18,9 +18,9 @@ from starlette.testclient import TestClient
 
 from service.app import create_app
 from service.documents.examples import load
-from service.http.server import listen, url
 from service.settings import Settings
 from service.watch import logs
+from service.wire.server import listen, url
 from tests.network.serving import Service, service
 
 SECRET = "secret-7021962"

@@ -6,7 +6,7 @@ from collections.abc import Callable, Coroutine
 from typing import Any
 
 from service.guard.looks import Looks
-from service.http.rounds import Rounds
+from service.wire.rounds import Rounds
 
 
 class Slow:

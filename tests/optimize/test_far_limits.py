@@ -9,7 +9,7 @@ from optimizer.studies.pareto.pareto import pareto
 from optimizer.studies.sweep import run_chunk
 from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import OptimizeRequest
-from service.validation import InvalidRequest, check
+from service.common.validation import InvalidRequest, check
 from tests.hard.cases.case import Body, machine, row, throw, web
 from tests.studies.sweep.single import sweep
 from tests.verification.checking import optimized

@@ -15,10 +15,10 @@ from optimizer.solve import plates as certified_shapes
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.report import ReportRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from service.common.validation import InvalidRequest, check
 from service.documents.examples import bodies
 from service.report.document import report
 from service.report.html import html
-from service.validation import InvalidRequest, check
 
 PLATE = {"inner_radius_m": 0.08, "outer_radius_m": 0.32, "thickness_m": 0.06, "max_half_angle_deg": 75}
 SHAPES = ("sector", "segment")

@@ -10,8 +10,8 @@ from optimizer.analyze import analyze
 from optimizer.mechanics.weight import GRAVITY
 from schemas.answer.loads import Loads
 from schemas.request.requests import AnalyzeRequest
+from service.common.validation import InvalidRequest, check
 from service.documents.examples import load
-from service.validation import InvalidRequest, check
 from tests.verification.checking import optimized
 
 MACHINE = json.loads(load("2d12"))["machine"]

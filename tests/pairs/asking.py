@@ -16,7 +16,7 @@ from optimizer.optimize import optimize
 from optimizer.program.verdict import CONTRADICTED
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
-from service.validation import InvalidRequest, check
+from service.common.validation import InvalidRequest, check
 from service.verification import checker
 from tests.pairs.features import FEATURES
 from tests.pairs.machines import BASES, Request

@@ -6,7 +6,7 @@ from optimizer.errors import NotComputable
 from optimizer.studies.pareto.pareto import pareto
 from schemas.front.pareto import ParetoRequest
 from schemas.sweep.request import SweepRequest
-from service.validation import InvalidRequest, check
+from service.common.validation import InvalidRequest, check
 from tests.pairs.asking import ask, body_of
 from tests.studies.sweep.single import assert_row_is_the_single_answer, table
 

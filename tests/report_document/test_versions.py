@@ -9,11 +9,11 @@ from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from schemas.request.report import ReportRequest
 from schemas.request.requests import AnalyzeRequest
+from service.common.validation import InvalidRequest, check
 from service.guard.sizes import SizeLimits
 from service.report.blocks import Number, Table
 from service.report.document import report
 from service.report.pdf import pdf
-from service.validation import InvalidRequest, check
 from tests.report_document.conftest import AT, asked
 
 FITTED = [{"web": web, "mass_kg": 55, "angle_deg": angle} for web, angle in (("1a", 180), ("2b", 0))]

@@ -10,10 +10,10 @@ from optimizer.optimize import optimize
 from schemas.request.report import ReportRequest
 from schemas.request.requests import OptimizeRequest
 from service.cli import app
+from service.common.validation import InvalidRequest, check
+from service.common.validation import pointer as spelled
 from service.report.document import report
 from service.report.html import html
-from service.validation import InvalidRequest, check
-from service.validation import pointer as spelled
 from service.verification import checker
 from tests.optimize.robust import crank, scenario
 

@@ -9,7 +9,7 @@ import pytest
 from starlette.requests import Request
 from starlette.testclient import TestClient
 
-from service.coding import Coding, coded
+from service.common.coding import Coding, coded
 from service.computations import COMPUTATIONS, Computation
 from service.guard.sizes import SizeLimits
 from service.http.kept import Kept

@@ -5,7 +5,7 @@ from typing import Any
 import pytest
 from starlette.datastructures import Headers
 
-from service.headers import header, joined
+from service.common.headers import header, joined
 
 SCOPE: dict[str, Any] = {
     "headers": [(b"accept", b"text/html"), (b"x", b"\xe9"), (b"accept", b"*/*;q=0.1"), (b"empty", b"")]

@@ -15,9 +15,9 @@ from optimizer.optimize import optimize
 from schemas.request.report import ReportRequest
 from schemas.request.requests import OptimizeRequest
 from service.cli import app
+from service.common.plain import plain
 from service.documents.examples import load
 from service.http.file_names import file_name
-from service.plain import plain
 from service.report.document import report
 from service.report.html import html
 from service.report.pictures import bearings, front, side, svg

@@ -7,8 +7,8 @@ import pytest
 
 import service
 from service.app import FAULTS
+from service.common.problems import FaultTable, fixed, later_by_error
 from service.http.errors import joined
-from service.problems import FaultTable, fixed, later_by_error
 
 
 def declared() -> dict[str, FaultTable]:

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from service.replacing import replaced
+from service.common.replacing import replaced
 
 
 def test_a_file_is_there_when_it_is_whole(tmp_path: Path) -> None:

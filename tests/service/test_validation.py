@@ -8,7 +8,7 @@ import pytest
 
 from schemas.answer.outputs import OutputName
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
-from service.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
+from service.common.validation import MAX_ERRORS, InvalidRequest, UnreadableJson, check, locate, pointer, read_json
 
 
 def complaints(body: object, model: Any = OptimizeRequest) -> dict[str, str]:

@@ -10,6 +10,7 @@ from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
+from service.common.validation import pointer
 from service.report.blocks import (
     Block,
     Chapter,
@@ -28,7 +29,6 @@ from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
 from service.report.stage_scheme import stage_scheme
-from service.validation import pointer
 
 _FIRST_ORDER = (
     ("peak force, N", "force", "peak_N"),

@@ -6,7 +6,7 @@ from typing import Any
 import pytest
 
 from schemas.match.request import MatchRequest
-from service.validation import InvalidRequest, check, pointer
+from service.common.validation import InvalidRequest, check, pointer
 from tests.studies.matching.cases import machine, parts
 
 BODY: dict[str, Any] = {"machine": machine([0.0, 180.0], [0.0, 0.0], (0.0,)), "parts": parts(1, 2)}

@@ -11,7 +11,7 @@ from optimizer.studies.pareto import pareto as home
 from schemas.front.pareto import ParetoAnswer, ParetoRequest
 from schemas.front.trade import TradedFront
 from schemas.request.requests import OptimizeRequest
-from service.validation import InvalidRequest, check
+from service.common.validation import InvalidRequest, check
 from tests.studies.sweep.test_over_turn import opposed
 
 #: a rotating mass with a web in its plane, and bearings to its left and right

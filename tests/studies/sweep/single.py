@@ -19,7 +19,7 @@ from schemas.base.target import BadPointer, find_target
 from schemas.request.objective import OVER_THE_TURN
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
-from service.validation import InvalidRequest, check, pointer
+from service.common.validation import InvalidRequest, check, pointer
 from tests.studies.sweep.details import detail_figures
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

@@ -16,7 +16,7 @@ from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.alone import MAX_SEARCHED
 from schemas.sweep.request import SweepRequest
-from service.validation import InvalidRequest
+from service.common.validation import InvalidRequest
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, sweep, table
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from schemas.base.target import BadPointer, find_target
 from schemas.sweep.request import SweepRequest
-from service.validation import InvalidRequest, check, pointer
+from service.common.validation import InvalidRequest, check, pointer
 from tests.studies.sweep.single import example, numeric_paths, sweep
 
 SPEED = {"path": "/machine/speed_rpm", "values": [400, 500]}

@@ -9,7 +9,7 @@ from optimizer.outputs.details import DETAILED
 from optimizer.studies.sweep import plan
 from schemas.sweep.details import DETAILS, keys_of
 from schemas.sweep.request import SweepRequest
-from service.validation import InvalidRequest
+from service.common.validation import InvalidRequest
 from tests.analyze.driven import STYLES, random_driven
 from tests.studies.sweep.details import FIGURES
 from tests.studies.sweep.single import assert_row_is_the_single_answer, example, sweep, table

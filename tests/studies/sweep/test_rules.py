@@ -12,7 +12,7 @@ from schemas.base.rules import Rule, first_of, larger
 from schemas.base.target import find_target, pointer
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.request import SweepRequest
-from service.validation import InvalidRequest, check
+from service.common.validation import InvalidRequest, check
 from tests.analyze.driven import random_driven
 from tests.studies.sweep.single import numeric_paths, put, sweep, table
 

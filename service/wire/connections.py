@@ -11,16 +11,16 @@ import h11
 from uvicorn.protocols.http.flow_control import HIGH_WATER_LIMIT
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from service.common.problems import Fault
 from service.guard.addresses import client_network
-from service.http.framing import Framing, TwoLengths
-from service.http.idleness import Idleness
-from service.http.joined import Joined
-from service.http.leaving import CLIENT, Client
-from service.http.plain_requests import Head, Heads, PlainCycle
-from service.http.refusal import last_answer, no_room
-from service.http.rounds import Rounds
-from service.problems import Fault
 from service.settings import Settings
+from service.wire.framing import Framing, TwoLengths
+from service.wire.idleness import Idleness
+from service.wire.joined import Joined
+from service.wire.leaving import CLIENT, Client
+from service.wire.plain_requests import Head, Heads, PlainCycle
+from service.wire.refusal import last_answer, no_room
+from service.wire.rounds import Rounds
 
 #: what may wait to be read by a client, and what is read of it at a time [bytes]
 _UNREAD_BYTES = 32_768

@@ -6,8 +6,8 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.guard.faults import FAULTS
 from service.guard.shares import Holding, OverShare
-from service.http.refusal import response
-from service.http.rounds import Rounds
+from service.wire.refusal import response
+from service.wire.rounds import Rounds
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
 PIECE_BYTES = 16_384

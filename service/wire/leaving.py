@@ -7,7 +7,7 @@ from types import TracebackType
 from starlette.requests import Request
 from uvicorn.protocols.http.flow_control import FlowControl
 
-from service.problems import FaultTable, fixed
+from service.common.problems import FaultTable, fixed
 
 #: of the state of a request: its client, where the server says itself when it goes
 CLIENT = "client"

@@ -5,9 +5,9 @@ from functools import cache
 import h11
 from starlette.responses import Response
 
+from service.common.problems import PROBLEM_JSON, Fault, problem
 from service.guard.faults import FAULTS
 from service.guard.refusals import TooManyConnections
-from service.problems import PROBLEM_JSON, Fault, problem
 
 
 def response(fault: Fault, path: str) -> Response:

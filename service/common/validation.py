@@ -12,7 +12,7 @@ from pydantic_core import ErrorDetails
 from optimizer.errors import MissingInput, NotComputable, OutOfRange
 from schemas.base.model import FieldProblem, Model
 from schemas.base.rules import REQUIRED, Path
-from service.problems import Fault, FaultTable
+from service.common.problems import Fault, FaultTable
 
 Request = TypeVar("Request", bound=Model)
 MAX_ERRORS = 50

@@ -5,7 +5,7 @@ from starlette.middleware.cors import CORSMiddleware
 from starlette.responses import Response
 from starlette.types import Message, Receive, Scope, Send
 
-from service.problems import PROBLEM_JSON, Fault, problem
+from service.common.problems import PROBLEM_JSON, Fault, problem
 
 
 class Cors(CORSMiddleware):

@@ -13,9 +13,9 @@ import uvicorn
 from fastapi import FastAPI
 
 from service.guard.doors import Doors
-from service.http.connections import Connection, connections
-from service.http.entrance import Entrance
 from service.settings import Settings
+from service.wire.connections import Connection, connections
+from service.wire.entrance import Entrance
 
 _LOG = logging.getLogger(__name__)
 _TO_ANSWER_S = 1.0

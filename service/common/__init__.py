@@ -1,0 +1,1 @@
+"""What every room of the service may read: problems, headers, codings, files that are private or replaced whole."""
