@@ -1,20 +1,31 @@
 """The files of the jobs: one for each chunk, complete or absent, with a digest that the database knows."""
 
 import hashlib
+import logging
 import os
 import shutil
+import threading
+import uuid
 from collections.abc import Container, Iterable
 from contextlib import ExitStack, suppress
-from errno import EIO
+from errno import EACCES, EIO, EISDIR, ELOOP, ENOENT, ENOTDIR, ENXIO
+from io import BufferedReader
 from pathlib import Path
+from stat import S_ISREG
 from typing import BinaryIO
 
 from service.common.private import FILE, make_folder
 from service.common.replacing import HALF, replaced, synchronise
 from service.jobs.job import Record
 
+_LOG = logging.getLogger(__name__)
 _FLAG = "stop"
 _MARK = ".database"
+#: what is wrong with a file for good, by the error of opening or reading it; others may pass
+_DAMAGES = {ENOENT: "missing", ENOTDIR: "missing", EISDIR: "no file", ELOOP: "no file", ENXIO: "no file"}
+_DAMAGES[EIO] = "unreadable"
+#: of two threads that find the same, one sets it aside
+_ASIDE = threading.Lock()
 
 
 class Damaged(Exception):
@@ -44,19 +55,35 @@ def verified(path: Path, record: Record) -> BinaryIO:
     """
     with ExitStack() as refused:
         try:
-            file = refused.enter_context(path.open("rb"))
+            file = refused.enter_context(_open(path))
+            if not S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise Damaged(record, "no file")
             found = hashlib.file_digest(file, "sha256").hexdigest()
             file.seek(0)
-        except (FileNotFoundError, NotADirectoryError, IsADirectoryError):
-            raise Damaged(record, "missing") from None
         except OSError as error:
-            if error.errno == EIO:
-                raise Damaged(record, "unreadable") from None
+            damage = _damage(path, error)
+            if damage is not None:
+                raise Damaged(record, damage) from None
             raise FilesUnavailable(f"the files of the sweeps cannot be read: {error.strerror}") from error
         if record.digest is not None and found != record.digest:
             raise Damaged(record, "damaged")
         refused.pop_all()
     return file
+
+
+def _open(path: Path) -> BufferedReader:
+    # a named pipe would be waited for until somebody writes to it
+    return open(os.open(path, os.O_RDONLY | os.O_CLOEXEC | os.O_NONBLOCK), "rb")
+
+
+def _damage(path: Path, error: OSError) -> str | None:
+    """What is wrong with a file for good; None where it may be read later."""
+    if error.errno == EACCES:
+        # that of another user is whole, and this one lacks the right to it
+        with suppress(OSError):
+            if path.lstat().st_uid == os.geteuid():
+                return "unreadable"
+    return _DAMAGES.get(error.errno or 0)
 
 
 class JobFiles:
@@ -94,10 +121,15 @@ class JobFiles:
         return verified(self.piece(job, record), record)
 
     def absent(self, job: str, records: Iterable[Record]) -> list[Record]:
-        """Those of some files that are not there."""
-        names = self.names(job)
+        """Those of some files that are not there, or are no files."""
+        names = self._file_names(job)
         there = {*names, *(_rows_of(name) for name in names)}
         return [record for record in records if self.piece(job, record).name not in there]
+
+    def _file_names(self, job: str) -> list[str]:
+        with suppress(FileNotFoundError, NotADirectoryError), os.scandir(self.folder(job)) as entries:
+            return [entry.name for entry in entries if _is_file(entry)]
+        return []
 
     def keep(self, job: str, start: int, stop: int, content: bytes) -> Record:
         """Write the file of some rows, in one step and on disk when this returns.
@@ -131,7 +163,13 @@ class JobFiles:
             self.piece(job, record).unlink()
 
     def _write(self, path: Path, content: bytes) -> None:
+        with _ASIDE:
+            if os.path.lexists(path.parent) and not path.parent.is_dir():
+                _set_file_aside(path.parent)
         _make(path.parent)
+        if path.is_dir() and not path.is_symlink():
+            # all else is replaced as a file is
+            _set_folder_aside(path)
         with replaced(path, FILE) as file:
             file.write(content)
 
@@ -144,12 +182,18 @@ class JobFiles:
 
     def go(self, job: str) -> None:
         """Take the flag away."""
-        self.flag(job).unlink(missing_ok=True)
+        try:
+            self.flag(job).unlink(missing_ok=True)
+        except IsADirectoryError:
+            _set_folder_aside(self.flag(job))
 
     def remove(self, job: str) -> None:
         """Remove every file of a job."""
         with suppress(FileNotFoundError):
-            shutil.rmtree(self.folder(job))
+            try:
+                shutil.rmtree(self.folder(job))
+            except NotADirectoryError:
+                self.folder(job).unlink()
 
     # ---- what crashes leave behind
 
@@ -209,6 +253,38 @@ def _rows(record: Record) -> str:
 
 def _rows_of(name: str) -> str:
     return "-".join(name.split("-")[:2])
+
+
+def _is_file(entry: os.DirEntry[str]) -> bool:
+    try:
+        return entry.is_file()
+    except OSError:
+        # a link that leads to itself
+        return False
+
+
+# what somebody has put in place of a file or folder of a job is kept: nobody knows what it holds. Another service may
+# do the same, and what belongs there may have come meanwhile: neither of these calls takes that
+
+
+def _set_folder_aside(path: Path) -> None:
+    aside = _aside(path)
+    with suppress(FileNotFoundError, NotADirectoryError):
+        # with a slash it is renamed only if it is a folder
+        os.rename(f"{path}/", aside)
+        _LOG.error("%s was a folder; it is set aside as %s", path, aside.name)
+
+
+def _set_file_aside(path: Path) -> None:
+    aside = _aside(path)
+    with suppress(FileNotFoundError, IsADirectoryError, PermissionError):
+        os.link(path, aside, follow_symlinks=False)
+        path.unlink()
+        _LOG.error("%s was no folder; it is set aside as %s", path, aside.name)
+
+
+def _aside(path: Path) -> Path:
+    return path.with_name(f"{path.name}.aside-{uuid.uuid4().hex[:8]}")
 
 
 def _make(folder: Path) -> None:

@@ -106,7 +106,7 @@ def test_a_disk_that_cannot_be_read_now_damages_nothing(house: House, monkeypatc
     job = house.submit(total=10)
     with house.coordinator(threads(1)) as coordinator:
         house.wait(job)
-        monkeypatch.setattr(Path, "open", lambda *_: (_ for _ in ()).throw(OSError(24, "Too many open files")))
+        monkeypatch.setattr(os, "open", lambda *_: (_ for _ in ()).throw(OSError(24, "Too many open files")))
         with pytest.raises(FilesUnavailable, match="Too many open files"):
             list(jobs_of(house, coordinator).rows(house.store.get(job), synthetic.SCHEMA).batches)
         monkeypatch.undo()
