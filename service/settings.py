@@ -198,7 +198,10 @@ class _Jobs(BaseSettings):
     max_jobs: int = Field(1000, ge=1, description="sweeps that wait or run at the same time")
     max_jobs_each: int = Field(100, ge=1, description="the same of one owner; without keys all have one owner")
     disk_quota_mb: float = Field(
-        20_000, ge=0, description="room on disk for the sweeps of one owner [MB]; 0 is any; more is answered 409"
+        20_000,
+        ge=0,
+        description="room on disk for the sweeps of one owner, with their part of a database in data_dir [MB]; "
+        "0 is any; more is answered 409",
     )
 
 

@@ -13,6 +13,9 @@ from sqlalchemy.exc import TimeoutError as PoolTimeout
 from service.common.private import close, make_file, make_folder
 from service.jobs.schema import prepare
 
+#: what stays of the write-ahead log of SQLite when a reader had it grow; as much as it has without that
+_LOG_BYTES = 1000 * 4096
+
 
 class DatabaseUnavailable(Exception):
     """The database is locked, full or cannot be reached; a retry may help.
@@ -162,7 +165,12 @@ def _sqlite(url: URL, busy_s: float) -> Engine:
     def connected(connection: Any, _: object) -> None:
         # sqlite3 must not begin transactions of its own
         connection.isolation_level = None
-        for pragma in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON"):
+        for pragma in (
+            "journal_mode = WAL",
+            f"journal_size_limit = {_LOG_BYTES}",
+            "synchronous = FULL",
+            "foreign_keys = ON",
+        ):
             connection.execute(f"PRAGMA {pragma}")
 
     @event.listens_for(engine, "begin")

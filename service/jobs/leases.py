@@ -20,10 +20,11 @@ from sqlalchemy import (
     update,
 )
 
-from service.jobs import rows
+from service.jobs import room, rows
 from service.jobs.database import Database
 from service.jobs.job import ACTIVE, Chunk, Computed, Job, Record
-from service.jobs.rows import Limits, on_disk
+from service.jobs.room import on_disk
+from service.jobs.rows import Limits
 from service.jobs.tables import chunks, jobs
 
 #: so many chunks are made at a time: a transaction of more would keep others waiting
@@ -138,7 +139,7 @@ class Leases:
         rows.settle(connection, job.id, self._clock(), self._limits.keep_s)
         quota = self._limits.quota_bytes
         found = rows.get(connection, job.id)
-        if quota is not None and found.active and rows.used(connection, job.owner) > quota:
+        if quota is not None and found.active and room.exceeds(connection, job.owner, quota):
             error = f"the {quota / 1e6:.1f} MB of its owner on disk are used up; remove sweeps, then resume this one"
             rows.end(connection, found, "failed", error, self._clock(), self._limits.keep_s)
 

@@ -3,14 +3,12 @@
 import re
 from dataclasses import dataclass
 
-from sqlalchemy import ColumnElement, Connection, Select, and_, bindparam, case, func, select, update
+from sqlalchemy import Connection, Select, and_, bindparam, select, update
 
-from service.jobs.job import ACTIVE, FIELDS, REMOVED, Job, State, job_from
+from service.jobs.job import FIELDS, REMOVED, Job, State, job_from
 from service.jobs.tables import chunks, jobs, schema
 
 _ID = re.compile(r"[0-9a-f]{32}")
-#: a file takes whole blocks of a disk
-_BLOCK = 4096
 JOB = [jobs.c[name] for name in FIELDS]
 # put together once, as they are asked at every turn
 _FOUND: Select[tuple[object, ...]] = select(*JOB).where(jobs.c.id == bindparam("job"), jobs.c.state != REMOVED)
@@ -81,22 +79,3 @@ def settle(connection: Connection, job: str, now: float, keep_s: float | None) -
     elif found.selects and found.done > found.selected and (whole or found.done >= 2 * found.selected):
         selection = and_(chunks.c.job == job, chunks.c.start == found.total, chunks.c.state == "waiting")
         connection.execute(update(chunks).where(selection).values(state="pending"))
-
-
-def on_disk(size: int) -> int:
-    """What a file of a size takes."""
-    return -(-size // _BLOCK) * _BLOCK
-
-
-def used(connection: Connection, owner: str | None, planned: bool = False) -> int:
-    """Bytes on disk of the jobs of an owner; with those that the active ones are expected to come to if planned."""
-    size: ColumnElement[int] = jobs.c.bytes
-    if planned:
-        more = and_(jobs.c.state.in_(ACTIVE), jobs.c.expected_bytes > jobs.c.bytes)
-        size = case((more, jobs.c.expected_bytes), else_=jobs.c.bytes)
-    return int(connection.scalar(select(func.sum(size)).where(of(owner))) or 0)
-
-
-def of(owner: str | None) -> ColumnElement[bool]:
-    """The condition that a job belongs to an owner; nobody is an owner too."""
-    return jobs.c.owner.is_(None) if owner is None else jobs.c.owner == owner

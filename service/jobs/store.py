@@ -7,7 +7,7 @@ from collections.abc import Callable, Collection, Sequence
 from sqlalchemy import ColumnElement, Connection, and_, func, insert, or_, select, update
 from sqlalchemy.exc import IntegrityError
 
-from service.jobs import rows
+from service.jobs import room, rows
 from service.jobs.database import Database
 from service.jobs.fingerprints import same
 from service.jobs.job import ACTIVE, REMOVED, Job, Order, Record, State, job_from
@@ -76,14 +76,14 @@ class Store:
         active = select(func.count()).select_from(jobs).where(jobs.c.state.in_(ACTIVE))
         for wanted, most in (
             (active, self._limits.active),
-            (active.where(rows.of(order.owner)), self._limits.active_each),
+            (active.where(room.of(order.owner)), self._limits.active_each),
         ):
             count = connection.scalar(wanted) or 0
             if count >= most:
                 raise TooManyJobs(f"{count} jobs are waiting or running; try again later.")
         quota = self._limits.quota_bytes
         if quota is not None:
-            used = rows.used(connection, order.owner, planned=True)
+            used = room.taken(connection, order.owner, planned=True)
             if used + order.expected_bytes > quota:
                 raise QuotaExceeded(
                     f"The job is expected to take {order.expected_bytes / 1e6:.1f} MB on disk; of {quota / 1e6:.1f} MB "

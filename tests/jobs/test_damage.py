@@ -15,7 +15,7 @@ import pytest
 
 from optimizer.studies.sweep import run_chunk
 from schemas.sweep.request import SweepRequest
-from service.jobs import selection, spool
+from service.jobs import room, selection, spool
 from service.jobs.database import Database, DatabaseUnavailable
 from service.jobs.files import FilesUnavailable
 from service.jobs.housekeeping import Housekeeping
@@ -117,16 +117,17 @@ def test_a_disk_that_cannot_be_read_now_damages_nothing(house: House, monkeypatc
 
 
 def test_a_quota(tmp_path: Path) -> None:
-    house = House(tmp_path, limits=Limits(quota_bytes=60_000))
+    # the write-ahead log alone may take 4 MB
+    house = House(tmp_path, limits=Limits(quota_bytes=6_000_000))
     first = house.submit(total=40, chunk_rows=10, owner="one")
     with house.coordinator(threads(1)):
         # four files of a block each, besides the request
         assert 4 * 4096 < house.wait(first).bytes < 6 * 4096
-        large = house.submit(total=400, chunk_rows=10, owner="one")
+        large = house.submit(total=4_000_000, chunk_rows=40_000, owner="one")
         found = house.wait(large)
         assert (found.state, found.error) == (
             "failed",
-            "the 0.1 MB of its owner on disk are used up; remove sweeps, then resume this one",
+            "the 6.0 MB of its owner on disk are used up; remove sweeps, then resume this one",
         )
         assert house.rows(large).num_rows == found.done > 0
         # others are not concerned
@@ -134,9 +135,28 @@ def test_a_quota(tmp_path: Path) -> None:
         house.retention.mark_removed(first)
         house.files.remove(first)
         house.retention.forget(first)
-    order = Order("k", b"{}", "d", owner="one", expected_bytes=1_000_000)
-    with pytest.raises(QuotaExceeded, match=r"1\.0 MB on disk; of 0\.1 MB"):
+    order = Order("k", b"{}", "d", owner="one", expected_bytes=5_900_000)
+    with pytest.raises(QuotaExceeded, match=r"5\.9 MB on disk; of 6\.0 MB"):
         house.store.submit(order)
+    house.database.close()
+
+
+def test_a_quota_counts_what_the_database_keeps(tmp_path: Path) -> None:
+    house = House(tmp_path)
+    for owner, size in (("one", 600_000), ("two", 300_000), ("two", 1)):
+        house.submit(owner=owner, padding="x" * size)
+    with house.database.read() as connection:
+        # what is in the log alone so far is written to the file as well
+        connection.exec_driver_sql("PRAGMA wal_checkpoint")
+        parts = [room.taken(connection, owner) for owner in ("one", "two", "three")]
+    beside = [path.stat().st_size for path in tmp_path.glob("jobs.sqlite*")]
+    # the file, its write-ahead log and the index of that
+    assert len(beside) == 3
+    assert sum(beside) > 2_000_000
+    # nothing is free in it, and each part is rounded up
+    assert 0 <= sum(parts) - sum(beside) <= 2
+    assert 1.9 < parts[0] / parts[1] < 2.0
+    assert parts[2] == 0
     house.database.close()
 
 
