@@ -27,6 +27,7 @@ from service.guard.threads import Threads
 from service.guard.users import Users
 from service.http import faults as http_faults
 from service.http.computing import Computing
+from service.http.cut import Cut
 from service.http.direct import Direct
 from service.http.errors import ErrorAnswers, joined
 from service.http.openapi import Documented
@@ -169,6 +170,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
             Middleware(HeadAsGet),
             *_behind_proxies(chosen),
             Middleware(RequestLog, metrics, traces, chosen.log_machines),
+            Middleware(Cut, errors),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),
             Middleware(Pacing, rounds),

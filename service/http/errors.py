@@ -7,7 +7,7 @@ from fastapi import FastAPI
 from starlette.requests import Request
 from starlette.responses import Response
 
-from service.common.problems import FaultTable
+from service.common.problems import Fault, FaultTable
 from service.wire.refusal import response
 
 
@@ -42,8 +42,11 @@ class ErrorAnswers:
 
     def answer(self, error: Exception, path: str) -> Response:
         """The problem details of an exception as an answer to a request for a path."""
-        describe = next(self._faults[kind] for kind in type(error).__mro__ if kind in self._faults)
-        return response(describe(error), path)
+        return response(self.fault(error), path)
+
+    def fault(self, error: Exception) -> Fault:
+        """What is said about an exception."""
+        return next(self._faults[kind] for kind in type(error).__mro__ if kind in self._faults)(error)
 
     def install(self, app: FastAPI) -> None:
         """Answer every exception of the table with problem details."""

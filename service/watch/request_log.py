@@ -19,6 +19,8 @@ _ID = re.compile(r"[A-Za-z0-9._-]{1,64}")
 _TRACEPARENT = re.compile(r"[0-9a-f]{2}-(?!0{32})([0-9a-f]{32})-(?!0{16})[0-9a-f]{16}-[0-9a-f]{2}(?:-.*)?")
 #: asked every few seconds by whoever looks after the service
 _PROBES = frozenset({"/healthz", "/readyz", "/metrics"})
+#: as nginx says it
+_GONE = 499
 _LONGEST_PATH = 200
 _LONGEST_BODY = 10_000
 
@@ -66,6 +68,8 @@ class RequestLog:
                 status = status or 500
                 raise
             finally:
+                # who was told nothing has gone before
+                status = status or _GONE
                 route = _route(scope)
                 seconds = time.perf_counter() - begun
                 if span is not None:

@@ -1,0 +1,114 @@
+"""Answers that end before their end: a line of the log for each, whoever ends it, and no traceback."""
+
+import asyncio
+import json
+import socket
+import struct
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from service.documents.examples import load
+from tests.network.bystander import TORQUE
+from tests.network.serving import Service, request, service
+
+#: closed at once, with what was not read
+_RESET = struct.pack("ii", 1, 0)
+_FORMATS = ("ndjson", "csv", "parquet", "arrow", "xlsx")
+_ROWS = 40_000
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("data")
+
+
+@pytest.fixture(scope="module")
+def target(folder: Path) -> Iterator[Service]:
+    # what is not read yet of the answers that were cut counts for their client until they have ended
+    with service(data_dir=folder, held_mb=1000, held_mb_each=500, row_streams=500, row_streams_each=500) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def sweep(target: Service) -> str:
+    """The path of a sweep that is done."""
+    axes = [{"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": _ROWS}]
+    body = json.dumps({"base": json.loads(load("w60")), "axes": axes}).encode()
+
+    async def done() -> str:
+        path = (await target.ask("POST", "/v1/sweeps", body)).headers["location"]
+        async with asyncio.timeout(300):
+            while json.loads((await target.ask("GET", path)).body)["state"] != "done":
+                await asyncio.sleep(0.1)
+        return path
+
+    return asyncio.run(done())
+
+
+def cut(target: Service, asked: bytes, least: int) -> int:
+    """Read so many bytes of an answer at least, then go away; how many were read."""
+    with socket.create_connection(("127.0.0.1", target.port), timeout=180) as asking:
+        asking.sendall(asked)
+        size = 0
+        while size < least and (piece := asking.recv(65_536)):
+            size += len(piece)
+        asking.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, _RESET)
+    return size
+
+
+def lines(target: Service, begun: int, requests: int) -> list[dict[str, Any]]:
+    """What the log says from somewhere on, when it has said something of so many requests; all of it is JSON."""
+    deadline = time.monotonic() + 180
+    while True:
+        said = target.log()[begun:]
+        found = [json.loads(line) for line in said[: said.rfind("\n") + 1].splitlines()]
+        if sum(line["logger"] == "service.requests" for line in found) >= requests:
+            return found
+        assert time.monotonic() < deadline, said
+        time.sleep(0.05)
+
+
+def test_clients_that_go_away_in_the_middle(target: Service, sweep: str) -> None:
+    asked = [request("GET", f"{sweep}/results?format={name}") for name in _FORMATS]
+    asked += [request("POST", "/v1/analyze", TORQUE), request("GET", "/openapi.json"), request("GET", "/v1/examples")]
+    # what is unusual about a request has it read in another way
+    asked += [one.replace(b"Host:", b"X-Unusual: \xe9\r\nHost:") for one in asked]
+    begun = len(target.log())
+    for one in asked:
+        for least in (0, 1, 100_000):
+            cut(target, one, least)
+    found = lines(target, begun, 3 * len(asked))
+    assert [line for line in found if line["logger"] != "service.requests"] == []
+    assert {line["status"] for line in found} <= {200, 499}
+    assert len(found) == 3 * len(asked)
+
+
+def test_rows_that_are_damaged_in_the_middle(target: Service, sweep: str, folder: Path) -> None:
+    identity = sweep.rpartition("/")[2]
+    begun = len(target.log())
+    repaired = 0
+    for name in ("ndjson", "csv", "arrow"):
+        last = max((folder / "results" / identity).glob("0*"))
+        content = bytearray(last.read_bytes())
+        content[len(content) // 2] ^= 1
+        last.write_bytes(content)
+        size = cut(target, request("GET", f"{sweep}/results?format={name}"), 1 << 40)
+        assert size > 100_000
+        repaired += 1
+        deadline = time.monotonic() + 180
+        while True:
+            state = json.loads(asyncio.run(target.ask("GET", sweep)).body)
+            if (state["state"], state["repaired"]) == ("done", repaired):
+                break
+            assert time.monotonic() < deadline, state
+            time.sleep(0.05)
+    said = [line for line in lines(target, begun, repaired) if line["logger"] != "service.requests"]
+    assert [line for line in said if "exc_info" in line] == []
+    cuts = [line for line in said if "an answer was cut" in line["message"]]
+    assert len(cuts) == repaired
+    assert all("Rows damaged: The file of the rows" in line["message"] for line in cuts)
+    assert len({line["request_id"] for line in cuts}) == repaired
