@@ -10,12 +10,13 @@ from errno import EMFILE, ENFILE, ENOBUFS, ENOMEM
 from functools import partial
 from typing import Any
 
-from starlette.types import Receive, Scope, Send
+from starlette.types import Message, Receive, Scope, Send
 
 from service.guard.access import own_path
 from service.guard.addresses import client_network
 from service.guard.doors import Doors
 from service.guard.keys import PROBES
+from service.http.spares import Spares
 from service.wire.connections import Connection
 from service.wire.refusal import no_room, response, too_many_connections
 from service.wire.rounds import Rounds
@@ -26,6 +27,10 @@ _AT_A_TIME = 16
 #: there is no file for a connection: wait, and say so once in a while [s]
 _NO_FILES = (EMFILE, ENFILE, ENOBUFS, ENOMEM)
 _WAIT_S, _SAY_AGAIN_S = 1.0, 60.0
+#: connections in place of spare files, which may say nothing for so long, and last so long [s]: others wait for them.
+#: What a client asks is there when its connection is taken, or a moment later
+_SPARES = 8
+_BRIEFLY_S, _SHORT_S = 0.1, 2.0
 #: how requests for health begin
 _PROBING = tuple(f"{method} {path}".encode() for method in ("GET", "HEAD") for path in PROBES)
 _LONGEST = max(map(len, _PROBING))
@@ -37,6 +42,7 @@ class Entrance:
     """Takes connections from a listening socket.
 
     Those for which there is room get their protocol client by client; of the others only those that ask for health do.
+    Where no file is left for a connection it takes the place of a spare one for a moment, and may ask for health too.
 
     Parameters
     ----------
@@ -62,6 +68,7 @@ class Entrance:
         self._rounds = rounds
         self._said = -math.inf
         self._open = False
+        self._spares = Spares(_SPARES)
         self._connecting: set[asyncio.Task[Any]] = set()
 
     def open(self) -> None:
@@ -76,6 +83,7 @@ class Entrance:
         self.loop.remove_reader(self._listening)
         for each in tuple(self.refused):
             each.end()
+        self._spares.close()
 
     def connect(self, connection: socket.socket, protocol: Connection) -> None:
         """Give a connection its protocol."""
@@ -85,6 +93,7 @@ class Entrance:
         task.add_done_callback(self._connecting.discard)
 
     def _take(self) -> None:
+        self._spares.fill()
         for _ in range(_AT_A_TIME):
             try:
                 connection, (address, *_) = self._listening.accept()
@@ -93,7 +102,10 @@ class Entrance:
             except OSError as error:
                 if error.errno not in _NO_FILES:
                     raise
-                self._wait(error)
+                self._say(error)
+                if self._take_briefly():
+                    continue
+                self._wait()
                 return
             connection.setblocking(False)
             if self.doors.enter(address):
@@ -109,13 +121,38 @@ class Entrance:
         protocol.left = partial(self.doors.leave, address)
         self.connect(connection, protocol)
 
-    def _wait(self, error: OSError) -> None:
+    def _take_briefly(self) -> bool:
+        """Take a connection in place of a spare file; whether there was one."""
+        if not self._spares.lend():
+            return False
+        try:
+            connection, (address, *_) = self._listening.accept()
+        except OSError:
+            # its client has left, or a thread has opened a file meanwhile
+            self._spares.give_back()
+            return False
+        connection.setblocking(False)
+        _Brief(self, connection, address)
+        return True
+
+    def give_back(self) -> None:
+        """A connection that took the place of a spare file has ended; the next may come."""
+        # its socket is closed in this turn of the loop
+        self.loop.call_soon(self._given_back)
+
+    def _given_back(self) -> None:
+        self._spares.give_back()
+        self._go_on()
+
+    def _wait(self) -> None:
         # a socket that nobody takes is ready in each turn, thousands of times a second
         self.loop.remove_reader(self._listening)
         self.loop.call_later(_WAIT_S, self._go_on)
+
+    def _say(self, error: OSError) -> None:
         if self.loop.time() - self._said > _SAY_AGAIN_S:
             self._said = self.loop.time()
-            _LOG.error("connections wait, as no file can be opened: %s", error.strerror)
+            _LOG.error("connections may ask for health alone, as no file can be opened: %s", error.strerror)
 
     def _go_on(self) -> None:
         if self._open:
@@ -129,10 +166,17 @@ class _Refused:
         self._entrance, self._connection, self._address = entrance, connection, address
         self._protocol: Connection | None = None
         self._told = False
-        self._timer = entrance.loop.call_later(entrance.patience_s, self._give_up)
+        self._timer = entrance.loop.call_later(self._patience_s, self._give_up)
         entrance.loop.add_reader(connection, self._look)
         entrance.refused.add(self)
-        entrance.doors.probe(address, self._give_up)
+        self._begin()
+
+    @property
+    def _patience_s(self) -> float:
+        return self._entrance.patience_s
+
+    def _begin(self) -> None:
+        self._entrance.doors.probe(self._address, self._give_up)
 
     def _look(self) -> None:
         try:
@@ -196,6 +240,42 @@ class _Refused:
 
     def _forget(self) -> None:
         self._entrance.doors.probed(self._address, self._give_up)
+
+
+class _Brief(_Refused):
+    """One in place of a spare file: its answer is its last, and it does not last."""
+
+    @property
+    def _patience_s(self) -> float:
+        return _BRIEFLY_S
+
+    def _begin(self) -> None:
+        # there are as many as there are spare files
+        pass
+
+    def _let_ask(self) -> None:
+        super()._let_ask()
+        assert self._protocol is not None
+        self._protocol.app = _last(self._protocol.app)
+        self._timer = self._entrance.loop.call_later(_SHORT_S, self._give_up)
+
+    def _forget(self) -> None:
+        self._timer.cancel()
+        self._entrance.give_back()
+
+
+def _last(app: Callable[..., Any]) -> Callable[..., Any]:
+    """An application after whose answer the connection is closed."""
+
+    async def answer(scope: Scope, receive: Receive, send: Send) -> None:
+        async def closing(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                message = {**message, "headers": [*message.get("headers", ()), (b"connection", b"close")]}
+            await send(message)
+
+        await app(scope, receive, closing)
+
+    return answer
 
 
 def _probes_only(app: Callable[..., Any]) -> Callable[..., Any]:

@@ -5,12 +5,17 @@ import os
 import subprocess
 import sys
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 
 from tests.network.serving import ROOT, Reply, read, request
 
 _LIMITED = "import resource, runpy, sys; resource.setrlimit(resource.RLIMIT_NOFILE, ({n}, {n})); sys.argv[1:] = "
+#: every file may be a connection, whatever else is open: as where large answers wait in files
+_ALL = "import service.wire.server as server; server._OTHER_FILES = 0; "
 _SERVE = "['serve', '--port', '0']; runpy.run_module('service', run_name='__main__')"
 
 
@@ -32,34 +37,69 @@ async def _many(port: int, count: int) -> tuple[int, Reply]:
     return len(held), reply
 
 
-async def _ask(port: int) -> Reply:
+async def _probed(port: int, count: int) -> list[Reply]:
+    """Beside so many connections that stay: probes, and something else; then the same something when all are closed.
+
+    A client that stays longer than the test lasts has every file; nothing but a spare one answers the others.
+    """
+    held = [await asyncio.open_connection("127.0.0.1", port) for _ in range(count)]
+    async with asyncio.timeout(60):
+        replies = [await _ask(port, path, "keep-alive") for path in ("/healthz", "/readyz", "/v1/examples", "/healthz")]
+    for _, writer in held:
+        writer.transport.abort()
+    async with asyncio.timeout(180):
+        while (reply := await _ask(port)).status != 200:
+            await asyncio.sleep(0.1)
+    return [*replies, reply]
+
+
+async def _ask(port: int, path: str = "/v1/examples", connection: str = "close") -> Reply:
     reader, writer = await asyncio.open_connection("127.0.0.1", port)
-    writer.write(request("GET", "/v1/examples"))
+    writer.write(request("GET", path, headers={"Connection": connection}))
     try:
         return await read(reader)
     finally:
         writer.close()
 
 
-# few: connections are refused before files run out; very few: files run out
-@pytest.mark.parametrize("files", [160, 60])
-def test_a_service_without_files_says_so_once_and_goes_on(files: int) -> None:
-    with tempfile.TemporaryDirectory() as folder, open(f"{folder}/log", "w+") as log:
-        environment = {**os.environ, "COUNTERWEIGHT_DATA_DIR": f"{folder}/data", "COUNTERWEIGHT_LOG_LEVEL": "warning"}
-        command = [sys.executable, "-c", _LIMITED.format(n=files) + _SERVE]
+@contextmanager
+def _limited(files: int, before: str = "", **settings: str) -> Iterator[tuple[int, Path]]:
+    """The port and the log of a service that may open so many files."""
+    with tempfile.TemporaryDirectory() as folder, open(f"{folder}/log", "w") as log:
+        given = {"DATA_DIR": f"{folder}/data", "LOG_LEVEL": "warning", **settings}
+        environment = {**os.environ, **{f"COUNTERWEIGHT_{name}": value for name, value in given.items()}}
+        command = [sys.executable, "-c", before + _LIMITED.format(n=files) + _SERVE]
         with subprocess.Popen(
             command, cwd=ROOT, env=environment, stdout=subprocess.PIPE, stderr=log, text=True
         ) as process:
             try:
                 assert process.stdout is not None
-                port = int(process.stdout.readline().split(" (")[0].rpartition(":")[2])
-                opened, reply = asyncio.run(_many(port, 250))
-                assert opened > files
-                assert reply.status == 200
+                yield int(process.stdout.readline().split(" (")[0].rpartition(":")[2]), Path(log.name)
             finally:
                 process.terminate()
                 process.wait(180)
-        log.seek(0)
-        said = log.read().splitlines()
-        assert len(said) < 40
-        assert sum("no file can be opened" in line for line in said) <= 1
+
+
+# few: connections are refused before files run out; very few: files run out
+@pytest.mark.parametrize("files", [160, 60])
+def test_a_service_without_files_says_so_once_and_goes_on(files: int) -> None:
+    with _limited(files) as (port, log):
+        opened, reply = asyncio.run(_many(port, 250))
+        assert opened > files
+        assert reply.status == 200
+        said = log.read_text().splitlines()
+    assert len(said) < 40
+    assert sum("no file can be opened" in line for line in said) <= 1
+
+
+def test_a_service_without_files_answers_for_its_health() -> None:
+    # whoever says nothing is closed long after the test
+    with _limited(100, _ALL, HEADERS_TIMEOUT_S="600") as (port, log):
+        alive, ready, refused, again, after = asyncio.run(_probed(port, 250))
+        said = log.read_text()
+    assert (alive.status, again.status, after.status) == (200, 200, 200)
+    # whether it is ready yet is not what matters here
+    assert ready.status in (200, 503)
+    assert ready.headers["connection"] == "close"
+    assert refused.status == 503
+    assert "no file can be opened" in said
