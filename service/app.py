@@ -40,7 +40,7 @@ from service.routes import version as version_route
 from service.settings import Settings
 from service.watch import faults as watch_faults
 from service.watch.metrics import Metrics
-from service.watch.needs import database, disk
+from service.watch.needs import database, disk, workers
 from service.watch.readiness import Readiness
 from service.watch.request_log import RequestLog
 from service.watch.tracing import tracing
@@ -130,7 +130,11 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     )
     threads, rounds, errors = Threads(), Rounds(), ErrorAnswers(FAULTS)
     readiness = Readiness(
-        {"database": partial(database, desk.counts), "disk": partial(disk, chosen.data_dir, chosen.min_free_mb)},
+        {
+            "database": partial(database, desk.counts),
+            "disk": partial(disk, chosen.data_dir, chosen.min_free_mb),
+            "workers": partial(workers, lambda: pool.pids),
+        },
         threads,
         "warming" if warm else "ready",
     )

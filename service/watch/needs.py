@@ -1,7 +1,8 @@
-"""What the service needs besides its solver: a database that answers, and a disk with room."""
+"""What the service needs besides its solver: a database that answers, a disk with room, and processes that go on."""
 
 import os
 import shutil
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from service.watch.metrics import SweepCounts
@@ -34,3 +35,26 @@ def disk(folder: Path, least_mb: int) -> None:
     free_mb = shutil.disk_usage(found).free // _MB
     if free_mb < least_mb:
         raise NotReady(f"{free_mb} MB are free where the jobs are kept, of {least_mb} at least.", retry_after_s=60)
+
+
+def workers(pids: Callable[[], Sequence[int]]) -> None:
+    """Go on unless every process that computes has been stopped; where there is none yet, one is started when needed.
+
+    Raises
+    ------
+    NotReady
+    """
+    there = pids()
+    if there and all(map(_stopped, there)):
+        raise NotReady("All processes that compute have been stopped.", retry_after_s=5)
+
+
+def _stopped(pid: int) -> bool:
+    """Whether a process has been stopped, by a signal or by whoever traces it."""
+    try:
+        about = Path(f"/proc/{pid}/stat").read_bytes()
+    except OSError:
+        # one that has ended is replaced
+        return False
+    # its name comes before, in brackets, and may hold anything
+    return about.rpartition(b")")[2].split()[0] in (b"T", b"t")

@@ -2,6 +2,9 @@
 
 import gc
 import gzip
+import os
+import signal
+import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
@@ -118,6 +121,28 @@ def test_what_is_needed(tmp_path: Path) -> None:
         needs.database(lambda: None)
     with pytest.raises(NotReady, match="MB are free"):
         needs.disk(tmp_path, 10**9)
+
+
+def test_processes_that_are_stopped(tmp_path: Path) -> None:
+    # a name that looks like the end of one, and like a state
+    program = tmp_path / "x) T 1"
+    program.symlink_to("/bin/sleep")
+    made = [subprocess.Popen([program, "600"]) for _ in range(2)]
+    try:
+        pids = [one.pid for one in made]
+        needs.workers(lambda: [])
+        needs.workers(lambda: pids)
+        os.kill(pids[0], signal.SIGSTOP)
+        os.waitpid(pids[0], os.WUNTRACED)
+        needs.workers(lambda: pids)
+        with pytest.raises(NotReady, match="have been stopped"):
+            needs.workers(lambda: pids[:1])
+    finally:
+        for one in made:
+            one.kill()
+            one.wait()
+    # they have ended
+    needs.workers(lambda: pids)
 
 
 def test_a_shutdown_does_not_wait_for_the_warm_up(monkeypatch: pytest.MonkeyPatch) -> None:
