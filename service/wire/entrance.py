@@ -16,10 +16,10 @@ from service.guard.access import own_path
 from service.guard.addresses import client_network
 from service.guard.doors import Doors
 from service.guard.keys import PROBES
-from service.http.spares import Spares
 from service.wire.connections import Connection
 from service.wire.refusal import no_room, response, too_many_connections
 from service.wire.rounds import Rounds
+from service.wire.spares import Spares
 
 _LOG = logging.getLogger(__name__)
 #: connections that are taken in a turn of the event loop
