@@ -137,6 +137,7 @@ request = SweepRequest.model_validate({"task": "optimize", "base": body, "axes":
 for row in run_chunk(request.model_dump_json().encode(), 0, 3).to_pylist():
     assert abs(row["objective"] - square * (1 - row[axis["path"]])) < 1.1e-6 * square, row
 """
+_PACKAGES = ("schemas", "optimizer", "service")
 _ADDED = ("An effect", "An output", "A computation", "A limit")
 
 
@@ -154,8 +155,8 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
     """The packages, with their compiled kernels, after every step."""
     place = tmp_path_factory.mktemp("copy")
     # what other tests are writing at this moment has a name that is gone in the next
-    passing = shutil.ignore_patterns("*.pyc*", "*.tmp*")
-    for package in ("schemas", "optimizer", "service", "docs", "examples"):
+    passing = shutil.ignore_patterns("*.pyc.*", "*.tmp*")
+    for package in (*_PACKAGES, "docs", "examples"):
         shutil.copytree(ROOT / package, place / package, ignore=passing)
     shutil.copy(ROOT / "pyproject.toml", place)
     for step in steps:
@@ -168,6 +169,8 @@ def copy(steps: list[re.Match[str]], tmp_path_factory: pytest.TempPathFactory) -
         (above,) = (number for number, text in enumerate(lines) if text.startswith(line))
         apart = "\n\n" if block.startswith(("class ", "def ")) else ""
         file.write_text("".join([*lines[:above], block + apart, *lines[above:]]))
+    # else each process reads from source what is no longer that of the bytecode
+    _run(place, "-m", "compileall", "-q", *_PACKAGES)
     return place
 
 
@@ -193,18 +196,15 @@ def test_it_takes_as_many_files_as_it_says(heading: str) -> None:
     assert told.lstrip().startswith(f"{_NUMBERS[len(files) - 1]} files")
 
 
-def test_effect_and_output_are_answered_swept_and_reported(copy: Path) -> None:
-    _run(copy, "-c", _SCRIPT)
+def test_effect_output_computation_and_limit_are_answered_swept_and_reported(copy: Path, tmp_path: Path) -> None:
+    # in one process, whose workers import once
+    _run(copy, "-c", _SCRIPT + _COMPUTED + _LIMITED, str(tmp_path))
 
 
 def test_the_output_is_shown_by_a_terminal(copy: Path) -> None:
     shown = _run(copy, "-m", "service", "analyze", "examples/2d12.json", "--output", "obliquity")
     assert "Lean of the rods" in shown
     assert re.search(r"largest angle of any rod, deg\W+\d", shown)
-
-
-def test_the_computation_is_answered_now_and_later_and_counted(copy: Path, tmp_path: Path) -> None:
-    _run(copy, "-c", _COMPUTED, str(tmp_path))
 
 
 def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
@@ -215,13 +215,9 @@ def test_the_computation_is_a_command(copy: Path, tmp_path: Path) -> None:
     assert re.search(r"mean, m/s\W+4\.6", shown)
 
 
-def test_the_limit_is_kept_touched_priced_and_swept(copy: Path) -> None:
-    _run(copy, "-c", _LIMITED)
-
-
 def test_all_is_written_as_the_linter_wants_it(copy: Path) -> None:
     for check in (("check",), ("format", "--check")):
-        _run(copy, "-m", "ruff", *check, "--no-cache", "schemas", "optimizer", "service")
+        _run(copy, "-m", "ruff", *check, "--no-cache", *_PACKAGES)
 
 
 def test_the_documents_have_a_row_for_it(copy: Path) -> None:
