@@ -8,6 +8,7 @@ import json
 import random
 import tempfile
 import time
+from collections.abc import Mapping
 from pathlib import Path
 
 from optimizer.studies.sweep import run_chunk
@@ -16,12 +17,18 @@ from tests.jobs.process import Service, service
 from tests.jobs.sweeps import analyses
 
 ROUND = analyses(200, 400)
-ROUND_ROWS = 200 * 400
 #: how long a chunk takes at least [s]: a sweep has to outlive the kills
 CHUNK_S = 0.4
 
 
-def kill(folder: Path, kills: int, seed: int, longest_s: float = 2.5, kills_of_one: int = 10) -> tuple[int, int]:
+def kill(
+    folder: Path,
+    kills: int,
+    seed: int,
+    longest_s: float = 2.5,
+    kills_of_one: int = 10,
+    body: Mapping[str, object] = ROUND,
+) -> tuple[int, int]:
     """Kill a service so often, starting another sweep after every few kills.
 
     Every other kill waits for a chunk to be finished, so that it hits in the middle of work.
@@ -39,7 +46,7 @@ def kill(folder: Path, kills: int, seed: int, longest_s: float = 2.5, kills_of_o
         found.wait()
         # asked again after each kill with the same key: one sweep, whether the answer got through or not
         key = f"round-{number // kills_of_one}"
-        _, headers, _ = found.send("POST", "/v1/sweeps", ROUND, **{"Idempotency-Key": key})
+        _, headers, _ = found.send("POST", "/v1/sweeps", body, **{"Idempotency-Key": key})
         assert accepted.setdefault(key, headers["location"]) == headers["location"]
         if number % 2:
             path = headers["location"]
@@ -52,7 +59,7 @@ def kill(folder: Path, kills: int, seed: int, longest_s: float = 2.5, kills_of_o
         else:
             time.sleep(moments.uniform(0, longest_s))
         found.kill()
-    request = SweepRequest.model_validate(ROUND)
+    request = SweepRequest.model_validate(body)
     expected = run_chunk(request.model_dump_json().encode(), 0, request.total)
     with service(folder, delay_s=0) as last:
         for path in accepted.values():
@@ -78,7 +85,7 @@ def main() -> None:
         "kills": asked.kills,
         "midway": midway,
         "sweeps": sweeps,
-        "rows_each": ROUND_ROWS,
+        "rows_each": SweepRequest.model_validate(ROUND).total,
         "wrong": 0,
         "s": time.monotonic() - began,
     }
