@@ -38,6 +38,8 @@ from schemas.request.requests import OptimizeRequest
 
 #: how often nodes are laid
 _ROUNDS = 12
+#: what optima may differ by under a budget, of what is asked: the rest is for what tangents reach below chords
+_WITH_CHORDS = 0.99
 #: how often it is guessed where
 _GUESSES = 3
 #: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
@@ -151,6 +153,8 @@ class _Task:
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid, asked = pieces(self.whole, self.plates, webs), self.request.accuracy.relative_gap
+        if np.isfinite(self.whole.limits.max_total_mass[0]):
+            asked *= _WITH_CHORDS
         return laid, optima(laid.program, asked, self.request.objective.least_mass, self.solver)
 
     def too_heavy(self, found: _Round) -> bool:

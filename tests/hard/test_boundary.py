@@ -23,9 +23,12 @@ def test_nothing_jumps_and_everything_is_settled(seed: int) -> None:
 def test_many_webs_on_the_boundary() -> None:
     """32 webs, half of which carry next to nothing: doubles do not tell whether both ceilings can be kept."""
     (reachable,) = (
-        each for each in ladders(np.random.default_rng((0, 120)), (-1e-12, 1e-12)) if each.place == "reachable"
+        each for each in ladders(np.random.default_rng((0, 120)), (-1e-12, 0.0, 1e-12)) if each.place == "reachable"
     )
-    assert [one.status for one in reachable.asked] == ["optimal", "optimal"]
+    below, *kept = [one.status for one in reachable.asked]
+    # what is out of reach by 1e-12 is told, or taken up by the tolerance of a ceiling
+    assert below in {"infeasible", "optimal"}
+    assert kept == ["optimal", "optimal"]
 
 
 @pytest.mark.parametrize(("number", "places"), [(141, {"reachable"}), (243, {"reachable", "at rest", "unlimited"})])

@@ -153,7 +153,8 @@ def test_a_response_is_weighed_limited_and_certified(monkeypatch: pytest.MonkeyP
     assert found.objective * scene.omega_squared == pytest.approx(_by_hand(scene, limit), abs=1.01e-6 * rest)
     if limit is not None:
         assert peaks[2] * scene.omega_squared == pytest.approx(limit, rel=1e-6)
-        assert found.objective > free.objective
+        # either is an optimum up to a millionth
+        assert found.objective > free.objective - 1e-6 * rest / scene.omega_squared
 
 
 def _backwards(layout: Layout, baseline: Wrench) -> Response:

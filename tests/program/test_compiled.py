@@ -206,6 +206,7 @@ def test_every_method_answers_some_program() -> None:
         "limits/no-webs",
         "sizes/speed-100",
         "sizes/masses-1e-9",
+        "limits/sector-1.0-edge-on-optimum",
         "webs/1e-06-apart",
         "weights/directions-1-1.0000001-sum",
         "webs/1e-09-apart",

@@ -32,8 +32,12 @@ def step_to_boundary(s0, s1, s2, d0, d1, d2):  # type: ignore[no-untyped-def]
 
 
 @inner
-def cholesky(matrix):  # type: ignore[no-untyped-def]
-    """In place, lower triangle with the diagonal inverted; pivots that rounding has spoiled become infinite."""
+def cholesky(matrix, least):  # type: ignore[no-untyped-def]
+    """In place, lower triangle with the diagonal inverted.
+
+    Pivots are no smaller than ``least`` (n, L), diagonals to which the rest of the matrix only adds; those that
+    rounding has spoiled all the same become infinite.
+    """
     n, lanes = matrix.shape[1:]
     for i in range(n):
         for j in range(i):
@@ -46,20 +50,26 @@ def cholesky(matrix):  # type: ignore[no-untyped-def]
             for t in range(lanes):
                 matrix[i, i, t] -= matrix[i, k, t] * matrix[i, k, t]
         for t in range(lanes):
-            pivot = matrix[i, i, t]
+            pivot = max(matrix[i, i, t], least[i, t])
             matrix[i, i, t] = 1.0 / np.sqrt(pivot) if pivot > 0.0 else 1e-100
 
 
 @inner
-def substitute(factor, vector):  # type: ignore[no-untyped-def]
-    """Solve in place, (n, L)."""
+def forward(factor, begin, vector):  # type: ignore[no-untyped-def]
+    """The first half of a solution in place, (n - begin, L), of a right side that is 0 before ``begin``."""
     n, lanes = vector.shape
     for i in range(n):
         for k in range(i):
             for t in range(lanes):
-                vector[i, t] -= factor[i, k, t] * vector[k, t]
+                vector[i, t] -= factor[begin + i, begin + k, t] * vector[k, t]
         for t in range(lanes):
-            vector[i, t] *= factor[i, i, t]
+            vector[i, t] *= factor[begin + i, begin + i, t]
+
+
+@inner
+def backward(factor, vector):  # type: ignore[no-untyped-def]
+    """The second half, (n, L)."""
+    n, lanes = vector.shape
     for i in range(n - 1, -1, -1):
         for k in range(i + 1, n):
             for t in range(lanes):

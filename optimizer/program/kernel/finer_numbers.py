@@ -100,9 +100,9 @@ def interpreted(
     number : what a literal becomes: decimals refuse to be mixed with doubles.
     parts : modules of kernels; () is the interior point for any limits.
     """
-    from optimizer.program.kernel import cones, interior_point, lanes, newton, webs
+    from optimizer.program.kernel import cones, interior_point, lanes, newton, starts, webs
 
-    parts = parts or (cones, lanes, webs, newton, interior_point)
+    parts = parts or (cones, lanes, webs, newton, starts, interior_point)
     names = {name: value for part in parts for name, value in vars(part).items()}
     written = {part.__name__ for part in parts}
     space: dict[str, Any] = {name: _literal(value, number) for name, value in names.items()}

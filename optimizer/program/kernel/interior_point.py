@@ -26,7 +26,8 @@ from optimizer.program.kernel.newton import (
     second_order,
     take_step,
 )
-from optimizer.program.kernel.stages import BLOCK, CENTRALITY, KEPT_BACK, OPEN
+from optimizer.program.kernel.stages import BLOCK, KEPT_BACK, OPEN
+from optimizer.program.kernel.starts import restart, start
 
 #: share of the way to the boundary that a step goes
 _STEP = 0.99
@@ -98,66 +99,6 @@ def load(programs, task, n, one, t):  # type: ignore[no-untyped-def]
         one.present[0, at] = 1.0
         one.present[1, at] = one.present[2, at] = programs.sector[n, k]
         one.mass[at], one.budget[at] = task.cost[n, k], programs.budget[n, k]
-
-
-@inner
-def start(one, state, t):  # type: ignore[no-untyped-def]
-    """Lane t to a point inside all limits, and above all norms; ceilings may be violated."""
-    rows, lanes = one.floor.shape
-    cones, terms, webs = one.influence.shape[0], one.row.size, one.sine.size // lanes
-    full = 0.0
-    for k in range(t, webs * lanes, lanes):
-        full += one.budget[k]
-    x = 0.5 if full <= 1.0 else 0.5 / full
-    for k in range(t, webs * lanes, lanes):
-        a = one.present[1, k] * 0.5 * x
-        state.v[0, k], state.v[1, k], state.v[2, k] = x, a, 0.0
-        state.s[0, k], state.s[1, k], state.s[2, k] = x, a, 0.0
-        state.z[0, k], state.z[1, k], state.z[2, k] = 1.0, 0.0, 0.0
-        state.q[0, k], state.zq[0, k] = 1.0 - x, 1.0
-        for c in range(1, 3):
-            state.q[c, k] = a if one.present[1, k] > 0.0 else 1.0
-            state.zq[c, k] = one.present[1, k]
-    state.rest[0, t], state.rest[1, t] = 1.0 - full * x, 1.0
-    for r in range(rows):
-        state.rho[r, t], state.z_rho[r, t] = one.floor[r, t], 1.0 / rows
-    for i in range(cones):
-        at, j = i * lanes + t, (webs + i) * lanes + t
-        ax, ay = one.constant[0, at], one.constant[1, at]
-        for k in range(t, webs * lanes, lanes):
-            ax += one.influence[i, k] * one.centre[0, k] * state.v[1, k]
-            ay += one.influence[i, k] * one.centre[1, k] * state.v[1, k]
-        size = np.sqrt(ax * ax + ay * ay) + 0.5
-        if i >= terms:
-            size = max(size, one.cap[i - terms, t])
-        else:
-            state.rho[one.row[i], t] += size
-        state.s[0, j], state.s[1, j], state.s[2, j] = size, ax, ay
-        state.z[0, j], state.z[1, j], state.z[2, j] = 1.0 / rows, 0.0, 0.0
-    level = state.rho[0, t]
-    for r in range(rows):
-        level = max(level, state.rho[r, t])
-    state.rest[2, t] = level + 0.5
-    for r in range(rows):
-        state.rho[r, t] = state.rest[2, t] - state.rho[r, t]
-
-
-@inner
-def restart(one, state, t):  # type: ignore[no-untyped-def]
-    """Lane t from a point of the first stage to the second: every multiplier at the price of the objective."""
-    s, z = state.s, state.z
-    lanes = one.target.size
-    price = CENTRALITY / (s[0, t] * z[0, t] + s[1, t] * z[1, t] + s[2, t] * z[2, t])
-    for r in range(state.rho.shape[0]):
-        slack = one.target[t] - state.rest[2, t] + state.rho[r, t]
-        state.rho[r, t] = max(slack, 0.1 * state.rho[r, t])
-        state.z_rho[r, t] *= price
-    for c in range(3):
-        for j in range(t, z.shape[1], lanes):
-            z[c, j] *= price
-        for k in range(t, one.sine.size, lanes):
-            state.zq[c, k] *= price
-    state.rest[1, t] *= price
 
 
 @in_place

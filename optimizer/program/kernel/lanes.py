@@ -82,7 +82,8 @@ class Work(NamedTuple):
     dz: Real  # (3, C L)
     each: Real  # (C L,) a value for every cone
     e: Real  # (3, K L) right sides, then steps of the webs
-    kept: Real  # (3, K L)
+    kept: Real  # (3, K L) steps of the webs where no multiplier of the peaks and the budget changes
+    response: Real  # (3, K L) what such changes add to them
     edges: Real  # (2, K L)
     fq: Real  # (3, K L)
     cq: Real  # (3, K L) second-order parts
@@ -90,9 +91,10 @@ class Work(NamedTuple):
     dzq: Real  # (3, K L)
     block: Real  # (11, K L)
     m: Real  # (n, n, L)
+    least: Real  # (n, L) what the rows and the budget add to its diagonal themselves
     right: Real  # (n, L)
-    border: Real  # (n, L)
-    border_sum: Real  # (L,)
+    border: Real  # (R, L) what a level that rises by one asks of the rows, and its square
+    border_square: Real  # (L,)
     c_rho: Real  # (R, L) second-order parts
     d_rho: Real  # (R, L)
     dz_rho: Real  # (R, L)
@@ -129,11 +131,11 @@ def new_course(lanes: int) -> Course:
 
 def new_work(webs: int, cones: int, terms: int, rows: int, lanes: int) -> Work:
     kl, ql, cl = webs * lanes, cones * lanes, (webs + cones) * lanes
-    # unknowns: (y_x, y_y) of terms, rows, (mu, y_x, y_y) of ceilings, budget
+    # unknowns: (y_x, y_y) of terms, (mu, y_x, y_y) of ceilings, budget, rows
     n = 2 * terms + rows + 3 * (cones - terms) + 1
     where = np.empty(cones, np.int64)
     for i in range(cones):
-        where[i] = 2 * i if i < terms else 2 * terms + rows + 3 * (i - terms) + 1
+        where[i] = 2 * i if i < terms else 2 * terms + 3 * (i - terms) + 1
     return Work(
         np.zeros((2, ql)),
         np.zeros((2, kl)),
@@ -154,6 +156,7 @@ def new_work(webs: int, cones: int, terms: int, rows: int, lanes: int) -> Work:
         np.zeros(cl),
         np.zeros((3, kl)),
         np.zeros((3, kl)),
+        np.zeros((3, kl)),
         np.zeros((2, kl)),
         np.zeros((3, kl)),
         np.zeros((3, kl)),
@@ -163,6 +166,7 @@ def new_work(webs: int, cones: int, terms: int, rows: int, lanes: int) -> Work:
         np.zeros((n, n, lanes)),
         np.zeros((n, lanes)),
         np.zeros((n, lanes)),
+        np.zeros((rows, lanes)),
         np.zeros(lanes),
         np.zeros((rows, lanes)),
         np.zeros((rows, lanes)),

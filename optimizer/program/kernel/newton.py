@@ -14,17 +14,19 @@ Sizes: L lanes, K webs, Q cones of the peaks (J terms, then ceilings), C = K + Q
 
 from optimizer.program.kernel.compiling import inner
 from optimizer.program.kernel.cones import (
+    backward,
     cholesky,
     cone_steps,
     corrector,
+    forward,
     multiplier_steps,
     scaling,
-    substitute,
     targets,
 )
 from optimizer.program.kernel.lanes import add_products, lower, move, product, raise_to_size, spread
 from optimizer.program.kernel.webs import (
     eliminate_webs,
+    lengths,
     peaks_of,
     turned,
     web_multipliers,
@@ -123,17 +125,18 @@ def _add_influence(influence, xx, xy, yy, where, m):  # type: ignore[no-untyped-
 
 @inner
 def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
-    """The matrix of the step, factored; and the solution for a level that rises by one."""
+    """The matrix of the step, factored; and what a level that rises by one asks of the rows."""
     rows, lanes = one.floor.shape
     cones, terms, at_cones = one.influence.shape[0], one.row.size, one.sine.size
-    w, eta, block, m, where = work.w, work.eta, work.block, work.m, work.where
+    w, eta, block, m, least, where = work.w, work.eta, work.block, work.m, work.least, work.where
     scaling(state.s, state.z, w, eta, work.lam)
     eliminate_webs(w, eta, state.q, state.zq, one.present[1], one.sine, one.cosine, one.centre, block)
     m[:] = 0.0
-    at_row, at_budget = 2 * terms, m.shape[0] - 1
+    at_row = m.shape[0] - rows
+    at_budget = at_row - 1
     for r in range(rows):
         for t in range(lanes):
-            m[at_row + r, at_row + r, t] = state.rho[r, t] / state.z_rho[r, t]
+            least[at_row + r, t] = m[at_row + r, at_row + r, t] = state.rho[r, t] / state.z_rho[r, t]
     for i in range(cones):
         at, begin, end = where[i], at_cones + i * lanes, at_cones + (i + 1) * lanes
         first = at_row + one.row[i] if i < terms else at - 1
@@ -146,7 +149,7 @@ def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
         e[0, k] = one.budget[k]
     web_steps(block, one.cosine, e, work.edges)
     for t in range(lanes):
-        m[at_budget, at_budget, t] = state.rest[0, t] / state.rest[1, t]
+        least[at_budget, t] = m[at_budget, at_budget, t] = state.rest[0, t] / state.rest[1, t]
     add_products(one.budget, e[0], m[at_budget, at_budget])
     turned(e, one.sine, one.centre, work.u)
     work.a[:] = 0.0
@@ -155,16 +158,13 @@ def factor(least_mass, one, state, work):  # type: ignore[no-untyped-def]
         for t in range(lanes):
             m[at_budget, where[i], t] = work.a[0, i * lanes + t]
             m[at_budget, where[i] + 1, t] = work.a[1, i * lanes + t]
-    cholesky(m)
+    cholesky(m, least)
     if not least_mass:
-        border, border_sum = work.border, work.border_sum
-        border[:] = 0.0
-        border[at_row : at_row + rows] = 1.0
-        substitute(m, border)
-        border_sum[:] = 0.0
+        work.border[:] = 1.0
+        forward(m, at_row, work.border)
+        work.border_square[:] = 0.0
         for r in range(rows):
-            for t in range(lanes):
-                border_sum[t] += border[at_row + r, t]
+            add_products(work.border[r], work.border[r], work.border_square)
 
 
 @inner
@@ -205,23 +205,24 @@ def _solve(least_mass, one, work):  # type: ignore[no-untyped-def]
     """The steps of the multipliers of the peaks, the rows and the budget, and of the level."""
     right, d_level = work.right, work.d_rest[2]
     rows, lanes = one.floor.shape
-    at_row = 2 * one.row.size
-    substitute(work.m, right)
+    at_row = right.shape[0] - rows
+    forward(work.m, 0, right)
     d_level[:] = 0.0
     if not least_mass:
+        # half-way, where no more than the multipliers of the rows has to add up
+        for r in range(rows):
+            add_products(right[at_row + r], work.border[r], d_level)
+        for t in range(lanes):
+            d_level[t] /= work.border_square[t]
         for r in range(rows):
             for t in range(lanes):
-                d_level[t] += right[at_row + r, t]
-        for t in range(lanes):
-            d_level[t] /= work.border_sum[t]
-        for i in range(right.shape[0]):
-            for t in range(lanes):
-                right[i, t] -= d_level[t] * work.border[i, t]
+                right[at_row + r, t] -= d_level[t] * work.border[r, t]
+    backward(work.m, right)
     for r in range(rows):
         for t in range(lanes):
             work.dz_rho[r, t] = right[at_row + r, t]
     for t in range(lanes):
-        work.d_rest[1, t] = -right[right.shape[0] - 1, t]
+        work.d_rest[1, t] = -right[at_row - 1, t]
 
 
 @inner
@@ -239,7 +240,8 @@ def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
         work.keep,
         work.e,
     )
-    at_row, at_budget = 2 * terms, right.shape[0] - 1
+    at_row = right.shape[0] - rows
+    at_budget = at_row - 1
     spread(work.nu, work.each)
     targets(work.each, work.d, work.w, work.eta, work.lam, state.s, state.z, work.f, ws)
     for c in range(3):
@@ -282,8 +284,13 @@ def direction(least_mass, one, state, work):  # type: ignore[no-untyped-def]
             dz[1, at_cones + begin + t], dz[2, at_cones + begin + t] = right[at, t], right[at + 1, t]
     webs_of(one.influence, work.a, work.u)
     spread(work.d_rest[1], work.each)
-    with_peaks(work.each, one.budget, one.sine, one.centre, work.u, e)
+    with_peaks(work.each, one.budget, one.sine, one.centre, work.u, work.response)
+    for c in range(3):
+        for k in range(one.sine.size):
+            e[c, k] += work.response[c, k]
+    web_steps(work.block, one.cosine, work.response, work.edges)
     web_steps(work.block, one.cosine, e, work.edges)
+    lengths(work.kept, work.response, state.v, state.q, e, work.edges)
     web_slacks(e, work.edges, one.sine, ds, work.dq)
     for c in range(3):
         web_multipliers(work.fq[c], state.zq[c], state.q[c], work.dq[c], work.dzq[c])
