@@ -15,6 +15,7 @@ from optimizer.choices.plate_pieces import pieces, tangents
 from optimizer.mechanics.plates import Plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.compiled import suits_kernel, unproven
+from optimizer.program.methods.rounding import at_edge, made_up
 from optimizer.program.points import excess_at
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
@@ -26,6 +27,8 @@ _NEAR = 1e-4
 _TRIED, _ROUNDS = 6, 3
 #: shares of what is certified that may be used up: of the mass, and of the objective by the choice of the others
 _OF_MASS, _OF_OBJECTIVE = 0.9, 0.5
+#: openings that differ by less are one size where that leaves an optimum, rad: 1e-3 degrees, and less
+_ONE_SIZE = (1.75e-5, 1e-7, 1e-9, 1e-11)
 #: openings that differ by less than this share are the same
 _SAME = 1e-12
 
@@ -68,6 +71,39 @@ def alike(
         if each.high - each.low > _SAME * each.high:
             cut = _opened(whole, plates, nodes, cut, held, [each], optimum, least_mass) or cut
     return cut
+
+
+def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
+    """The same with openings that nearly agree put to the largest or the mean of them, those that differ more first.
+
+    What nearly goes as far as it can goes so far. Other counterweights make up for it; the last is the cut as it is.
+    """
+    size, limits = np.abs(cut.unbalance), whole.limits
+    held = (size >= limits.reach[0] * (1.0 - _NEAR)) | at_edge(limits, cut.unbalance[None], _NEAR)[0]
+    for near in _ONE_SIZE:
+        near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
+        order = np.lexsort((near_full, plates.kinds))
+        apart = (np.diff(near_full[order]) > near) | (np.diff(plates.kinds[order]) != 0)
+        clusters = np.split(order, np.flatnonzero(apart) + 1)
+        room = np.where(held, 0.0, size)
+        for some in clusters:
+            room[plates.webs[some]] *= some.size == 1
+        for common in (np.max, np.mean):
+            angle = near_full.copy()
+            for some in clusters:
+                angle[some] = common(near_full[some])
+            angle = np.where(cut.angle > 0, angle, 0.0)
+            if not np.any(angle != cut.angle):
+                continue
+            put = cut.unbalance.copy()
+            put[plates.webs] *= plates.unbalance(angle) / np.where(size[plates.webs] > 0, size[plates.webs], 1.0)
+            change = whole.every_influence[0] @ (put - cut.unbalance)
+            balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
+            balanced = np.where(room > 0, limits.into(balanced[None])[0], put)
+            moved = np.where(room[plates.webs] > 0, plates.opened(np.abs(balanced[plates.webs])), angle)
+            for u, opened in ((balanced, moved), (put, angle)):
+                yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
+    yield cut
 
 
 def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.equal_plates import Cut, alike, total_mass
+from optimizer.choices.equal_plates import Cut, alike, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
 from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
 from optimizer.formulation.formulate import formulate
@@ -27,6 +27,7 @@ from optimizer.program.certificate import mass_lower_bound
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
+from optimizer.program.methods.rounding import dust
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
@@ -45,6 +46,8 @@ _GUESSES = 3
 #: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
 #: the centre of half a disc is at 0.42 of its radius
 _NEARER = 2.5
+#: share of what optima may differ by that is used where webs are left empty
+_WITH_ROOM = 0.999
 #: openings that agree this closely, relative, are equal: what rounding leaves
 _EQUAL = 1e-14
 
@@ -64,13 +67,14 @@ def certified_shapes(
     end = thread_time() + request.accuracy.time_limit_s
     closed = fitted(request.machine, np.zeros(cut.webs.size))
     whole = within_reach(formulate(closed, request.objective, responses, omega_squared), solver)
-    task = _Task(request, whole, cut, omega_squared, solver)
+    every = np.ones(len(request.machine.webs), bool)
+    task = _Task(request, whole, cut, omega_squared, solver, request.accuracy.relative_gap, every)
     nodes, tried = task.guessed(first_nodes(cut)), []
     for _ in range(_ROUNDS):
         found = task.round(nodes)
         tried.append(found)
         if not task.too_heavy(found):
-            asked, best = task.judged_alike(found, nodes)
+            asked, best = task.judged_alike(task.without_dust(found, nodes), nodes)
             if best.status[0] != "inaccurate":
                 return asked, best
         if thread_time() > end:
@@ -100,6 +104,8 @@ class _Task:
     plates: Plates
     omega_squared: Real  # (1,) rad^2/s^2
     solver: Solver
+    relative_gap: float  # that is asked of webs in place of plates
+    left: np.ndarray  # (K,) bool, webs that may carry something
 
     @cached_property
     def kinds(self) -> np.ndarray:
@@ -152,10 +158,38 @@ class _Task:
         return _Round(replace(proven, certify_s=spent), Cut(u, angle, mass), called_for)
 
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
-        laid, asked = pieces(self.whole, self.plates, webs), self.request.accuracy.relative_gap
+        laid, gap = pieces(self.whole, self.plates, webs, self.left), self.relative_gap
         if np.isfinite(self.whole.limits.max_total_mass[0]):
-            asked *= _WITH_CHORDS
-        return laid, optima(laid.program, asked, self.request.objective.least_mass, self.solver)
+            gap *= _WITH_CHORDS
+        return laid, optima(laid.program, gap, self.request.objective.least_mass, self.solver)
+
+    def without_dust(self, found: _Round, nodes: Real) -> _Round:
+        """The same with webs left empty that carry next to nothing, where what is proven of all holds for it."""
+        left, allowed = self.left, min(self.relative_gap, OPTIMUM_SHARE)
+        while not found.proven.unreachable[0]:
+            empty = dust(self._masses(found.cut))
+            if not empty.any():
+                break
+            left, share = left & ~empty, _WITH_ROOM * allowed
+            for _ in range(_GUESSES):
+                cleared = found._replace(cut=replace(self, left=left, relative_gap=share).round(nodes).cut)
+                if self._optimal(found.proven, cleared.cut) is not None:
+                    found = cleared
+                    break
+                # the smallest objective of these webs is larger: what it is above is no longer to be spent on mass
+                over = float(self.whole.objective(cleared.cut.unbalance)[0] - self._largest(found.proven))
+                share -= max(1.01 * over / float(self.size[0]), (1.0 - _WITH_ROOM) * allowed)
+                if share <= 0.0:
+                    return found
+            else:
+                break
+        return found
+
+    def _masses(self, cut: Cut) -> Real:
+        """(K,) kg."""
+        mass = np.abs(cut.unbalance) / self.whole.limits.radius[0]
+        mass[self.plates.webs] = self.plates.mass(cut.angle)
+        return mass
 
     def too_heavy(self, found: _Round) -> bool:
         """Whether what would be cut is not the lightest, so that it need not be judged."""
@@ -168,22 +202,35 @@ class _Task:
     def judged_alike(self, found: _Round, nodes: Real) -> tuple[OptimizeRequest, Certified]:
         """What is cut, with plates opened alike where what is proven still holds."""
         cut = self._alike(found, nodes)
-        if cut is not found.cut:
-            asked, best = self.judged(found.proven, cut)
-            if best.status[0] == "optimal":
-                return asked, best
+        # those that are chosen anew for it may be next to nothing
+        alike_first = cut is not found.cut and not dust(self._masses(cut)).any()
+        for each in (cut, found.cut) if alike_first else (found.cut,):
+            for equal in one_size(self.whole, self.plates, each):
+                optimum = self._optimal(found.proven, equal)
+                if optimum is not None:
+                    return optimum
         return self.judged(found.proven, found.cut)
 
     def _alike(self, found: _Round, nodes: Real) -> Cut:
-        goal, proven = self.request.objective, found.proven
+        proven = found.proven
         if proven.unreachable[0]:
             return found.cut
-        lower_bound = float(proven.lower_bound[0])
-        largest = lower_bound + float(self.request.accuracy.relative_gap * self.size[0])
-        least_mass = np.inf
-        if goal.least_mass:
-            largest, least_mass = min(largest, float(proven.mass_target[0])), float(proven.mass_lower_bound[0])
-        return alike(self.whole, self.plates, nodes, found.cut, (lower_bound, largest), least_mass)
+        optimum = float(proven.lower_bound[0]), self._largest(proven)
+        least_mass = float(proven.mass_lower_bound[0]) if self.request.objective.least_mass else np.inf
+        return alike(self.whole, self.plates, nodes, found.cut, optimum, least_mass)
+
+    def _largest(self, proven: Optima) -> float:
+        """Largest objective of an optimum, of which what is proven of the mass holds."""
+        largest = float(proven.lower_bound[0] + self.request.accuracy.relative_gap * self.size[0])
+        return min(largest, float(proven.mass_target[0])) if self.request.objective.least_mass else largest
+
+    def _optimal(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified] | None:
+        """What may be claimed of another cut, None where that is not an optimum."""
+        objective, rounding = self.whole.objective(cut.unbalance)[0], self.whole.rounding(cut.unbalance)[0]
+        if not proven.unreachable[0] and objective > self._largest(proven) + rounding:
+            return None
+        asked, best = self.judged(proven, cut)
+        return (asked, best) if best.status[0] == "optimal" else None
 
     def judged(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified]:
         """The request with the radii of what is cut, and what may be claimed of it."""

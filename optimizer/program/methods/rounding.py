@@ -68,11 +68,15 @@ def settled(statement: Statement, points: Points, target: Real, mass_bound: Real
     return points
 
 
+def dust(mass: Real) -> np.ndarray:
+    """Which masses (..., K) are next to nothing beside the largest of theirs (..., K) bool."""
+    most = np.maximum.reduce(mass, axis=-1, keepdims=True, initial=0.0)
+    return np.asarray((mass > 0) & (mass <= NEAR[0] * most))
+
+
 def has_dust(limits: Limits, u: Complex) -> np.ndarray:
     """Whether some counterweights (..., K) kg m are next to nothing beside the largest of theirs (...)."""
-    mass = np.abs(u) / limits.radius
-    most = np.maximum.reduce(mass, axis=-1, keepdims=True, initial=0.0)
-    return np.asarray(((mass > 0) & (mass <= NEAR[0] * most)).any(axis=-1))
+    return np.asarray(dust(np.abs(u) / limits.radius).any(axis=-1))
 
 
 def brought(
@@ -96,10 +100,8 @@ def brought(
     put = np.where(full, limits.radius * limits.max_mass / np.where(full, size, 1.0) * u, put)
     edge = np.zeros_like(none)
     if not limits.free.all():
-        v = u * np.conj(limits.centre)
-        inwards = v.real * limits.half_angle_sin - np.abs(v.imag) * limits.half_angle_cos
-        edge = ~limits.free & ~none & (size > 0) & (inwards <= touched * limits.half_angle_sin * size)
-        side = limits.half_angle_cos + 1j * np.copysign(limits.half_angle_sin, v.imag)
+        edge = ~none & at_edge(limits, u, touched)
+        side = limits.half_angle_cos + 1j * np.copysign(limits.half_angle_sin, (u * np.conj(limits.centre)).imag)
         put = np.where(edge, np.abs(put) * side * limits.centre, put)
     moved = np.flatnonzero((put != u).any(axis=-1))
     if not moved.size:
@@ -108,12 +110,19 @@ def brought(
     part = slice(None) if moved.size == len(u) else moved
     change = np.add.reduce(influence[part] * (put - u)[part][:, None, :], axis=-1)
     within = mapped(limits, lambda array: array[part])
-    put[part] += _made_up(within.alike, influence[part], between[part], change)
+    put[part] += made_up(within.alike, influence[part], between[part], change)
     put[part] = within.into(put[part])
     return put, moved
 
 
-def _made_up(alike: Alike | None, influence: Real | Complex, room: Real, change: Complex) -> Complex:
+def at_edge(limits: Limits, u: Complex, touched: float) -> np.ndarray:
+    """Which counterweights (..., K) kg m are next to an edge of their sector (..., K) bool."""
+    v, size = u * np.conj(limits.centre), np.abs(u)
+    inwards = v.real * limits.half_angle_sin - np.abs(v.imag) * limits.half_angle_cos
+    return np.asarray(~limits.free & (size > 0) & (inwards <= touched * limits.half_angle_sin * size))
+
+
+def made_up(alike: Alike | None, influence: Real | Complex, room: Real, change: Complex) -> Complex:
     """The least change (N, K), relative to a room (N, K), that takes back a change (N, J); of alike webs alike."""
     if alike is None:
         return room * least_change(influence * room[:, None, :], change)
@@ -123,5 +132,5 @@ def _made_up(alike: Alike | None, influence: Real | Complex, room: Real, change:
     both = np.concatenate(parts, axis=-1)
     rows, wanted = (np.concatenate([every.real, every.imag], axis=1) for every in (both, change))
     along, across = np.split(least_change(rows, wanted.astype(complex)).real, 2, axis=-1)
-    made_up: Complex = first * (along + 1j * across)
-    return alike.carried(made_up)
+    found: Complex = first * (along + 1j * across)
+    return alike.carried(found)
