@@ -106,4 +106,4 @@ def test_sectors_leave_no_dust() -> None:
         assert answer.status == "optimal"
         mass = np.array([each.mass_kg for each in answer.counterweights])
         dusty += bool(np.any((mass > 0) & (mass <= 1e-4 * np.max(mass))))
-    assert dusty <= 1, dusty
+    assert dusty == 0

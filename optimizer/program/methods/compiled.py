@@ -11,7 +11,7 @@ from optimizer.numerics.arrays import Complex, Real, mapped, plain
 from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.certificate import Multipliers, best_proof, mass_lower_bound, nothing_proven
 from optimizer.program.kernel.finer_numbers import Precision, solve_in
-from optimizer.program.methods.rounding import has_dust, settled
+from optimizer.program.methods.rounding import settled
 from optimizer.program.multipliers import resting_multipliers
 from optimizer.program.points import Points, excess_at, points_at
 from optimizer.program.scaling import natural_reach
@@ -45,8 +45,6 @@ _ELSEWHERE = _DOUBLE._replace(ceilings=2e-11)
 #: largest gap of the first stage that is good enough, as a share of what optima may differ by, where its point is
 #: the answer and where the lightest is; and the largest relative gap of the mass
 ENOUGH, ENOUGH_FOR_MASS, MASS_ENOUGH = 1e-3, 1e-2, 1e-5
-#: share of what optima may differ by that the least mass may use where it has left dust
-_WITH_ROOM = 0.9
 #: optima reach this far into the share, which leaves room for rounding
 TARGET = 1.0 - 1e-7
 
@@ -121,6 +119,12 @@ def unproven(statement: Statement, share: Real, least_mass: bool) -> tuple[Compl
     return found.lightest if least_mass else found.smallest, prices
 
 
+def ends(statement: Statement, share: Real, least_mass: bool) -> tuple[Complex, Complex]:
+    """Where the first stage of N statements ends and where the last, guesses likewise (N, K) kg m."""
+    found = _solve(statement, share, least_mass, _DOUBLE, _in_discs if plain_discs(statement).all() else None)
+    return found.smallest, found.lightest
+
+
 def plain_discs(statement: Statement) -> np.ndarray:
     """Programs that :mod:`optimizer.program.kernel.discs` takes (N,) bool: one row, no ceilings, sectors or budgets."""
     norms, limits = statement.norms, statement.limits
@@ -134,8 +138,6 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
     """Both stages of programs of any limits; under ceilings what is left is tried once more."""
     solved = _solve(statement, share, least_mass, _DOUBLE, at_least=at_least)
     found = _judged(statement, share, demand, least_mass, solved)
-    if least_mass:
-        _without_dust(found, statement, share, demand, at_least)
     if not statement.ceilings.names or found.certified.all():
         return found
     left = np.flatnonzero(~found.certified)
@@ -154,20 +156,6 @@ def _in_any_limits(statement: Statement, share: Real, demand: Real, least_mass: 
         found.put(left[again.certified], again.chosen(again.certified))
         left, inside = left[~again.certified], inside[~again.certified]
     return found
-
-
-def _without_dust(found: BothStages, statement: Statement, share: Real, demand: Real, at_least: Real) -> None:
-    """Solve those that have dust once more, in place, with room for what takes its place.
-
-    The least mass uses all that optima may differ by, so that at the edges of sectors nothing can make up for dust.
-    """
-    dusty = np.flatnonzero(found.certified & has_dust(statement.limits, found.unbalance))
-    if dusty.size:
-        part, level = statement.chosen(dusty), at_least[dusty]
-        lighter = _solve(part, _WITH_ROOM * share[dusty], True, _DOUBLE, at_least=level)
-        again = _judged(part, share[dusty], demand[dusty], True, lighter)
-        clean = np.flatnonzero(again.certified & ~has_dust(part.limits, again.unbalance))
-        found.put(dusty[clean], again.chosen(clean))
 
 
 def _judged(statement: Statement, share: Real, demand: Real, least_mass: bool, solved: "_Solved") -> BothStages:

@@ -11,6 +11,7 @@ from optimizer.program.certificate import Multipliers, nothing_proven
 from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.methods.empty_webs import leave_empty
 from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
 from optimizer.program.methods.single import Asked, interior_point, only
@@ -98,6 +99,7 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
         program, asked = statement.chosen(n), Asked(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, program, cascade(program, asked, solver, quick))
+    leave_empty(statement, answer, share, least_mass)
     return answer
 
 
