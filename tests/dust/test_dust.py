@@ -19,6 +19,23 @@ def test_every_mode_is_answered(mode: str) -> None:
     assert not found.dust
 
 
+#: machines that had dust, or unlike plates
+_REGRESSIONS = (
+    ("sectors", 157), ("directions", 279), ("budget", 36), ("ceilings", 75), ("balance shafts", 163), ("gaps", 232),
+    ("plates", 3), ("plates", 182), ("plates", 201), ("plates", 615), ("plates in budget", 170), ("bearings", 112),
+    ("bending", 101), ("priorities", 13), ("priorities", 19), ("front", 127), ("trade", 31), ("rows", 599),
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(("mode", "seed"), _REGRESSIONS)
+def test_dust_stays_away(mode: str, seed: int) -> None:
+    """Regression: webs left empty that no optimum needs, and plates of one size."""
+    found = judgement(mode, seed)
+    assert found.open == 0
+    assert not found.dust
+    assert not found.unlike
+
+
 @pytest.mark.nightly
 @pytest.mark.parametrize("mode", MODES)
 def test_no_dust(mode: str) -> None:

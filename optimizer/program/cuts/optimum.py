@@ -9,6 +9,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.cut import Pool
+from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
 from optimizer.program.cuts.rounding import settled_turn
 from optimizer.program.cuts.semi_infinite import OverTurn
@@ -133,7 +134,8 @@ def over_turn(
     size = float(program.units[last])
     if not least_mass:
         course.keep(last, course.smallest(last, _ENOUGH * relative_gap * size), 0.0)
-        return course.found(None, np.inf)
+        course.margin[-1] = _TARGET_MARGIN * _SHARPNESS[0] * relative_gap * size
+        return course.found(None, np.inf, course.goals[last].lower_bound + (1.0 - _RESERVE) * relative_gap * size)
     # a little is kept for the rounding of masses and angles
     share = (1.0 - _RESERVE) * min(OPTIMUM_SHARE, relative_gap) * size
     proof: Proof | None = None
@@ -181,6 +183,7 @@ class _Course:
         self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
         self.rounds, self.certify_s = nearest.rounds, nearest.certify_s
         self.goals: list[Reached] = []
+        self.margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * program.units
 
     def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof:
         """Make a goal small under those before it."""
@@ -211,15 +214,37 @@ class _Course:
         most = self._most(len(self.goals))
         margins = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units
         margins[-1] = margin
+        self.margin = margins
         reserved = _RESERVED * self.program.units
         reserved[-1] = 0.0
         return self._run(Kept(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
 
-    def found(self, mass_proof: Proof | None, target: float) -> Found:
+    def found(self, mass_proof: Proof | None, target: float, loosest: float = -np.inf) -> Found:
+        """What the course has come to.
+
+        Parameters
+        ----------
+        target : largest objective that the proof of the mass counts as an optimum.
+        loosest : what the last goal may come to where webs are left empty for it.
+        """
         most = self._most(len(self.goals))
         bound = None if mass_proof is None else mass_proof.bound
+        point = settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _TOLD)
+        most[-1] = max(most[-1], loosest)
+        empty_webs = EmptyWebs(
+            self.so_far,
+            self.so_far.begun,
+            self.pool,
+            most,
+            self.margin,
+            bound,
+            self.raised,
+            self.until,
+            _MASS_GAP,
+            _TOLD,
+        )
         return Found(
-            settled_turn(self.program, self.so_far.begun, self.inside, most, bound, _TOLD),
+            empty_webs.leave(point),
             tuple(self.goals),
             mass_proof,
             target,

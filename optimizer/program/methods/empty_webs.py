@@ -117,5 +117,5 @@ def _without(program: Statement, empty: np.ndarray, optimum: Optimum, share: Rea
         # the smallest objective without these webs is larger, and what is left for the mass is less
         if not (least_mass and room > 0.0):
             return None
-        left = np.minimum(room, left)
+        left = room
     return None
