@@ -9,6 +9,7 @@ from optimizer.choices.semicontinuous.search import Asked, search
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.numerics.arrays import Real
 from optimizer.program.limits import Limits
+from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE
 from optimizer.program.statement import Statement
@@ -39,7 +40,7 @@ class MinimumMasses:
 
     def posed(self, statement: Statement) -> Statement:
         # what no optimum of any masses needs, those of a least mass may
-        return replace(statement, limits=self.limits)
+        return within_semicontinuous_reach(replace(statement, limits=self.limits), self.least)
 
     def best(self, subproblem: Subproblem) -> Choice:
         relaxed, *known = subproblem.points

@@ -250,7 +250,6 @@ def test_the_time_ends_a_search() -> None:
     [
         ({"machine": {"webs": {"min_fitted_mass_kg": 41.0}}}, ("machine", "webs", 0, "min_fitted_mass_kg")),
         ({"machine": {"webs": {"min_fitted_mass_kg": 0.0}}}, ("machine", "webs", 0, "min_fitted_mass_kg")),
-        ({"machine": {"webs": {"max_mass_kg": None}}}, ("machine", "webs", 0, "max_mass_kg")),
         ({"tolerances": {"angle_deg": 1}}, ("tolerances",)),
     ],
 )

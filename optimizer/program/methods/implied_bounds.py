@@ -65,17 +65,17 @@ def _within_reach(statement: Statement, solver: Solver) -> Statement:
     point = np.zeros(statement.limits.radius.shape, complex)
     if np.any(statement.ceilings.excess(point) > 0):
         excess = statement.excess()
-        excess = bounded(excess, _above(excess, point))
+        excess = bounded(excess, level_above(excess, point))
         nearest = solver.smallest_objective(excess, 0.1 * CEILING_TOLERANCE)
         if nearest.lower_bound > 0:
             return replace(statement, limits=excess.limits)
         point = nearest.unbalance
         if nearest.objective > CEILING_TOLERANCE:
             return bounded(statement, np.inf)
-    return bounded(statement, _above(statement, point))
+    return bounded(statement, level_above(statement, point))
 
 
-def _above(statement: Statement, point: Complex) -> float:
+def level_above(statement: Statement, point: Complex) -> float:
     """A level that leaves room for all that counts as an optimum, if this point may be reached."""
     value = float(statement.objective(point))
     return value + (value - float(np.sum(-statement.largest(-statement.floor))))
@@ -117,16 +117,26 @@ def _masses(statement: Statement, far: np.ndarray, level: float) -> Real:
     if scattered is not None:
         masses[far] = scattered
         return masses
-    rows, most, scalar = _responses(statement, far, level)
+    rows, most, scalar = responses(statement, far, level)
     if not np.any(most):
         masses[far] = 0.0
         return masses
     influence = rows * limits.radius
-    plain = np.all(limits.free) and len(most) <= 2 and not np.any(scalar)
-    together = _in_planes(influence, most) if plain else _in_sectors(influence, limits, most, scalar)
+    together = carrying_mass(influence, limits, most, scalar)
     each = _MARGIN * np.minimum(together, _told(influence[~scalar], most[~scalar]))
     masses[far] = np.where(np.isfinite(each), each, LARGEST)
     return masses
+
+
+def carrying_mass(influence: Real, limits: Limits, most: Real, scalar: np.ndarray) -> float:
+    """Mass with which webs carry whatever they can with |c_s| <= most_s, kg; inf where none is proven.
+
+    Parameters
+    ----------
+    influence : (s, n) of one kilogram.
+    """
+    plain = np.all(limits.free) and len(most) <= 2 and not np.any(scalar)
+    return _in_planes(influence, most) if plain else _in_sectors(influence, limits, most, scalar)
 
 
 def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | None:
@@ -150,7 +160,7 @@ def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | N
     return min(mass, LARGEST)
 
 
-def _responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real, np.ndarray]:
+def responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real, Real, np.ndarray]:
     """What the far webs can change: rows of influence (s, far) of size 1, the most that each may change (s,).
 
     And whether only its real part counts (s,).

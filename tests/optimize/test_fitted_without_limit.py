@@ -1,0 +1,97 @@
+"""A least mass of what is fitted on webs without a limit: the reach that is searched is proven, not given."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from optimizer.formulation.formulate import formulate
+from optimizer.outputs.registry import prepare
+from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
+from schemas.request.requests import OptimizeRequest
+from service.validation import InvalidRequest, check
+from tests.dust.machines import crankshaft
+from tests.hard.cases.case import Body
+from tests.verification.checking import optimized
+
+
+def fitted(seed: int, most: float | None, sectors: float = 0.0, least: float = 2.0) -> Body:
+    """One or two throws whose counterweights weigh at least 1 to 10^``least`` kg."""
+    rng = np.random.default_rng([seed, 77])
+    found = crankshaft(rng, sectors, most_throws=2)
+    for web in found["webs"]:
+        web["min_fitted_mass_kg"], web["max_mass_kg"] = float(10 ** rng.uniform(0, least)), most
+    return {"machine": found}
+
+
+@pytest.mark.parametrize("sectors", [0.0, 0.8])
+@pytest.mark.parametrize("seed", range(6))
+def test_no_limit_is_a_limit_that_is_far_away(seed: int, sectors: float) -> None:
+    """Independent: 1e4 kg, of which the search needs no proof, and 1e12 kg come to the same."""
+    near, far, none = (optimized(fitted(seed, most, sectors)) for most in (1e4, 1e12, None))
+    assert near.status == far.status == none.status == "optimal"
+    assert near.certificate is not None
+    assert far.certificate is not None
+    assert none.certificate is not None
+    close = 1e-6 * none.certificate.yardstick + 1e-9
+    assert none.certificate.objective == pytest.approx(near.certificate.objective, abs=close, rel=2e-3)
+    assert none.certificate.objective == far.certificate.objective
+    assert near.certificate.lower_bound is not None
+    assert none.certificate.lower_bound is not None
+    assert none.certificate.lower_bound <= near.certificate.objective + close
+
+
+def test_what_is_fitted_may_be_heavier_than_any_optimum_of_any_masses() -> None:
+    """Analytic: a million kilograms on one web do more harm than good, so that nothing is fitted."""
+    body = fitted(0, None)
+    del body["machine"]["webs"][1:]
+    body["machine"]["webs"][0]["min_fitted_mass_kg"] = 1e6
+    found = optimized(body)
+    assert found.status == "optimal"
+    assert found.total_mass_kg == 0.0
+
+
+def test_two_webs_in_one_plane_hold_one_another() -> None:
+    """Analytic: one counterweight cannot be as light as needed, two at an angle do as much together."""
+    throw = {
+        "position_m": 0.0, "crank_radius_m": 0.1, "crank_angle_deg": 0.0, "rotating_mass_kg": 40.0, "rows": [],
+    }  # fmt: skip
+    webs = [
+        {
+            "name": name, "position_m": 0.0, "counterweight_radius_m": 0.2, "max_mass_kg": None,
+            "min_fitted_mass_kg": 50.0,
+        }
+        for name in "ab"
+    ]  # fmt: skip
+    found = optimized({"machine": {"kind": "reciprocating", "speed_rpm": 600, "throws": [throw], "webs": webs}})
+    assert found.status == "optimal"
+    assert found.certificate is not None
+    # 4 kg m are called for, and each carries at least 10
+    x, y = (sum(getattr(one, name) for one in found.counterweights) for name in ("x_kg_m", "y_kg_m"))
+    assert np.hypot(x + 4.0, y) <= 4.0 * 1e-3
+    assert all(one.mass_kg >= 50.0 for one in found.counterweights)
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
+    """Property: what some webs can carry, each at least its mass, is found again within the reach of all."""
+    request = OptimizeRequest.model_validate(fitted(seed, None, sectors=0.0))
+    scene = prepare(request)
+    program = formulate(request.machine, request.objective, scene.responses, np.array([1.0])).chosen(0)
+    least = np.array([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
+    bounded = within_semicontinuous_reach(program, least)
+    assert np.all(np.isfinite(bounded.limits.max_mass))
+    assert np.all(bounded.limits.max_mass >= least)
+    # more is asked of the webs where more has to be fitted
+    heavier = within_semicontinuous_reach(program, 2.0 * least)
+    assert np.all(heavier.limits.max_mass >= bounded.limits.max_mass)
+    # finite limits are left as they are
+    given = replace(program, limits=replace(program.limits, max_mass=np.full(least.shape, 20.0)))
+    assert within_semicontinuous_reach(given, least) is given
+
+
+@pytest.mark.parametrize("more", [{"objective": {"orders": "all"}}, {"scenarios": [{"name": "as it is"}]}])
+def test_more_than_the_first_order_needs_limits(more: Body) -> None:
+    with pytest.raises(InvalidRequest) as refusal:
+        check(OptimizeRequest, {**fitted(0, None), **more})
+    assert "the masses of all webs have a limit" in str([each.message for each in refusal.value.problems])
