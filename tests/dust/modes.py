@@ -11,7 +11,7 @@ from optimizer.studies.sweep import run_chunk
 from schemas.front.pareto import ParetoRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
-from service.validation import check
+from service.common.validation import check
 from tests.dust import machines
 from tests.hard.cases.case import Body
 

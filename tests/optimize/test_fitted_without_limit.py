@@ -9,7 +9,7 @@ from optimizer.formulation.formulate import formulate
 from optimizer.outputs.registry import prepare
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
 from schemas.request.requests import OptimizeRequest
-from service.validation import InvalidRequest, check
+from service.common.validation import InvalidRequest, check
 from tests.dust.machines import crankshaft
 from tests.hard.cases.case import Body
 from tests.verification.checking import optimized
