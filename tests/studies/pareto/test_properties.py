@@ -16,7 +16,8 @@ from tests.studies.pareto.cases import ask, below_a_corner, four_webs, front, st
 from tests.verification.checking import optimized
 
 SEEDS = st.integers(0, 10_000)
-MACHINES = settings(max_examples=8, deadline=None)
+# a front is dozens of optima
+MACHINES = settings(max_examples=settings.default.max_examples // 6, deadline=None)
 
 
 def weighted_ends(body: dict[str, Any], **objective: float) -> tuple[float, float]:

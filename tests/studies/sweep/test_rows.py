@@ -91,13 +91,14 @@ def assert_rows(request: SweepRequest, rng: np.random.Generator, most: int) -> s
 
 @pytest.mark.parametrize("task", ["optimize", "analyze"])
 @pytest.mark.parametrize("design", ["grid", "paired", "latin_hypercube"])
-def test_rows_are_the_single_answers(task: str, design: str) -> None:
-    # property: for every machine a few sweeps over random fields
+@pytest.mark.parametrize("sweeps", [1, pytest.param(3, marks=pytest.mark.nightly)])
+def test_rows_are_the_single_answers(task: str, design: str, sweeps: int) -> None:
+    # property: for every machine so many sweeps over random fields
     rng = np.random.default_rng([len(task), len(design)])
     seen: set[str] = set()
     for base in (OPTIMIZED if task == "optimize" else ANALYZED).values():
         blank = sweep(base, {"path": "/machine/speed_rpm", "values": [1]}, task=task)
-        for _ in range(3):
+        for _ in range(sweeps):
             fields, count = (int(rng.integers(1, 3)), 3) if design == "grid" else (int(rng.integers(1, 6)), 5)
             rest = {"samples": 6, "seed": int(rng.integers(100))} if design == "latin_hypercube" else {}
             request = sweep(base, *random_axes(rng, blank, fields, count), task=task, design=design, **rest)
@@ -113,7 +114,9 @@ def test_a_pressure_may_vary_alone() -> None:
     assert len({row["mean_torque_Nm"] for row in rows}) == 3
 
 
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize(
+    "seed", [*range(18), *(pytest.param(seed, marks=pytest.mark.nightly) for seed in range(18, 60))]
+)
 def test_columns_of_every_output_are_the_single_answers(seed: int) -> None:
     # property: to rounding, for as they stand machines bring no solver between
     rng = np.random.default_rng(seed)
