@@ -40,9 +40,8 @@ class Number:
 
     def __mul__(self, other: Number) -> Number:
         x, y = (self.low, self.high), (other.low, other.high)
-        (a, b), (c, d), (e, f), (g, h) = (
-            _product(*of) for of in ((x, y), (self.y, other.y), (x, other.y), (self.y, y))
-        )
+        (a, b), (c, d) = _product(x, y), _product(self.y, other.y)
+        (e, f), (g, h) = _product(x, other.y), _product(self.y, y)
         return Number((a - d) >> BITS, -((c - b) >> BITS), ((e + g) >> BITS, -(-(f + h) >> BITS)))
 
     def __truediv__(self, other: Number) -> Number:
@@ -72,10 +71,14 @@ class Number:
 
 
 def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
-    if a == (0, 0) or b == (0, 0):
-        return 0, 0
-    ends = [p * q for p in a for q in b]
-    return min(ends), max(ends)
+    (low, high), (least, most) = a, b
+    if low < 0 < high or least < 0 < most:
+        ends = [p * q for p in a for q in b]
+        return min(ends), max(ends)
+    # of either sign all through: two products say it, and half of the time of a check goes into products
+    if low >= 0:
+        return (low * least, high * most) if least >= 0 else (high * least, low * most)
+    return (low * most, high * least) if least >= 0 else (high * most, low * least)
 
 
 def real(number: float | Fraction) -> Number:
