@@ -80,6 +80,7 @@ class Seen(NamedTuple):
     """What is known of cells."""
 
     most: Real
+    rounding: Real  # of angles, which no finer cell has less of; ``most`` holds it
     by_direction: NDArray[np.bool_]  # what is open is so for the range of directions more than for that of angles
     rest: Real  # of all polynomials that count
     towards: Real  # where the direction of a peak can be
@@ -114,11 +115,12 @@ def look(cells: Cells) -> Seen:
     moved = np.sum(np.abs(whole[:, 1:]), axis=-1) + rest
     towards, width, beside = _directions(cells, whole[:, 0], moved, moved + any_way)
     most = largest * np.cos(np.minimum(beside, 0.5 * np.pi)) + rest + np.sum(loose, axis=-1)
-    most += ANGLE_ROUNDING * np.abs(whole[:, 1]) / cells.half
+    rounding = ANGLE_ROUNDING * np.abs(whole[:, 1]) / cells.half
+    most += rounding
     free = ~certain & (size + reach > 0.0)
     by_direction = np.sum(np.where(free, turning, 0.0), axis=-1) > np.sum(np.where(free, reach, 0.0), axis=-1)
     held = np.where(width >= 0.0, most, -np.inf)
-    return Seen(held, by_direction, rest, towards, width, free, signs, *_attained(cells, signs))
+    return Seen(held, rounding, by_direction, rest, towards, width, free, signs, *_attained(cells, signs))
 
 
 def _directions(cells: Cells, centre: Complex, moved: Real, off: Real) -> tuple[Real, Real, Real]:

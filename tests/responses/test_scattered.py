@@ -11,7 +11,7 @@ from optimizer.mechanics.shaft_curves import shaking
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.responses import worst_masses as scattered
-from optimizer.responses.boxes import worst_masses
+from optimizer.responses.boxes import Cells, Seen, worst_masses
 from optimizer.responses.component import component
 from optimizer.responses.curve import TurnResponse, peaks
 from optimizer.responses.mass_scatter import peaks_astray
@@ -64,6 +64,32 @@ def test_no_corner_is_worse_and_one_is_as_bad(name: str, gas: bool, shaft: str, 
         apart = np.min(np.abs(_corners(response, beside, share) - value))
         assert apart <= 1e-6 * upper
         assert abs(value + np.ravel(response.added(u, beside[1:2]))[0]) == pytest.approx(lower, rel=1e-9, abs=1e-12)
+
+
+@pytest.mark.parametrize("share", [0.02, 0.3])
+@pytest.mark.parametrize("size", [0.0, 0.03])
+@pytest.mark.parametrize(("name", "shaft"), [("twin", "continuous"), ("vee", "simple_spans")])
+def test_a_steep_peak_at_a_jump_is_left_to_rounding(
+    name: str, shaft: str, size: float, share: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Regression: 700 to 4,800 cells at a tolerance below rounding, where it were up to 330,000 as narrow as 1e-19 rad.
+
+    A valve opens where the peak is, so the curve is steep there, and the rounding of angles is no less in finer cells.
+    """
+    cells, look = [0], scattered.look
+
+    def counted(some: Cells) -> Seen:
+        cells[0] += some.member.size
+        return look(some)
+
+    monkeypatch.setattr(scattered, "look", counted)
+    responses = _responses(name, True, shaft)
+    rng = np.random.default_rng(3)
+    count = responses[0].influence.size
+    u = size * (rng.normal(size=count) + 1j * rng.normal(size=count))
+    worst = peaks_astray(responses, [share] * len(responses), u, np.full(len(responses), 1e-14))
+    assert np.all(worst.upper - worst.lower <= 1e-12 * worst.lower)
+    assert cells[0] < 10_000
 
 
 def test_sixteen_rows_that_may_be_anything_are_bracketed() -> None:
