@@ -18,8 +18,8 @@ from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.program.verdict import MASS_GAP
 
-#: relative gap of the mass that may be left, half of what an answer may claim
-_HEAVIER = 0.5 * MASS_GAP
+#: relative gap of the mass that may be left, most of what an answer may claim
+_HEAVIER = 0.9 * MASS_GAP
 #: of the mass of a point that does not keep its goals, which anything that does is lighter than
 _NO_POINT = 2.0
 #: how often webs are left empty that only then carry next to nothing

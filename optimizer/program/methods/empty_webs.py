@@ -19,8 +19,8 @@ from optimizer.program.verdict import MASS_GAP
 
 #: share of what optima may differ by that is used, which leaves the rest for rounding
 _WITH_ROOM = 0.999
-#: relative gap of the mass that may be left, half of what an answer may claim
-_HEAVIER = 0.5 * MASS_GAP
+#: relative gap of the mass that may be left, most of what an answer may claim
+_HEAVIER = 0.9 * MASS_GAP
 #: how often webs are left empty that only then carry next to nothing
 _ROUNDS = 4
 
