@@ -39,6 +39,7 @@ from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
 from service.watch import faults as watch_faults
+from service.watch.memory import give_back
 from service.watch.metrics import Metrics
 from service.watch.needs import database, disk, workers
 from service.watch.readiness import Readiness
@@ -161,6 +162,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
                 tasks.start_soon(readiness.warm, warm_up)
             desk.open()
             tasks.start_soon(readiness.watch)
+            tasks.start_soon(give_back)
             tasks.start_soon(app.state.watch.run)
             yield
             # not on the loop: events that are still open may need it to end

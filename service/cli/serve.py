@@ -18,6 +18,11 @@ def serve(
     """Run the REST service until it is interrupted."""
     import os
 
+    from service.watch.memory import keep_little
+
+    # libraries that are imported from here on read it
+    keep_little()
+
     from pydantic import ValidationError
 
     from service.app import create_app

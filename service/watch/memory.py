@@ -1,0 +1,56 @@
+"""Memory that nobody uses any more: given back to the system, which the libraries would not do by themselves."""
+
+import ctypes
+import gc
+import os
+import resource
+from collections.abc import Callable
+from pathlib import Path
+
+from anyio import sleep, to_thread
+
+#: of the GNU C library
+_MMAP_THRESHOLD, _ARENA_MAX = -3, -8
+#: what is larger is a mapping of its own, which ends when it is freed; the library would raise this by itself [bytes]
+_LARGE_BYTES = 131_072
+#: heaps that threads share, so that what one of them has freed is there for the others
+_HEAPS = 2
+#: between two times [s]: the longer, the less there was to give back [bytes]. Each stops the service for a moment
+_SHORT_S, _LONG_S = 10.0, 30.0
+_MUCH_BYTES = 4_000_000
+_PAGE_BYTES = resource.getpagesize()
+
+
+def keep_little() -> None:
+    """Have all memory come from the C library, which can be told to give it back; before Arrow is imported.
+
+    Arrow has an allocator of its own otherwise, which keeps what rows took for good.
+    """
+    os.environ.setdefault("ARROW_DEFAULT_MEMORY_POOL", "system")
+    tell = getattr(ctypes.CDLL(None), "mallopt", None)
+    # other C libraries have nothing to be told
+    if tell is not None:
+        tell(_MMAP_THRESHOLD, _LARGE_BYTES)
+        tell(_ARENA_MAX, _HEAPS)
+
+
+async def give_back() -> None:
+    """Give back what is not used, again and again, until cancelled."""
+    trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
+    pause = _SHORT_S
+    while trim is not None:
+        await sleep(pause)
+        before = _resident()
+        await to_thread.run_sync(_give_back, trim)
+        pause = _SHORT_S if before - _resident() > _MUCH_BYTES else min(2 * pause, _LONG_S)
+
+
+def _give_back(trim: Callable[[int], int]) -> None:
+    # streams that were cut are garbage with all that they held; where nothing is asked nothing else collects it
+    gc.collect()
+    trim(0)
+
+
+def _resident() -> int:
+    """Memory of this process [bytes]."""
+    return int(Path("/proc/self/statm").read_bytes().split()[1]) * _PAGE_BYTES

@@ -1,0 +1,54 @@
+"""What large answers took of memory is given back when their clients have gone."""
+
+import asyncio
+import json
+from contextlib import AsyncExitStack
+
+from service.documents.examples import load
+from tests.network.bystander import connected
+from tests.network.serving import Service, request, service
+
+_FORMATS = ("ndjson", "csv", "parquet", "arrow", "xlsx")
+#: streams, of so many addresses; rows of the sweep
+_STREAMS, _ADDRESSES, _ROWS = 24, 4, 200_000
+#: above rest, measured: 13 MB; without giving back more than 200 MB stay [MB]
+_ABOVE_MB = 60.0
+
+
+async def _swept(target: Service) -> str:
+    axes = [{"path": "/machine/speed_rpm", "start": 300, "stop": 900, "count": _ROWS}]
+    body = json.dumps({"base": json.loads(load("2d12")), "axes": axes}).encode()
+    path = (await target.ask("POST", "/v1/sweeps", body)).headers["location"]
+    async with asyncio.timeout(600):
+        while json.loads((await target.ask("GET", path)).body)["state"] != "done":
+            await asyncio.sleep(0.2)
+    return path
+
+
+async def _stopped_readers(target: Service, path: str) -> float:
+    """Memory while clients have begun to read rows, and read no more [MB]."""
+    async with AsyncExitStack() as all_of_them:
+        for number in range(_STREAMS):
+            address = f"127.0.0.{2 + number % _ADDRESSES}"
+            reader, writer = await all_of_them.enter_async_context(connected(target.port, address))
+            writer.write(request("GET", f"{path}/results?format={_FORMATS[number % len(_FORMATS)]}"))
+            await reader.readexactly(100_000)
+            writer.transport.pause_reading()
+        return target.memory_mb()[0]
+
+
+async def _given_back(target: Service, rest_mb: float) -> None:
+    async with asyncio.timeout(180):
+        while target.memory_mb()[0] > rest_mb + _ABOVE_MB:
+            await asyncio.sleep(0.5)
+
+
+def test_memory_of_stopped_readers_is_given_back() -> None:
+    with service() as target:
+        path = asyncio.run(_swept(target))
+        rest_mb = target.memory_mb()[0]
+        for _ in range(2):
+            held_mb = asyncio.run(_stopped_readers(target, path))
+            # it took something
+            assert held_mb > rest_mb + _ABOVE_MB
+            asyncio.run(_given_back(target, rest_mb))
