@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from pathlib import Path
 
+import psycopg
 import pytest
 
 from service.jobs.kinds import KINDS
@@ -23,12 +24,21 @@ def house(tmp_path: Path) -> Iterator[House]:
 
 
 @pytest.fixture(scope="session")
-def postgres_url() -> Iterator[str]:
+def postgres_server() -> Iterator[str]:
     try:
         with postgres.server() as running:
             yield running.url
     except postgres.Missing as missing:
         pytest.skip(str(missing))
+
+
+@pytest.fixture
+def postgres_url(postgres_server: str) -> Iterator[str]:
+    """A database that is empty, whichever tests came before."""
+    yield postgres_server
+    with psycopg.connect(postgres_server, autocommit=True) as connection:
+        connection.execute("DROP SCHEMA public CASCADE")
+        connection.execute("CREATE SCHEMA public")
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
@@ -38,9 +48,4 @@ def any_house(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[House]
         url = request.getfixturevalue("postgres_url")
     found = House(tmp_path, url)
     yield found
-    if url is not None:
-        from service.jobs.tables import metadata
-
-        with found.database.write() as connection:
-            metadata.drop_all(connection)
     found.database.close()

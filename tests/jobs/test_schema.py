@@ -3,7 +3,6 @@
 import json
 import sqlite3
 import time
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
@@ -21,7 +20,6 @@ from service.jobs.housekeeping import Housekeeping
 from service.jobs.kinds import table_bytes
 from service.jobs.pace import Pace
 from service.jobs.schema import NUMBER, WrongSchema
-from service.jobs.tables import metadata
 from service.settings import Settings
 from tests.jobs import schema_1
 from tests.jobs.sweeps import analyses
@@ -30,17 +28,11 @@ DONE, RUNNING, BEST = ("a" * 32, "b" * 32, "c" * 32)
 
 
 @pytest.fixture(params=["sqlite", "postgresql"])
-def settings(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[Settings]:
+def settings(request: pytest.FixtureRequest, tmp_path: Path) -> Settings:
     given: dict[str, Any] = {"data_dir": tmp_path, "sweep_workers": 1}
-    if request.param == "sqlite":
-        yield Settings(**given)
-        return
-    url = request.getfixturevalue("postgres_url")
-    yield Settings(database_url=url, **given)
-    engine = engine_of(Settings(database_url=url))
-    with engine.begin() as connection:
-        metadata.drop_all(connection)
-    engine.dispose()
+    if request.param == "postgresql":
+        given["database_url"] = request.getfixturevalue("postgres_url")
+    return Settings(**given)
 
 
 def engine_of(settings: Settings) -> Any:
