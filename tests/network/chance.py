@@ -157,7 +157,7 @@ async def send(target: Service, random: Random, count: int) -> list[tuple[Sent, 
             kept = True
             while kept and len(found) < count:
                 sent, begun = next(pending), time.perf_counter()
-                with suppress(ConnectionError):
+                with suppress(OSError):
                     writer.write(sent.raw)
                     if sent.ends:
                         writer.write_eof()
