@@ -53,9 +53,12 @@ def of_request(body: Body) -> Iterator[Fitted]:
 
 def of_front(body: Body) -> Iterator[Fitted]:
     answer = pareto(check(ParetoRequest, body))
-    for front in (*answer.fronts, *answer.trades):
+    for front in answer.fronts:
         for point in front.points:
             yield Fitted(front.status, *_masses_and_openings(point.counterweights))
+    for trade in answer.trades:
+        for traded in trade.points:
+            yield Fitted(trade.status, *_masses_and_openings(traded.counterweights))
 
 
 def of_rows(body: Body) -> Iterator[Fitted]:
