@@ -4,7 +4,7 @@ they are fitted.
 The searches of one machine take the statement with finitely many cuts, and begin with what is proven of any masses.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -18,8 +18,9 @@ from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex
-from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn
+from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn, semicontinuous_limits
 from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
 from optimizer.solve.design import certified_one
@@ -138,11 +139,13 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
             best = next_goal(so_far, reached, stages[-1].picked.unbalance, gap, robust.left_s)
         size, later = float(program.units[n]), len(program.goals) - n - 1
         kept_back = robust.left_s * later / (later + 1)
-        choices, asked_gap = feasible_set(request, best.limits, solver), request.accuracy.relative_gap
+        known = stages[-1].picked if stages else None
+        limits = _limits(request, so_far, best, reached, known)
+        choices, asked_gap = feasible_set(request, limits, solver), request.accuracy.relative_gap
         assert choices is not None  # else there would be nothing to search
-        closed, known = asked_gap * size, stages[-1].picked if stages else None
+        closed = asked_gap * size
         left_s = _left(robust, kept_back)
-        picked, found = in_rounds(so_far, best, choices, asked_gap, size, left_s, known)
+        picked, found = in_rounds(so_far, replace(best, limits=limits), choices, asked_gap, size, left_s, known)
         value = float(so_far.values(picked.unbalance, _CLOSE).goals[-1])
         left = value - found.lower_bound
         contradicted = found.kept and left < -EQUAL * size
@@ -154,6 +157,29 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
         most = max(value, found.lower_bound + asked.allowances[n] * size) + EQUAL * size if later else value
         reached.append(Reached(goal.name, value, best.proof, most))
     return stages
+
+
+def _limits(
+    request: OptimizeRequest, program: OverTurn, best: Found, before: Sequence[Reached], known: Choice | None
+) -> Limits:
+    """Limits that hold some best choice for the last goal.
+
+    Parameters
+    ----------
+    before : the goals before it.
+    known : a choice that keeps these and the ceilings, if there is one.
+    """
+    if not request.machine.semicontinuous:
+        # what is chosen from a catalogue is what it holds
+        return best.limits
+    if known is not None:
+        value = float(program.values(known.unbalance, _CLOSE).goals[-1])
+    else:
+        rest = program.at_rest
+        value = float(rest.goals[-1]) if rest.excess <= 0.0 else np.inf
+    least = stacked([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
+    most = np.array([*(goal.most for goal in before), value])
+    return semicontinuous_limits(program, least, most)
 
 
 def _left(robust: Robust, kept_back: float) -> Callable[[], float]:

@@ -95,3 +95,47 @@ def test_more_than_the_first_order_needs_limits(more: Body) -> None:
     with pytest.raises(InvalidRequest) as refusal:
         check(OptimizeRequest, {**fitted(0, None), **more})
     assert "the masses of all webs have a limit" in str([each.message for each in refusal.value.problems])
+
+
+def _over_turn(seed: int, most: float, **objective: object) -> Body:
+    """Three throws with rods, on whose webs even the lightest is heavier than any optimum of any masses."""
+    throws = {
+        17: ((290.4, 45, 12.24), (275.8, 90, 18.5), (100.2, 0, 11.22)),
+        25: ((276.7, 0, 10.35), (313.8, 90, 16.84), (308.9, 45, 5.87)),
+    }[seed]
+    rod = {"length_m": 0.4, "mass_kg": 3}
+    machine = {
+        "kind": "reciprocating",
+        "speed_rpm": 1000,
+        "throws": [
+            {
+                "position_m": 0.2 * k, "crank_radius_m": 0.1, "crank_angle_deg": crank, "rotating_mass_kg": 5,
+                "rows": [{"axis_deg": axis, "reciprocating_mass_kg": mass, "connecting_rod": rod}],
+            }
+            for k, (crank, axis, mass) in enumerate(throws)
+        ],
+        "webs": [
+            {
+                "name": f"w{k}", "position_m": 0.2 * k + 0.05 * (-1) ** k, "counterweight_radius_m": 0.15,
+                "max_mass_kg": most, "min_fitted_mass_kg": 60 * (k + 1),
+            }
+            for k in range(3)
+        ],
+    }  # fmt: skip
+    return {"machine": machine, "objective": {"orders": "all", **objective}}
+
+
+# where nothing fitted keeps no ceiling, nothing is known to begin with
+@pytest.mark.parametrize("objective", [{}, {"force_ceiling_N": 35_000}])
+@pytest.mark.parametrize("seed", [17, 25])
+def test_limits_that_are_far_away_hold_the_best_choice_over_the_turn(seed: int, objective: Body) -> None:
+    """Independent: 2,000 kg, of which the search needs no proof. Nothing fitted was "proven" to be best below 1e12."""
+    near, far = (optimized(_over_turn(seed, most, **objective)) for most in (2e3, 1e12))
+    assert near.certificate is not None
+    assert far.certificate is not None
+    for one, other in ((near, far), (far, near)):
+        assert one.certificate is not None
+        assert other.certificate is not None
+        lower = one.certificate.lower_bound
+        assert lower is None or lower <= other.certificate.objective * (1 + 1e-9)
+    assert far.status == near.status == "optimal"

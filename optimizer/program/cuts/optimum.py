@@ -16,7 +16,9 @@ from optimizer.program.cuts.semi_infinite import OverTurn
 from optimizer.program.cuts.stage import Kept, Point, Search, Stage
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import bounded, far_limits
+from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
 from optimizer.program.solution import CEILING_ROUNDING, OPTIMUM_SHARE
+from optimizer.program.statement import Statement
 
 METHOD = "cuts, clarabel"
 #: of a search whose time limit nobody has asked for
@@ -292,12 +294,36 @@ def _again(program: OverTurn, point: Point) -> Point:
     return replace(point, values=known or program.values(point.unbalance, _TOLD))
 
 
+def semicontinuous_limits(program: OverTurn, least: Real, most: Real) -> Limits:
+    """Finite limits that hold some best choice of counterweights that are at least so heavy where they are fitted.
+
+    What no optimum of any masses needs, those may: limits of :func:`over_turn` are not theirs.
+
+    Parameters
+    ----------
+    least : (K,) kg, of what is fitted; 0 where there is none.
+    most : (goals,) what the goals of some choice that keeps the ceilings come to; inf where none is known.
+    """
+    statement = _telling(program)
+    return within_semicontinuous_reach(statement, least, _level(program, most)).limits
+
+
+def _telling(program: OverTurn) -> Statement:
+    """What tells all that counterweights change, in units of the goals."""
+    telling = program.begun if program.telling is program.first else program.statement(program.telling)
+    return times(telling, 1.0 / program.units[program.goal_of])
+
+
+def _level(program: OverTurn, most: Real) -> float:
+    """What the objective of that comes to at most where the goals come to no more."""
+    # no point that is no larger has a larger sum in any case
+    return 2.0 * float(np.sum((most / program.units)[program.goal_of_case]))
+
+
 def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
     """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
-    telling = program.begun if program.telling is program.first else program.statement(program.telling)
-    statement = times(telling, 1.0 / program.units[program.goal_of])
+    statement = _telling(program)
     if not np.any(far_limits(statement)):
         return program
-    levels = np.append(most, inside.values.goals[most.size]) / program.units
-    # no point that is no larger has a larger sum in any case
-    return program.changed(limits=bounded(statement, 2.0 * float(np.sum(levels[program.goal_of_case]))).limits)
+    levels = np.append(most, inside.values.goals[most.size])
+    return program.changed(limits=bounded(statement, _level(program, levels)).limits)

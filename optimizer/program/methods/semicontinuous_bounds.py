@@ -23,19 +23,22 @@ _MARGIN = 1.0 + 1e-9
 _FEW = 4
 
 
-def within_semicontinuous_reach(statement: Statement, least: Real) -> Statement:
+def within_semicontinuous_reach(statement: Statement, least: Real, level: float | None = None) -> Statement:
     """One program with finite limits; some best choice, and the lightest of equal ones, is within them.
 
     Parameters
     ----------
     least : (K,) kg, of what is fitted; 0 where there is none.
+    level : what the objective of some choice is known to reach within the ceilings, or more; inf where none is known.
+        By default what it comes to without counterweights, if these ceilings allow that.
     """
     limits, far = statement.limits, far_limits(statement)
     if not far.any():
         return statement
-    nothing = np.zeros(far.shape, complex)
-    kept = bool(np.all(statement.ceilings.excess(nothing) <= 0))
-    level = level_above(statement, nothing) if kept else np.inf
+    if level is None:
+        nothing = np.zeros(far.shape, complex)
+        kept = bool(np.all(statement.ceilings.excess(nothing) <= 0))
+        level = level_above(statement, nothing) if kept else np.inf
     while far.any():
         mass = np.minimum(np.maximum(_mass(statement, far, least, level), least), limits.max_total_mass)
         near = far & (limits.max_mass < mass)
