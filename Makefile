@@ -20,7 +20,7 @@ run: $(kernels)
 test: export PYTHONDONTWRITEBYTECODE :=
 test: .venv/development
 	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
-	$(bin)/pytest --numprocesses 2 --dist loadfile -m "not nightly"
+	$(bin)/pytest --numprocesses 3 --dist loadfile -m "not nightly"
 
 prepared: lint freecad bytecode $(kernels)
 
