@@ -162,13 +162,9 @@ class OptimizeRequest(Scene, Ruled):
             "not beside min_fitted_mass_kg: optimise without, then give the radius that is found"
         ):
             yield Rule(broken, ("machine", *path), message)
-        more = bool(self.objective.over_the_turn or self.scenarios or machine.web_groups)
-        for k, web in enumerate(machine.webs):
-            message = (
-                "with min_fitted_mass_kg the masses of all webs have a limit, but where the first order counts alone,"
-                " without scenarios and web_groups"
-            )
-            endless = more and web.max_mass_kg is None and web.fixed is None and web.envelope is None
+        for k, web in enumerate(machine.webs if machine.web_groups else ()):
+            message = "with min_fitted_mass_kg and web_groups the masses of all webs have a limit"
+            endless = web.max_mass_kg is None and web.fixed is None and web.envelope is None
             yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
 
     @property

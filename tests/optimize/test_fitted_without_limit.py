@@ -90,14 +90,18 @@ def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
     assert within_semicontinuous_reach(given, least) is given
 
 
-@pytest.mark.parametrize("more", [{"objective": {"orders": "all"}}, {"scenarios": [{"name": "as it is"}]}])
-def test_more_than_the_first_order_needs_limits(more: Body) -> None:
+def test_groups_need_limits() -> None:
+    body = fitted(0, None)
+    machine = body["machine"]
+    for web in machine["webs"]:
+        web |= {"throw": 0, "min_fitted_mass_kg": 5.0, "counterweight_radius_m": 0.2}
+    machine["web_groups"] = [{"name": "alike", "webs": [web["name"] for web in machine["webs"]]}]
     with pytest.raises(InvalidRequest) as refusal:
-        check(OptimizeRequest, {**fitted(0, None), **more})
+        check(OptimizeRequest, body)
     assert "the masses of all webs have a limit" in str([each.message for each in refusal.value.problems])
 
 
-def _over_turn(seed: int, most: float, **objective: object) -> Body:
+def _over_turn(seed: int, most: float | None, **objective: object) -> Body:
     """Three throws with rods, on whose webs even the lightest is heavier than any optimum of any masses."""
     throws = {
         17: ((290.4, 45, 12.24), (275.8, 90, 18.5), (100.2, 0, 11.22)),
@@ -130,12 +134,21 @@ def _over_turn(seed: int, most: float, **objective: object) -> Body:
 @pytest.mark.parametrize("seed", [17, 25])
 def test_limits_that_are_far_away_hold_the_best_choice_over_the_turn(seed: int, objective: Body) -> None:
     """Independent: 2,000 kg, of which the search needs no proof. Nothing fitted was "proven" to be best below 1e12."""
-    near, far = (optimized(_over_turn(seed, most, **objective)) for most in (2e3, 1e12))
-    assert near.certificate is not None
-    assert far.certificate is not None
-    for one, other in ((near, far), (far, near)):
-        assert one.certificate is not None
-        assert other.certificate is not None
-        lower = one.certificate.lower_bound
-        assert lower is None or lower <= other.certificate.objective * (1 + 1e-9)
-    assert far.status == near.status == "optimal"
+    _come_to_the_same([_over_turn(seed, most, **objective) for most in (2e3, 1e12, None)])
+
+
+def test_no_limit_goes_with_scenarios() -> None:
+    scenarios = [{"name": "as it is"}, {"name": "light", "changes": [{"path": "/machine/speed_rpm", "value": 700}]}]
+    _come_to_the_same([{**fitted(3, most), "scenarios": scenarios} for most in (1e4, None)])
+
+
+def _come_to_the_same(bodies: list[Body]) -> None:
+    """All are optimal, and none is proven to be above what another reaches."""
+    answers = [optimized(body) for body in bodies]
+    assert [answer.status for answer in answers] == ["optimal"] * len(answers)
+    proofs = [answer.certificate for answer in answers if answer.certificate is not None]
+    least = min(proof.objective for proof in proofs)
+    for proof in proofs:
+        assert proof.lower_bound is not None
+        assert proof.lower_bound <= least * (1 + 1e-9)
+        assert proof.objective <= least * (1 + 2e-3)
