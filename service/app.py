@@ -160,9 +160,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         async with create_task_group() as tasks:
             if warm:
                 tasks.start_soon(readiness.warm, warm_up)
+                tasks.start_soon(give_back)
             desk.open()
             tasks.start_soon(readiness.watch)
-            tasks.start_soon(give_back)
             tasks.start_soon(app.state.watch.run)
             yield
             # not on the loop: events that are still open may need it to end

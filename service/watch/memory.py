@@ -7,7 +7,7 @@ import resource
 from collections.abc import Callable
 from pathlib import Path
 
-from anyio import sleep, to_thread
+from anyio import CapacityLimiter, sleep, to_thread
 
 #: of the GNU C library
 _MMAP_THRESHOLD, _ARENA_MAX = -3, -8
@@ -37,11 +37,11 @@ def keep_little() -> None:
 async def give_back() -> None:
     """Give back what is not used, again and again, until cancelled."""
     trim = getattr(ctypes.CDLL(None), "malloc_trim", None)
-    pause = _SHORT_S
+    pause, own = _SHORT_S, CapacityLimiter(1)
     while trim is not None:
         await sleep(pause)
         before = _resident()
-        await to_thread.run_sync(_give_back, trim)
+        await to_thread.run_sync(_give_back, trim, limiter=own)
         pause = _SHORT_S if before - _resident() > _MUCH_BYTES else min(2 * pause, _LONG_S)
 
 
