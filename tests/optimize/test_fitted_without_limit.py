@@ -7,6 +7,8 @@ import pytest
 
 from optimizer.formulation.formulate import formulate
 from optimizer.outputs.registry import prepare
+from optimizer.program.limits import Limits
+from optimizer.program.methods.implied_bounds import carrying_mass
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import InvalidRequest, check
@@ -88,6 +90,58 @@ def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
     # finite limits are left as they are
     given = replace(program, limits=replace(program.limits, max_mass=np.full(least.shape, 20.0)))
     assert within_semicontinuous_reach(given, least) is given
+
+
+@pytest.mark.parametrize("orders", ["first", pytest.param("all", marks=pytest.mark.nightly)])
+@pytest.mark.parametrize("ceiling", [4200.0, 6000.0])
+def test_a_web_in_the_reference_plane_carries_no_moment(orders: str, ceiling: float) -> None:
+    """Independent: nothing is known to keep the ceiling at first, and the middle web has no influence on it."""
+    rod = {"length_m": 0.4, "mass_kg": 3}
+
+    def body(most: float | None) -> Body:
+        throws = [
+            {
+                "position_m": 0.2 * (k - 1), "crank_radius_m": 0.1, "crank_angle_deg": 90 * k, "rotating_mass_kg": 5,
+                "rows": [{"axis_deg": 90, "reciprocating_mass_kg": 15, "connecting_rod": rod}],
+            }
+            for k in range(3)
+        ]  # fmt: skip
+        webs = [
+            {
+                "name": f"w{k}", "position_m": position, "counterweight_radius_m": 0.15, "max_mass_kg": most,
+                "min_fitted_mass_kg": 14,
+            }
+            for k, position in enumerate((-0.2, 0.0, 0.25))
+        ]  # fmt: skip
+        machine = {
+            "kind": "reciprocating", "speed_rpm": 1000, "throws": throws, "webs": webs, "reference_plane_m": 0.0,
+        }  # fmt: skip
+        return {"machine": machine, "objective": {"orders": orders, "moment_ceiling_Nm": ceiling}}
+
+    none, near = (optimized(body(most)).certificate for most in (None, 2e3))
+    assert none is not None
+    assert near is not None
+    assert none.lower_bound is not None
+    assert near.lower_bound is not None
+    # some of these proofs stay open
+    assert none.lower_bound <= near.objective * (1 + 1e-9)
+    assert near.lower_bound <= none.objective * (1 + 1e-9)
+
+
+def test_nothing_is_proven_of_a_response_that_nothing_bounds() -> None:
+    """Analytic: in two planes of which one feels no moment, the other has to carry it, whatever the force."""
+    none, free = np.full(2, np.inf), np.ones(2, bool)
+    webs = Limits(np.ones(2), none, free, np.ones(2, complex), np.zeros(2), np.ones(2), np.array(np.inf))
+    scalar = np.zeros(2, bool)
+    influence = np.array([[1.0, 1.0], [0.0, 2.0]])
+    assert carrying_mass(influence, webs, np.array([3.0, np.inf]), scalar) == np.inf
+    assert carrying_mass(influence, webs, np.array([np.inf, 4.0]), scalar) == np.inf
+    assert carrying_mass(influence, webs, np.array([3.0, 4.0]), scalar) == pytest.approx(7.0)
+    # where both feel the same there is nothing else to carry
+    assert carrying_mass(influence[:1], webs, np.array([3.0]), scalar) == 3.0
+    sectors = replace(webs, free=~free, half_angle_cos=np.full(2, 0.5), half_angle_sin=np.full(2, np.sqrt(0.75)))
+    assert carrying_mass(influence, sectors, np.array([3.0, np.inf]), scalar) == np.inf
+    assert carrying_mass(influence, sectors, np.array([3.0, 4.0]), scalar) < np.inf
 
 
 def test_groups_need_limits() -> None:

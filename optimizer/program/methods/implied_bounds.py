@@ -134,9 +134,11 @@ def carrying_mass(influence: Real, limits: Limits, most: Real, scalar: np.ndarra
     Parameters
     ----------
     influence : (s, n) of one kilogram.
+    most : (s,); inf where nothing bounds a response, as while no choice is known to keep the ceilings.
     """
-    plain = np.all(limits.free) and len(most) <= 2 and not np.any(scalar)
-    return _in_planes(influence, most) if plain else _in_sectors(influence, limits, most, scalar)
+    if np.all(limits.free) and len(most) <= 2 and not np.any(scalar):
+        return _in_planes(influence, most)
+    return _in_sectors(influence, limits, most, scalar) if np.all(np.isfinite(most)) else np.inf
 
 
 def _scattered(statement: Statement, far: np.ndarray, level: float) -> float | None:
@@ -231,9 +233,15 @@ def _in_planes(influence: Real, most: Real) -> float:
     a, b = influence
     apart = np.abs(a[:, None] * b - b[:, None] * a)
     apart = apart - 8 * _EPS * (np.abs(a[:, None] * b) + np.abs(b[:, None] * a))
-    each = np.abs(b) * most[0] + np.abs(a) * most[1]
+    # a response that nothing bounds bounds a web only where that does not change it
+    each = _product(np.abs(b), most[0]) + _product(np.abs(a), most[1])
     pairs = each[:, None] + each
     return float(np.min(np.where(apart > 0, pairs / np.where(apart > 0, apart, 1.0), np.inf)))
+
+
+def _product(influence: Real, most: float) -> Real:
+    """|influence| * most, 0 where nothing is changed, though nothing bounds how much."""
+    return np.where(influence > 0, np.where(influence > 0, influence, 1.0) * most, 0.0)
 
 
 def _in_sectors(influence: Real, limits: Limits, most: Real, scalar: np.ndarray) -> float:
