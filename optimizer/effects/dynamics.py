@@ -105,22 +105,22 @@ def _kinematics(context: Context) -> Motion:
 def _gas(context: Context) -> GasCycle:
     layout = context.layout
     data = chambers(_reciprocating(context.machine), layout.omega.shape)
-    given = traces(_reciprocating(context.machine), layout)
-    forces = gas_forces(data, context.given["kinematics"], layout, given)
-    return GasCycle(data, layout, forces, context.fidelity.kinematics == "exact", given)
+    records = traces(_reciprocating(context.machine), layout)
+    forces = gas_forces(data, context.results["kinematics"], layout, records)
+    return GasCycle(data, layout, forces, context.fidelity.kinematics == "exact", records)
 
 
 def _friction(context: Context) -> FrictionForces:
     data = _reciprocating(context.machine).friction
     assert data is not None  # the effect does not apply without it
-    moving = context.given["kinematics"]
+    moving = context.results["kinematics"]
     omega, stroke = context.layout.omega, 2.0 * context.layout.reciprocating.crank_radius
 
-    def of_rows(given: Sequence[float] | None, default: Real) -> Real:
-        return np.broadcast_to(default if given is None else stacked(given), stroke.shape)
+    def of_rows(values: Sequence[float] | None, default: Real) -> Real:
+        return np.broadcast_to(default if values is None else stacked(values), stroke.shape)
 
-    def of_shaft(given: float | None) -> Real:
-        return np.broadcast_to(np.asarray(0.0 if given is None else given, dtype=float), omega.shape)
+    def of_shaft(value: float | None) -> Real:
+        return np.broadcast_to(np.asarray(0.0 if value is None else value, dtype=float), omega.shape)
 
     if data.mechanical_efficiency is None:
         magnitude, torque = of_rows(data.reciprocating_force_N, np.zeros(())), of_shaft(data.rotating_torque_Nm)
@@ -137,63 +137,65 @@ def _friction(context: Context) -> FrictionForces:
 
 def _indicated_power(context: Context) -> Real:
     """Power put into the gas of the rows, (..., rows) W."""
-    return context.given["gas"].power if "gas" in context.given else np.zeros(context.layout.reciprocating.mass.shape)
+    return (
+        context.results["gas"].power if "gas" in context.results else np.zeros(context.layout.reciprocating.mass.shape)
+    )
 
 
 def _piston_force(context: Context) -> PistonForces:
-    inertia = context.layout.reciprocating.mass[..., None] * context.given["kinematics"].acceleration
-    gas = context.given["gas"].forces.total if "gas" in context.given else np.zeros_like(inertia)
-    friction = context.given["friction"].force if "friction" in context.given else np.zeros_like(inertia)
+    inertia = context.layout.reciprocating.mass[..., None] * context.results["kinematics"].acceleration
+    gas = context.results["gas"].forces.total if "gas" in context.results else np.zeros_like(inertia)
+    friction = context.results["friction"].force if "friction" in context.results else np.zeros_like(inertia)
     return PistonForces(gas, inertia, friction, gas + inertia + friction)
 
 
 def _rod_forces(context: Context) -> RodForces:
-    return rod_forces(context.given["piston_force"].total, context.given["kinematics"], context.layout)
+    return rod_forces(context.results["piston_force"].total, context.results["kinematics"], context.layout)
 
 
 def _torque(context: Context) -> TorqueSeries:
-    rows = context.given["rod_forces"].torque
-    friction = context.given["friction"].torque if "friction" in context.given else np.zeros(rows.shape[:-2])
+    rows = context.results["rod_forces"].torque
+    friction = context.results["friction"].torque if "friction" in context.results else np.zeros(rows.shape[:-2])
     return TorqueSeries(rows, np.sum(rows, axis=-2) + friction[..., None], friction)
 
 
 def _torque_at(context: Context, turn: Turn) -> tuple[Real, Real]:
     """Torque of the rows (..., rows, T) and with the friction of the shaft (..., T) at the nodes of panels."""
-    whole: WholeTurn = context.given["whole_turn"]
+    whole: WholeTurn = context.results["whole_turn"]
     leading, radius = context.layout.omega.shape, context.layout.reciprocating.crank_radius[..., None]
     force = whole.tangential(turn)
     rows = radius * force.reshape(*leading, *force.shape[1:])
-    friction = context.given["friction"].torque[..., None] if "friction" in context.given else 0.0
+    friction = context.results["friction"].torque[..., None] if "friction" in context.results else 0.0
     return rows, np.sum(rows, axis=-2) + friction
 
 
 def _breaks(context: Context) -> Real:
     """Shaft angles between which all is smooth, (..., B) rad."""
-    if "gas" not in context.given:
+    if "gas" not in context.results:
         return break_angles(context.layout)
-    gas = context.given["gas"]
+    gas = context.results["gas"]
     return break_angles(context.layout, gas.opens, gas.traces)
 
 
 def _turns(context: Context) -> int:
     """Turns of the shaft after which all repeats."""
-    return turns_of(context.given["gas"].traces) if "gas" in context.given else 1
+    return turns_of(context.results["gas"].traces) if "gas" in context.results else 1
 
 
 def _row_work(context: Context) -> RowWork | None:
     """Work of the rows in closed form, where there is one."""
-    gas: GasCycle | None = context.given.get("gas")
+    gas: GasCycle | None = context.results.get("gas")
     if context.fidelity.kinematics != "exact" or (gas is not None and gas.traces):
         return None
-    friction = context.given["friction"].magnitude if "friction" in context.given else None
+    friction = context.results["friction"].magnitude if "friction" in context.results else None
     return RowWork(context.layout, friction, None if gas is None else gas.chambers)
 
 
 def _torque_integrals(context: Context) -> TorqueIntegrals:
     omega = context.layout.omega
     friction_power, rotating = np.zeros(omega.shape), np.zeros(omega.shape)
-    if "friction" in context.given:
-        friction = context.given["friction"]
+    if "friction" in context.results:
+        friction = context.results["friction"]
         per_turn = np.sum(friction.magnitude * 4.0 * context.layout.reciprocating.crank_radius, axis=-1)
         friction_power, rotating = per_turn * omega / TURN + friction.torque * omega, friction.torque
     closed = _row_work(context)
@@ -207,7 +209,7 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
     else:
         row_mean = closed.of_a_turn / TURN
         whole = np.sum(row_mean, axis=-1) + rotating
-        energy = closed.fluctuation(context.given["whole_turn"].torque).value
+        energy = closed.fluctuation(context.results["whole_turn"].torque).value
     return TorqueIntegrals(
         row_mean=row_mean,
         mean=whole,
@@ -218,12 +220,12 @@ def _torque_integrals(context: Context) -> TorqueIntegrals:
 
 
 def _torque_errors(context: Context) -> TorqueErrors:
-    closed, torque = _row_work(context), context.given["whole_turn"].torque
+    closed, torque = _row_work(context), context.results["whole_turn"].torque
     if closed is not None:
         rounding = ROUNDING * torque.pieces.size.reshape(context.layout.omega.shape)
         return TorqueErrors(mean=rounding, fluctuation=closed.fluctuation(torque).error)
     coarse = panels(_breaks(context), _WIDEST_PANEL, turns=_turns(context))
-    fine = context.given["torque_integrals"]
+    fine = context.results["torque_integrals"]
     _, total = _torque_at(context, coarse)
     return TorqueErrors(
         mean=np.abs(fine.mean - mean(coarse, total)), fluctuation=np.abs(fine.fluctuation - fluctuation(coarse, total))
@@ -234,24 +236,26 @@ def _flywheel(context: Context) -> FlywheelFigures:
     data = _reciprocating(context.machine).flywheel
     assert data is not None  # checked by the problems
     # delta = dE / (J omega^2), the design calculation of the 2D12 (2-28)
-    ratio = context.given["torque_integrals"].fluctuation / context.layout.omega**2
+    ratio = context.results["torque_integrals"].fluctuation / context.layout.omega**2
     held = data.irregularity is not None
-    given = np.broadcast_to(np.asarray(data.irregularity if held else data.inertia_kg_m2, dtype=float), ratio.shape)
-    return FlywheelFigures(given, ratio / given) if held else FlywheelFigures(ratio / given, given)
+    stated = np.broadcast_to(np.asarray(data.irregularity if held else data.inertia_kg_m2, dtype=float), ratio.shape)
+    return FlywheelFigures(stated, ratio / stated) if held else FlywheelFigures(ratio / stated, stated)
 
 
 def _shaft_loads(context: Context) -> tuple[Real, Complex]:
-    return shaft_loads(context.given["piston_force"].total, context.given["kinematics"], context.layout, context.angle)
+    return shaft_loads(
+        context.results["piston_force"].total, context.results["kinematics"], context.layout, context.angle
+    )
 
 
 def _whole_turn(context: Context) -> WholeTurn:
-    given = context.given
+    results = context.results
     rows = row_data(
         context.layout,
         context.fidelity.kinematics == "exact",
-        given["friction"].magnitude if "friction" in given else None,
-        given["gas"].chambers if "gas" in given else None,
-        given["gas"].traces if "gas" in given else (),
+        results["friction"].magnitude if "friction" in results else None,
+        results["gas"].chambers if "gas" in results else None,
+        results["gas"].traces if "gas" in results else (),
     )
     return whole_turn(rows, _breaks(context))
 
@@ -271,7 +275,7 @@ DYNAMICS = (
     Effect(
         "indicated_work",
         "work put into the gas of every chamber",
-        lambda context: context.given["gas"].work,
+        lambda context: context.results["gas"].work,
         needs=("gas",),
         inputs=("machine.throws.rows.cylinder",),
         problems=_cylinder_problems,

@@ -20,7 +20,7 @@ class Context:
     layout: Layout
     fidelity: Fidelity
     angle: Real  # (T,) shaft angles, or (..., T) others for each machine, rad
-    given: Mapping[str, Any]
+    results: Mapping[str, Any]
 
 
 def _none(_machine: Machine) -> Iterator[Any]:

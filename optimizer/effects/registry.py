@@ -139,19 +139,23 @@ class Simulated:
 
 
 def simulate(
-    machine: Machine, layout: Layout, asked: Mapping[str, Sequence[str]], fidelity: Fidelity, angle: Real | None = None
+    machine: Machine,
+    layout: Layout,
+    demands: Mapping[str, Sequence[str]],
+    fidelity: Fidelity,
+    angle: Real | None = None,
 ) -> Simulated:
     """Run the effects that the outputs call for, each once, and no others.
 
     Parameters
     ----------
     layout : of the machine; its leading axes (...) are those of all results.
-    asked : outputs and other purposes by name, with the effects that each needs.
+    demands : outputs and other purposes by name, with the effects that each needs.
     angle : (T,) rad, shaft angles of the samples; needed only by sampled effects.
     """
     samples = np.zeros(0) if angle is None else angle
-    closures = {purpose: closure(machine, needs) for purpose, needs in asked.items()}
-    wanted = [need for needs in asked.values() for need in needs]
+    closures = {purpose: closure(machine, needs) for purpose, needs in demands.items()}
+    wanted = [need for needs in demands.values() for need in needs]
     results, times = _run(machine, layout, wanted, fidelity, samples)
     needed_by = {name: tuple(purpose for purpose, names in closures.items() if name in names) for name in times}
     return Simulated(machine, layout, fidelity, results, times, needed_by)
@@ -187,5 +191,5 @@ def _context(
 ) -> Context:
     """Context of one effect: it sees the results of the effects that it declares, and no others."""
 
-    given = {need: results[need] for need in EFFECTS[name].needs if need in results}
-    return Context(machine, layout, fidelity, angle, given)
+    visible = {need: results[need] for need in EFFECTS[name].needs if need in results}
+    return Context(machine, layout, fidelity, angle, visible)

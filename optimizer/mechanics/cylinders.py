@@ -73,10 +73,10 @@ def traces(machine: ReciprocatingMachine, layout: Layout) -> tuple[Trace, ...]:
     )
 
 
-def _start_deg(machine: ReciprocatingMachine, number: int, given: IndicatedPressure) -> Real:
+def _start_deg(machine: ReciprocatingMachine, number: int, record: IndicatedPressure) -> Real:
     """Shaft angle of the outer dead centre from which the pressure of a row counts, degrees."""
-    if given.dead_centre_deg is not None:
-        return np.asarray(given.dead_centre_deg, dtype=float)
+    if record.dead_centre_deg is not None:
+        return np.asarray(record.dead_centre_deg, dtype=float)
     throw, row = [(throw, row) for throw in machine.throws for row in throw.rows][number]
     sense = 1.0 if machine.rotation == "ccw" else -1.0
     first = np.mod(sense * (row.axis_deg - throw.crank_angle_deg), TURN_DEG)
@@ -85,18 +85,18 @@ def _start_deg(machine: ReciprocatingMachine, number: int, given: IndicatedPress
 
 
 def _trace(
-    row: int, chamber: int, given: IndicatedPressure, table: PressureTrace, start_deg: Real, ahead: Real
+    row: int, chamber: int, record: IndicatedPressure, table: PressureTrace, start_deg: Real, ahead: Real
 ) -> Trace:
     """One trace, from an entry of the cycle before to one of the next."""
     angle, pressure = (np.atleast_2d(stacked(each)) for each in (table.angle_deg, table.pressure_Pa))
-    angle, cycle = np.deg2rad(angle), TURN * given.cycle_turns
+    angle, cycle = np.deg2rad(angle), TURN * record.cycle_turns
     angle = np.concatenate([angle[:, -1:] - cycle, angle, angle[:, :1] + cycle], axis=-1)
     pressure = np.concatenate([pressure[:, -1:], pressure, pressure[:, :1]], axis=-1)
     angle, pressure = np.broadcast_arrays(angle, pressure)
     return Trace(
         row=row,
         side=chamber,
-        turns=given.cycle_turns,
+        turns=record.cycle_turns,
         angle=angle,
         pressure=pressure,
         table=np.arange(len(angle)) if len(angle) > 1 else np.zeros((), dtype=np.intp),

@@ -26,15 +26,15 @@ class Expansions:
         middle : (N, P) rad, an angle within each piece, which says what process counts.
         """
         self._rows, self._middle, self._reading = rows, middle, reading
-        self._values, self._cubics, self._fourths = _Known(), _Known(), _Known()
+        self._values, self._cubics, self._fourths = _Memory(), _Memory(), _Memory()
 
     def values(self, design: Index, piece: Index, angle: Real) -> Real:
         """Values (m, R) at angles (m,) rad."""
-        return self._values.found((design, piece, angle), lambda some: self._series(some, 0).middle[0])
+        return self._values.arrays((design, piece, angle), lambda some: self._series(some, 0).middle[0])
 
     def cubics(self, design: Index, piece: Index, angle: Real) -> Real:
         """Coefficients (4, m, R) about angles (m,) rad."""
-        return self._cubics.found((design, piece, angle), lambda some: self._series(some, 3).middle)
+        return self._cubics.arrays((design, piece, angle), lambda some: self._series(some, 3).middle)
 
     def fourths(self, design: Index, piece: Index, angle: Real, half: Real) -> Real:
         """Middle and radius (2, m, R) of the coefficients of order 4 within half widths (m,) rad of angles."""
@@ -44,7 +44,7 @@ class Expansions:
             assert series.radius is not None  # enclosures have one
             return np.stack([series.middle[0], series.radius])
 
-        return self._fourths.found((design, piece, angle, half), bounds)
+        return self._fourths.arrays((design, piece, angle, half), bounds)
 
     def _series(self, places: Places, order: int) -> Taylor:
         """About places (m,): coefficients (order + 1, m, R), or bounds of the last (m, R)."""
@@ -62,17 +62,17 @@ class Expansions:
         return Taylor(of_places(found.middle), None if found.radius is None else of_places(found.radius))
 
 
-class _Known:
+class _Memory:
     """Arrays (..., n, R) of n places, each place a few numbers."""
 
     def __init__(self) -> None:
         self._places: Places = ()
         self._arrays: NDArray[Any] = np.zeros(0)
 
-    def found(self, asked: Places, make: Callable[[Places], NDArray[Any]]) -> NDArray[Any]:
+    def arrays(self, places: Places, make: Callable[[Places], NDArray[Any]]) -> NDArray[Any]:
         """Arrays (..., m, R) of places (m,) each, made where they are not known."""
         count = len(self._places[0]) if self._places else 0
-        every = tuple(map(np.concatenate, zip(self._places, asked, strict=True))) if count else asked
+        every = tuple(map(np.concatenate, zip(self._places, places, strict=True))) if count else places
         # what is known comes first among equals
         order = np.lexsort(every)
         other = np.ones(order.size, dtype=bool)

@@ -35,13 +35,13 @@ def internal_moment(layout: Layout, unbalance: Complex | None = None) -> Real:
         found = np.zeros(arm.shape)
         for part in ("co", "counter"):
             force = np.take_along_axis(_joined([getattr(one, part) for one in forces], leading), order, axis=-1)
-            couple = _one_sided(arm[..., ::side], force[..., ::side])
+            couple = _of_side(arm[..., ::side], force[..., ::side])
             found = found + np.abs(couple)
         peaks.append(np.max(found, axis=-1, initial=0.0))
     return np.maximum(*peaks)
 
 
-def _one_sided(arm: Real, force: Complex) -> Complex:
+def _of_side(arm: Real, force: Complex) -> Complex:
     """Couple of all forces (..., n) up to each, about the place of it."""
     couple = arm * np.cumsum(force, axis=-1) - np.cumsum(arm * force, axis=-1)
     return np.asarray(couple, dtype=complex)

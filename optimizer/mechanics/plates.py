@@ -21,54 +21,54 @@ class Plates:
     @cached_property
     def outer(self) -> Real:
         """m."""
-        return self._each(lambda part, _: part.outer, np.zeros(self.webs.size))
+        return self._by_part(lambda part, _: part.outer, np.zeros(self.webs.size))
 
     @cached_property
     def most(self) -> Real:
         """Largest half-angles, rad."""
-        return self._each(lambda part, _: part.most, np.zeros(self.webs.size))
+        return self._by_part(lambda part, _: part.most, np.zeros(self.webs.size))
 
     def unbalance(self, half_angle: Real) -> Real:
         """Mass times radius, kg m."""
-        return self._each(lambda part, angle: part.unbalance(angle), half_angle)
+        return self._by_part(lambda part, angle: part.unbalance(angle), half_angle)
 
     def mass(self, half_angle: Real) -> Real:
         """kg."""
-        return self._each(lambda part, angle: part.mass(angle), half_angle)
+        return self._by_part(lambda part, angle: part.mass(angle), half_angle)
 
     def lever(self, half_angle: Real) -> Real:
         """dU/dm of what is added at these openings, m."""
-        return self._each(lambda part, angle: part.lever(angle), half_angle)
+        return self._by_part(lambda part, angle: part.lever(angle), half_angle)
 
     def inertia(self, half_angle: Real) -> Real:
         """Moments of inertia about the shaft, kg m^2."""
-        return self._each(lambda part, angle: part.inertia(angle), half_angle)
+        return self._by_part(lambda part, angle: part.inertia(angle), half_angle)
 
     def opened(self, unbalance: Real) -> Real:
         """Half-angles of the counterweights of unbalances, rad; the largest for more than a plate holds."""
-        return self._each(lambda part, each: part.opened(each), unbalance)
+        return self._by_part(lambda part, each: part.opened(each), unbalance)
 
     def chord(self, half_angle: Real) -> Real:
         """Distances of chords from the shaft, m; nan where there is none."""
 
-        def asked(part: Envelope, angle: Real) -> Real:
+        def chord_of(part: Envelope, angle: Real) -> Real:
             chord = part.chord(angle)
             return np.full(angle.shape, np.nan) if chord is None else chord
 
-        return self._each(asked, half_angle)
+        return self._by_part(chord_of, half_angle)
 
     def opened_for(self, mass: Real) -> Real:
         """Half-angles of the counterweights of masses, rad; the largest for more than a plate holds."""
-        return self._each(opened_for, mass)
+        return self._by_part(opened_for, mass)
 
     def mass_of(self, unbalance: Real) -> Real:
         """Masses of the counterweights of unbalances, kg."""
         return self.mass(self.opened(unbalance))
 
-    def _each(self, asked: Callable[[Envelope, Real], Reals], values: Real) -> Real:
+    def _by_part(self, figure: Callable[[Envelope, Real], Reals], values: Real) -> Real:
         if len(self.parts) == 1:
-            return np.asarray(asked(self.parts[0][1], values))
+            return np.asarray(figure(self.parts[0][1], values))
         found = np.empty(values.shape)
         for places, part in self.parts:
-            found[..., places] = asked(part, values[..., places])
+            found[..., places] = figure(part, values[..., places])
         return found

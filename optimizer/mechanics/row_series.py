@@ -74,12 +74,12 @@ class RowSeries:
 
     def parts(self, reading: Reading) -> tuple[Real, Real]:
         """The same, of vectors real and imaginary parts (1 or 2, ...), and the radii."""
-        if reading not in self._known:
-            self._known[reading] = self._made(reading)
-        return self._known[reading]
+        if reading not in self._readings:
+            self._readings[reading] = self._made(reading)
+        return self._readings[reading]
 
     @cached_property
-    def _known(self) -> dict[Reading, tuple[Real, Real]]:
+    def _readings(self) -> dict[Reading, tuple[Real, Real]]:
         return {}
 
     def _made(self, reading: Reading) -> tuple[Real, Real]:
@@ -98,10 +98,10 @@ class RowSeries:
         kept where one part is all."""
         from optimizer.mechanics.kernel.rows import Places, row_functions
 
-        if known := self._kept.get(True, self._kept.get(pressed)):
+        if known := self._functions_by_pressure.get(True, self._functions_by_pressure.get(pressed)):
             yield known, self.centre.shape[1]
             return
-        pressure, slope = self._given
+        pressure, slope = self._pressure
         rows, angles = self.data.packed, self.centre.shape[1]
         # the pressures may differ between designs that have all else in common
         once = len(rows.motion) == len(self.centre) == 1 and pressure.shape[1] <= 1
@@ -118,15 +118,15 @@ class RowSeries:
             places = Places(np.repeat(design, some.size), centre, wide, within, *given)
             functions = row_functions(rows, places, self.order, pressed)
             if parts == 1:
-                self._kept[pressed] = functions
+                self._functions_by_pressure[pressed] = functions
             yield functions, some.size
 
     @cached_property
-    def _kept(self) -> "dict[bool, Functions]":
+    def _functions_by_pressure(self) -> "dict[bool, Functions]":
         return {}
 
     @property
-    def _given(self) -> tuple[Real, Real]:
+    def _pressure(self) -> tuple[Real, Real]:
         """Pressures [Pa] and their slopes [Pa/rad] of the traces (T, N or 1, P)."""
         found = []
         for trace in self.data.traces:

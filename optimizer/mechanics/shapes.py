@@ -26,9 +26,9 @@ def plates(machine: Machine) -> Plates | None:
 
 
 @lru_cache(maxsize=8)
-def _side_by_side(given: tuple[Envelope | None, ...]) -> Plates:
+def _side_by_side(envelopes: tuple[Envelope | None, ...]) -> Plates:
     """The plates of the webs, which machines have in common whose counterweights differ."""
-    cut = [(k, each) for k, each in enumerate(given) if each is not None]
+    cut = [(k, each) for k, each in enumerate(envelopes) if each is not None]
     parts = []
     for shape, made in _SHAPES.items():
         places = np.array([n for n, (_, each) in enumerate(cut) if each.shape == shape], dtype=int)
@@ -41,7 +41,7 @@ def _side_by_side(given: tuple[Envelope | None, ...]) -> Plates:
             parts.append(
                 (places, made(inner, outer, areal, np.deg2rad([each.max_half_angle_deg for each in of_shape])))
             )
-    kinds = [given.index(each) for _, each in cut]
+    kinds = [envelopes.index(each) for _, each in cut]
     return Plates(np.array([k for k, _ in cut]), np.array(kinds), parts)
 
 

@@ -129,14 +129,14 @@ def _to_crossing(rule: _Rule, values: Real, interval: NDArray[np.intp]) -> Real:
     slopes = legendre.legder(coefficients)
     low, high = places[interval], places[interval + 1]
     at_low, at_high = (legendre.legval(place, coefficients, tensor=False) for place in (low, high))
-    root = np.clip(low + (high - low) * at_low / _or_one(at_low - at_high), low, high)
+    root = np.clip(low + (high - low) * at_low / _nonzero(at_low - at_high), low, high)
     for _ in range(_NEWTON_STEPS):
-        step = legendre.legval(root, coefficients, tensor=False) / _or_one(legendre.legval(root, slopes, tensor=False))
+        step = legendre.legval(root, coefficients, tensor=False) / _nonzero(legendre.legval(root, slopes, tensor=False))
         root = np.clip(root - step, low, high)
     return np.asarray(legendre.legval(root, legendre.legint(coefficients, lbnd=-1), tensor=False), dtype=float)
 
 
-def _or_one(value: Real) -> Real:
+def _nonzero(value: Real) -> Real:
     return np.where(value == 0.0, 1.0, value)
 
 

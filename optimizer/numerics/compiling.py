@@ -13,7 +13,7 @@ from numba.core.caching import FunctionCache
 from numba.core.runtime import rtsys
 
 
-class _Kept(FunctionCache):  # type: ignore[misc]
+class _MachineCode(FunctionCache):  # type: ignore[misc]
     """Loads machine code without all that numba would compile more with: a sixth of the command line's first answer."""
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
@@ -23,21 +23,21 @@ class _Kept(FunctionCache):  # type: ignore[misc]
             return self._load_overload(sig, target_context)
 
 
-def _kept(**options: bool) -> Callable[[Any], Any]:
+def _cached(**options: bool) -> Callable[[Any], Any]:
     compiled = njit(error_model="numpy", no_cfunc_wrapper=True, **options)
 
     def decorate(function: Any) -> Any:
         dispatcher = compiled(function)
-        dispatcher._cache = _Kept(function)  # noqa: SLF001 - numba has no option for it
+        dispatcher._cache = _MachineCode(function)  # noqa: SLF001 - numba has no option for it
         return dispatcher
 
     return decorate
 
 
 #: an entry; a lane that fails may divide by zero; that it failed is seen by its infinities
-kernel = _kept()
+kernel = _cached()
 #: an entry that makes no arrays
-in_place = _kept(_nrt=False)
+in_place = _cached(_nrt=False)
 #: what only kernels call, which makes no arrays and hands out none
 inner = njit(error_model="numpy", no_cpython_wrapper=True, no_cfunc_wrapper=True, _nrt=False)
 #: what only kernels call, which makes arrays or hands them out

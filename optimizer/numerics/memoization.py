@@ -17,11 +17,11 @@ def remembered(function: Callable[[Machine], Made]) -> Callable[[Machine], Made]
     last: tuple[Machine, Made] | None = None
 
     @wraps(function)
-    def asked(machine: Machine) -> Made:
+    def memoized(machine: Machine) -> Made:
         nonlocal last
         known = last
         if known is None or known[0] is not machine:
             last = known = (machine, function(machine))
         return known[1]
 
-    return asked
+    return memoized

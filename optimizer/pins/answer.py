@@ -96,13 +96,13 @@ def _torques(request: PinLoadsRequest) -> tuple[PeriodicTable, PeriodicTable | N
     return PeriodicTable(given.angle_deg, rotation), PeriodicTable(given.angle_deg, resistance)
 
 
-def _periodic(given: float | TorqueTable | ForceTable | None) -> PeriodicTable:
-    if isinstance(given, TorqueTable | ForceTable):
-        values = given.torque_Nm if isinstance(given, TorqueTable) else given.force_N
-        angle = np.array(given.angle_deg)
+def _periodic(torque: float | TorqueTable | ForceTable | None) -> PeriodicTable:
+    if isinstance(torque, TorqueTable | ForceTable):
+        values = torque.torque_Nm if isinstance(torque, TorqueTable) else torque.force_N
+        angle = np.array(torque.angle_deg)
         inside = angle < 360.0
         return PeriodicTable(angle[inside], np.array(values)[inside])
-    return PeriodicTable(np.zeros(1), np.array([float(given or 0.0)]))
+    return PeriodicTable(np.zeros(1), np.array([float(torque or 0.0)]))
 
 
 def _without(values: Real, left_out: np.ndarray) -> tuple[float | None, ...]:

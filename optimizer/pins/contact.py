@@ -87,9 +87,9 @@ def pin_contact(
     k = k / stiffest[:, None]
     mean = np.zeros(k.shape[:-1]) if held else np.sum(k * a, axis=-1) / np.sum(k, axis=-1)
     a = a - mean[:, None]
-    reach = _or_one(np.max(np.abs(a), axis=-1))
+    reach = _nonzero(np.max(np.abs(a), axis=-1))
     moment = moment / (reach * stiffest)
-    size = _or_one(np.max(np.concatenate([np.abs(moment)[:, None], c, np.abs(eps)], axis=-1), axis=-1))
+    size = _nonzero(np.max(np.concatenate([np.abs(moment)[:, None], c, np.abs(eps)], axis=-1), axis=-1))
     scaled = _Scaled(a / reach[:, None], k, c / size[:, None], eps / size[:, None], moment / size, held)
     turn, shift = _minimise(scaled)
     load = _in_equilibrium(scaled, turn, shift)
@@ -107,7 +107,7 @@ def pin_contact(
     )
 
 
-def _or_one(value: Real) -> Real:
+def _nonzero(value: Real) -> Real:
     return np.where(value > 0.0, value, 1.0)
 
 
@@ -119,7 +119,7 @@ def _minimise(scaled: _Scaled) -> tuple[Real, Real]:
     """
     a, k, eps = scaled.lever, scaled.stiffness, scaled.error
     whole, square = np.sum(k, axis=-1), np.sum(k * a**2, axis=-1)
-    turn = (scaled.torque + np.sum(k * a * eps, axis=-1)) / _or_one(square)
+    turn = (scaled.torque + np.sum(k * a * eps, axis=-1)) / _nonzero(square)
     shift = scaled.net(k * eps) / whole
     pending = np.arange(turn.size)
     for _ in range(_ITERATIONS):
@@ -153,7 +153,7 @@ def _newton_step(rows: _Scaled, strain: Real, moment: Real, sum_: Real) -> tuple
     # rounding can turn the direction of a singular system uphill; the gradient never is
     uphill = (turn * moment + shift * sum_ >= 0.0) | (tt * ss - ts**2 <= 0.0)
     turn, shift = np.where(uphill, -moment, turn), np.where(uphill, -sum_, shift)
-    length = _or_one(np.maximum(np.abs(turn), np.abs(shift)))
+    length = _nonzero(np.maximum(np.abs(turn), np.abs(shift)))
     return turn / length, shift / length
 
 
@@ -183,7 +183,7 @@ def _line_search(rows: _Scaled, strain: Real, turn: Real, shift: Real) -> Real:
     end = np.where(last, start + 1.0, kink[index, np.minimum(high, kink.shape[-1] - 1)])
     inside = strain + (0.5 * (start + end))[:, None] * change
     steepness = np.sum(np.where(np.abs(inside) > rows.clearance, rows.stiffness * change**2, 0.0), axis=-1)
-    step = np.where(steepness > 0.0, -slope(start) / _or_one(steepness), 0.0)
+    step = np.where(steepness > 0.0, -slope(start) / _nonzero(steepness), 0.0)
     return np.where(last, start + step, np.clip(start + step, start, end))
 
 
@@ -196,14 +196,14 @@ def _in_equilibrium(scaled: _Scaled, turn: Real, shift: Real) -> Real:
     for _ in range(2):
         force = -scaled.net(load)
         moment = scaled.torque - np.sum(load * scaled.lever, axis=-1) - mean * force
-        turned = np.where(square > 0.0, moment / _or_one(square), 0.0)
+        turned = np.where(square > 0.0, moment / _nonzero(square), 0.0)
         load = load + bearing * (turned[:, None] * beyond + (force / whole)[:, None])
     return load
 
 
 def _about_mean(scaled: _Scaled, bearing: Real) -> tuple[Real, Real, Real, Real]:
     """Levers (m, n) about the stiffness's mean of the bearing pins, whole stiffness, second moment, and that mean."""
-    whole = _or_one(np.sum(bearing, axis=-1))
+    whole = _nonzero(np.sum(bearing, axis=-1))
     mean = scaled.net(bearing * scaled.lever) / whole
     beyond = scaled.lever - mean[:, None]
     return beyond, whole, np.sum(bearing * beyond**2, axis=-1), mean
@@ -233,6 +233,6 @@ def _rounding(scaled: _Scaled, turn: Real, shift: Real, load: Real) -> Real:
     beyond, whole, square, _ = _about_mean(scaled, bearing)
     # levers are at most 1: a sum of n products, each with a lever that is known to some eps
     off = (load.shape[-1] + 8.0) * _EPS * (np.sum(np.abs(load), axis=-1) + np.abs(scaled.torque))
-    turned = np.where(square > 0.0, off / _or_one(square), 0.0)
+    turned = np.where(square > 0.0, off / _nonzero(square), 0.0)
     spread = bearing * (turned[:, None] * np.abs(beyond) + (off / whole)[:, None])
     return np.max(4.0 * _EPS * scaled.stiffness * parts + spread, axis=-1)

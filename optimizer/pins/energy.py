@@ -25,18 +25,18 @@ def pitch_energy(pattern: Pattern, torque: PeriodicTable) -> PitchEnergy:
 
 
 def compared(
-    asked: LossComparison, orbit_radius: float, pattern: Pattern, torque: PeriodicTable, angle_deg: Real
+    comparison: LossComparison, orbit_radius: float, pattern: Pattern, torque: PeriodicTable, angle_deg: Real
 ) -> Losses:
     """Losses of the pins and of a ring in their place; the ring's keys at shaft angles (T,) degrees."""
-    omega, ring = asked.speed_rpm * np.pi / 30.0, asked.oldham_ring
+    omega, ring = comparison.speed_rpm * np.pi / 30.0, comparison.oldham_ring
     data = Oldham(*map(np.asarray, (orbit_radius, ring.key_radius_m, ring.mass_kg, np.deg2rad(ring.axis_deg), omega)))
     # sliding speeds change sign on the ring's axis and across it, loads of even pins at their own angles
     breaks = [torque.angle_deg, np.mod(ring.axis_deg + np.arange(0.0, 360.0, 90.0), 360.0), pattern.phase_deg]
     angle, weight = _quadrature(360.0, np.concatenate([*breaks, np.mod(pattern.phase_deg + 180.0, 360.0)]))
     of_pins = pin_losses(
         pattern.loads(torque.at(angle), angle)[:, : pattern.count],
-        np.asarray(asked.pin_diameter_m),
-        np.asarray(asked.pin_friction_coefficient),
+        np.asarray(comparison.pin_diameter_m),
+        np.asarray(comparison.pin_friction_coefficient),
         np.asarray(omega),
     )
     unbounded = not pattern.formula and bool(np.any(torque.at(pattern.dead_deg) != 0.0))
@@ -49,13 +49,13 @@ def compared(
     return Losses(pins_W=pins, oldham_ring=shown, ratio=None if pins is None or loss == 0.0 else pins / loss)
 
 
-def _ring(found: Keys, speed: float, loss: float) -> OldhamLoads:
+def _ring(keys: Keys, speed: float, loss: float) -> OldhamLoads:
     return OldhamLoads(
-        frame_key_N=tuple(found.frame.tolist()),
-        scroll_keys_N=tuple((one, other) for one, other in found.scroll.tolist()),
-        frame_speed_m_s=tuple(found.frame_speed.tolist()),
-        scroll_speed_m_s=tuple(found.scroll_speed.tolist()),
-        peak_key_N=float(max(np.max(np.abs(found.frame)), np.max(np.abs(found.scroll)))),
+        frame_key_N=tuple(keys.frame.tolist()),
+        scroll_keys_N=tuple((one, other) for one, other in keys.scroll.tolist()),
+        frame_speed_m_s=tuple(keys.frame_speed.tolist()),
+        scroll_speed_m_s=tuple(keys.scroll_speed.tolist()),
+        peak_key_N=float(max(np.max(np.abs(keys.frame)), np.max(np.abs(keys.scroll)))),
         peak_speed_m_s=speed,
         loss_W=loss,
     )

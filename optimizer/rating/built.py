@@ -72,7 +72,7 @@ def build(request: RatingRequest, designs: Sequence[StageDesign]) -> list[StageB
 
 
 def _sizes(request: RatingRequest, designs: Sequence[StageDesign]) -> list[CylinderSize]:
-    bores = [one.given.bore_m or nominal_bore(one.size.bore_m, request.bore_series) for one in designs]
+    bores = [one.stage.bore_m or nominal_bore(one.size.bore_m, request.bore_series) for one in designs]
     refuse(
         FieldProblem(
             ("stages", i, "piston_rod_diameter_m"), f"must be smaller than the bore, which is rounded to {bore:.4g} m"
@@ -83,24 +83,26 @@ def _sizes(request: RatingRequest, designs: Sequence[StageDesign]) -> list[Cylin
     return [one.piston.size(bore) for one, bore in zip(designs, bores, strict=True)]
 
 
-def _corrected(one: StageDesign, suction: float, discharge: float) -> StageState:
+def _corrected(design: StageDesign, suction: float, discharge: float) -> StageState:
     """p1' = beta_k p1, p2' = beta_(k+1) p2, eps' = p2'/p1', (1-21) to (1-23)."""
-    p1, p2 = one.nominal.suction_pressure_Pa * suction, one.nominal.discharge_pressure_Pa * discharge
-    return stage_state(p1, p2, one.given.suction_temperature_K, one.n)
+    p1, p2 = design.nominal.suction_pressure_Pa * suction, design.nominal.discharge_pressure_Pa * discharge
+    return stage_state(p1, p2, design.stage.suction_temperature_K, design.n)
 
 
-def _in_cylinder(one: StageDesign, state: StageState, losses: PressureLosses) -> StageState:
+def _in_cylinder(design: StageDesign, state: StageState, losses: PressureLosses) -> StageState:
     p_s, p_d = pressures_in_cylinder(
         state.suction_pressure_Pa, state.discharge_pressure_Pa, losses.suction, losses.discharge
     )
-    return stage_state(p_s, p_d, one.given.suction_temperature_K, one.n)
+    return stage_state(p_s, p_d, design.stage.suction_temperature_K, design.n)
 
 
-def _reference_losses(request: RatingRequest, one: StageDesign) -> PressureLosses:
-    suction, discharge = one.given.suction_pressure_loss, one.given.discharge_pressure_loss
+def _reference_losses(request: RatingRequest, design: StageDesign) -> PressureLosses:
+    suction, discharge = design.stage.suction_pressure_loss, design.stage.discharge_pressure_loss
     return PressureLosses(
-        suction=suction_losses(request).at(one.nominal.suction_pressure_Pa) if suction is None else suction,
-        discharge=discharge_losses(request).at(one.nominal.discharge_pressure_Pa) if discharge is None else discharge,
+        suction=suction_losses(request).at(design.nominal.suction_pressure_Pa) if suction is None else suction,
+        discharge=discharge_losses(request).at(design.nominal.discharge_pressure_Pa)
+        if discharge is None
+        else discharge,
     )
 
 

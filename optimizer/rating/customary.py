@@ -37,7 +37,7 @@ def stage_warnings(
         if message := _outside(c.temperature, *TEMPERATURE_COEFFICIENTS):
             yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
         curve = temperature_coefficients(request)
-        if one.given.temperature_coefficient is None and curve and not curve.covers(one.nominal.pressure_ratio):
+        if one.stage.temperature_coefficient is None and curve and not curve.covers(one.nominal.pressure_ratio):
             message = f"it is extrapolated beyond the readings to a pressure ratio of {one.nominal.pressure_ratio:.4g}"
             yield RatingWarning(code="temperature_coefficient", message=message, stage=number)
         if message := _outside(c.leakage, *LEAKAGE_COEFFICIENTS):
@@ -70,8 +70,8 @@ def _outside(value: float, low: float, high: float) -> str:
     return "" if low <= value <= high else f"{value:.4g} is not within the customary {low:.4g} to {high:.4g}"
 
 
-def _extrapolated(request: RatingRequest, one: StageDesign) -> Iterator[str]:
-    given, nominal = one.given, one.nominal
+def _extrapolated(request: RatingRequest, design: StageDesign) -> Iterator[str]:
+    given, nominal = design.stage, design.nominal
     if given.suction_pressure_loss is None and not suction_losses(request).covers(nominal.suction_pressure_Pa):
         yield "suction"
     if given.discharge_pressure_loss is None and not discharge_losses(request).covers(nominal.discharge_pressure_Pa):

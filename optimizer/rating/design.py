@@ -27,7 +27,7 @@ SMALLEST_BORE_M, LARGEST_BORE_M = 1e-4, 100.0
 class StageDesign:
     """One stage between its nominal pressures."""
 
-    given: CompressionStage
+    stage: CompressionStage
     piston: Piston
     m: float
     n: float
@@ -82,7 +82,7 @@ def design(request: RatingRequest, rods: Sequence[float]) -> list[StageDesign]:
         bore = piston.bore(swept_volume(here, request.speed_rpm, found[i].delivery))
         designs.append(
             StageDesign(
-                given=stage,
+                stage=stage,
                 piston=piston,
                 m=expansion[i],
                 n=exponents[i],

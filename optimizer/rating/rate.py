@@ -66,20 +66,20 @@ def _rated(request: RatingRequest, rods: Sequence[float]) -> RatingAnswer:
     )
 
 
-def _stage(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> StageRating:
-    given, nominal, inside = one.given, one.nominal, actual.in_cylinder
+def _stage(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> StageRating:
+    given, nominal, inside = design.stage, design.nominal, actual.in_cylinder
     ambient = request.ambient_pressure_Pa
     return StageRating(
         name=given.name,
         cylinders=given.cylinders,
         nominal=nominal,
-        expansion_exponent=one.m,
-        design_coefficients=one.coefficients,
-        saturation_pressure_Pa=one.saturation_pressure,
-        condensate_coefficient=one.condensate,
-        calculated=one.size,
+        expansion_exponent=design.m,
+        design_coefficients=design.coefficients,
+        saturation_pressure_Pa=design.saturation_pressure,
+        condensate_coefficient=design.condensate,
+        calculated=design.size,
         nominal_loads=gas_loads(
-            nominal.suction_pressure_Pa, nominal.discharge_pressure_Pa, ambient, given.acting, one.size
+            nominal.suction_pressure_Pa, nominal.discharge_pressure_Pa, ambient, given.acting, design.size
         ),
         actual=actual.size,
         suction_pressure_correction=actual.corrections[0],
@@ -101,33 +101,33 @@ def _stage(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Stag
             actual.size.swept_volume_m3,
             actual.coefficients.volumetric,
             inside.pressure_ratio,
-            one.n,
+            design.n,
             request.speed_rpm,
         ),
-        cylinder=_cylinder(request, one, actual),
+        cylinder=_cylinder(request, design, actual),
     )
 
 
-def _sources(request: RatingRequest, given: CompressionStage) -> CoefficientSources:
+def _sources(request: RatingRequest, stage: CompressionStage) -> CoefficientSources:
     curve = temperature_coefficients(request)
     customary = TEMPERATURE_SOURCE if curve is None else curve.source
     return CoefficientSources(
-        suction_pressure_loss=suction_losses(request).source if given.suction_pressure_loss is None else GIVEN,
-        discharge_pressure_loss=discharge_losses(request).source if given.discharge_pressure_loss is None else GIVEN,
-        temperature_coefficient=customary if given.temperature_coefficient is None else GIVEN,
+        suction_pressure_loss=suction_losses(request).source if stage.suction_pressure_loss is None else GIVEN,
+        discharge_pressure_loss=discharge_losses(request).source if stage.discharge_pressure_loss is None else GIVEN,
+        temperature_coefficient=customary if stage.temperature_coefficient is None else GIVEN,
     )
 
 
-def _cylinder(request: RatingRequest, one: StageDesign, actual: StageBuilt) -> Cylinder:
+def _cylinder(request: RatingRequest, design: StageDesign, actual: StageBuilt) -> Cylinder:
     """One cylinder as a row of a machine takes it: pressures in the cylinder, exponents of the thermal design."""
     return Cylinder(
         bore_m=actual.size.bore_m,
-        piston_rod_diameter_m=one.piston.rod,
-        acting=one.given.acting,
+        piston_rod_diameter_m=design.piston.rod,
+        acting=design.stage.acting,
         suction_pressure_Pa=actual.in_cylinder.suction_pressure_Pa,
         discharge_pressure_Pa=actual.in_cylinder.discharge_pressure_Pa,
         ambient_pressure_Pa=request.ambient_pressure_Pa,
-        relative_clearance=one.given.relative_clearance,
-        expansion_exponent=one.m,
-        compression_exponent=one.n,
+        relative_clearance=design.stage.relative_clearance,
+        expansion_exponent=design.m,
+        compression_exponent=design.n,
     )

@@ -41,9 +41,9 @@ class Bracket(NamedTuple):
     lower: Real
     upper: Real  # nothing over the whole period is above it
 
-    def where(self, known: NDArray[np.bool_]) -> "Bracket":
+    def where(self, mask: NDArray[np.bool_]) -> "Bracket":
         """The same, nan where nothing is known (...)."""
-        return self if np.all(known) else Bracket(*(np.where(known, each, np.nan) for each in self))
+        return self if np.all(mask) else Bracket(*(np.where(mask, each, np.nan) for each in self))
 
 
 class Source(Protocol):

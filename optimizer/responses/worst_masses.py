@@ -91,14 +91,14 @@ class _Best:
     signs: Real  # (m, R)
 
 
-class _Looked(NamedTuple):
+class _Boxes(NamedTuple):
     """Cells, and what is known of them."""
 
     cells: Cells
     seen: Seen
 
-    def chosen(self, keep: NDArray[np.bool_]) -> "_Looked":
-        return _Looked(self.cells.chosen(keep), Seen._make(each[keep] for each in self.seen))
+    def chosen(self, keep: NDArray[np.bool_]) -> "_Boxes":
+        return _Boxes(self.cells.chosen(keep), Seen._make(each[keep] for each in self.seen))
 
 
 class _Search:
@@ -111,7 +111,7 @@ class _Search:
         self.tolerance, self.level = tolerance, _LEVELS[0]
         self.scale = pieces.size[curve] + np.abs(offset) + share * np.max(parts.largest[curve], axis=-1)
         self.best, self.first = _first(pieces, parts, share, offset, curve, tolerance)
-        self.later: list[_Looked] = []  # what is wide enough for now
+        self.later: list[_Boxes] = []  # what is wide enough for now
         self.spent = self.rounds = 0
 
     def run(self) -> Real:
@@ -139,12 +139,12 @@ class _Search:
         lower = self.best.lower
         return lower + np.maximum(np.maximum(self.tolerance, level) * np.maximum(lower, 0.0), ROUNDING * self.scale)
 
-    def _still_open(self, cells: Cells) -> _Looked:
+    def _still_open(self, cells: Cells) -> _Boxes:
         """Those that may hold a peak above the best found, theirs included. Of the others those that may hold one by
         finer brackets wait for these, and the rest is told in the bracket."""
         seen = look(cells)
         _keep(self.best, cells, seen)
-        looked = _Looked(cells._replace(towards=seen.towards, width=seen.width), seen)
+        looked = _Boxes(cells._replace(towards=seen.towards, width=seen.width), seen)
         # a peak at a jump of gas forces is steep on one side: what rounding of its angle leaves stays open for ever
         least = seen.most - seen.rounding
         now, ever = (least > self._above(level)[cells.member] for level in (self.level, 0.0))
@@ -152,9 +152,9 @@ class _Search:
         self.later.append(looked.chosen(ever & ~now))
         return looked.chosen(now)
 
-    def _ways(self, looked: _Looked) -> tuple[NDArray[np.bool_], ...]:
+    def _ways(self, boxes: _Boxes) -> tuple[NDArray[np.bool_], ...]:
         """Which cells are expanded anew, have few signs that are tried, and are cut by direction and by angle."""
-        cells, seen = looked
+        cells, seen = boxes
         narrow = self._above(self.level) - self.best.lower
         coarse = seen.rest > _ENOUGH * narrow[cells.member]
         free = np.count_nonzero(seen.open, axis=-1)
@@ -162,19 +162,19 @@ class _Search:
         turn = ~coarse & ~few & seen.by_direction
         return coarse, few, turn, ~(coarse | few | turn)
 
-    def _afforded(self, looked: _Looked) -> bool:
+    def _afforded(self, boxes: _Boxes) -> bool:
         """Count what one more round makes; False where that is too much."""
-        coarse, few, turn, cut = self._ways(looked)
-        free = np.count_nonzero(looked.seen.open[few], axis=-1)
+        coarse, few, turn, cut = self._ways(boxes)
+        free = np.count_nonzero(boxes.seen.open[few], axis=-1)
         made = _FINER * np.sum(coarse) + np.sum(2**free) + 2 * np.sum(turn) + _PARTS * np.sum(cut)
-        self.spent += int(made) * looked.cells.parts[0].size
+        self.spent += int(made) * boxes.cells.parts[0].size
         self.rounds += 1
         return self.spent <= _MOST_NUMBERS and self.rounds < _MOST_ROUNDS
 
-    def _finer(self, looked: _Looked) -> Cells:
-        cells, (coarse, few, turn, cut) = looked.cells, self._ways(looked)
+    def _finer(self, boxes: _Boxes) -> Cells:
+        cells, (coarse, few, turn, cut) = boxes.cells, self._ways(boxes)
         finer = self._still_open(cells.chosen(coarse).cut(_FINER)).cells
-        decided = cells.chosen(few).decided(looked.chosen(few).seen)
+        decided = cells.chosen(few).decided(boxes.chosen(few).seen)
         turned = cells.chosen(turn).turned()
         return _together([self._expanded(finer), decided, turned, cells.chosen(cut).cut(_PARTS)])
 

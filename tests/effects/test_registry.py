@@ -90,7 +90,7 @@ def test_the_context_holds_exactly_what_was_declared(monkeypatch: pytest.MonkeyP
         simulate_it = EFFECTS[name].simulate
 
         def spy(context: Context) -> Any:
-            seen.setdefault(name, []).append(set(context.given))
+            seen.setdefault(name, []).append(set(context.results))
             return simulate_it(context)
 
         return replace(EFFECTS[name], simulate=spy)
