@@ -29,7 +29,7 @@ def warm_up() -> None:
     scene = prepare(request, ("residual",))
     statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
     # no gap is small enough, so that an attempt is made
-    found = Solver().smallest_objective(statement, -1.0, told=lambda best: best.method == CONE_PROGRAM)
+    found = Solver().smallest_objective(statement, -1.0, stop=lambda best: best.method == CONE_PROGRAM)
     if found.method != CONE_PROGRAM or found.gap > _GAP * found.objective:
         raise RuntimeError(f"the reference solver left a gap of {found.gap:g}")
 

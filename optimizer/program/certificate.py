@@ -45,9 +45,9 @@ class Multipliers:
         """Those of some of the programs by their leading axes."""
         return Multipliers(self.term[programs], self.row[programs], self.ceiling[programs])
 
-    def put(self, n: "int | np.ndarray", one: "Multipliers") -> None:
+    def put(self, n: "int | np.ndarray", multipliers: "Multipliers") -> None:
         """Those of one or some of the programs of one leading axis, in place."""
-        self.term[n], self.row[n], self.ceiling[n] = one.term, one.row, one.ceiling
+        self.term[n], self.row[n], self.ceiling[n] = multipliers.term, multipliers.row, multipliers.ceiling
 
     def price(self, statement: Statement) -> Real:
         """What a unit of the objective costs: the sum of the rows of a group, alike in all if admissible (...)."""

@@ -119,7 +119,7 @@ class Flat:
         )
         return found
 
-    def settle(self, u: Complex, found: Real, target: Real, heaviest: Real, rounding: float, rungs: Real) -> None:
+    def settle(self, u: Complex, points: Real, target: Real, heaviest: Real, rounding: float, rungs: Real) -> None:
         """Points (*leading, K) without dust and at the limits that they touch, and what they come to, in place.
 
         As :func:`optimizer.program.kernel.settling.settle`.
@@ -129,7 +129,7 @@ class Flat:
         many, terms, webs = self.influence.shape
         settle(
             u.reshape(many, webs),
-            found.reshape(4, many),
+            points.reshape(4, many),
             in_order(target).reshape(many),
             in_order(heaviest).reshape(many),
             rounding,

@@ -23,15 +23,15 @@ class Points(NamedTuple):
         """One by one of the first of two leading axes, (n, N)."""
         return (Points(*values) for values in zip(*self, strict=True))
 
-    def where(self, kept: np.ndarray, other: "Points") -> "Points":
+    def where(self, mask: np.ndarray, other: "Points") -> "Points":
         """These where ``kept`` (N,), others elsewhere."""
-        if kept.all():
+        if mask.all():
             return self
-        if not kept.any():
+        if not mask.any():
             return other
         return Points(
-            np.where(kept[:, None], self.unbalance, other.unbalance),
-            *(np.where(kept, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),
+            np.where(mask[:, None], self.unbalance, other.unbalance),
+            *(np.where(mask, mine, others) for mine, others in zip(self[1:], other[1:], strict=True)),
         )
 
     def chosen(self, programs: np.ndarray) -> "Points":

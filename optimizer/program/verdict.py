@@ -102,12 +102,12 @@ def claim(
     )
 
 
-def verdict(claim: Claim, asked: float) -> Verdict:
+def verdict(claim: Claim, tolerance: float) -> Verdict:
     """Judge answers.
 
     Parameters
     ----------
-    asked : largest gap, in units of the yardsticks, that is certified enough.
+    tolerance : largest gap, in units of the yardsticks, that is certified enough.
     """
     over = claim.lower_bound - claim.value
     # of several goals the bound is a corner below which nothing is in all of them
@@ -124,10 +124,10 @@ def verdict(claim: Claim, asked: float) -> Verdict:
         light = mass_gap <= MASS_GAP
     if false.any():
         _LOG.error("a lower bound is above the value of an answer: %d of %d", np.sum(false), false.size)
-    kept, close = claim.excess <= CEILING_TOLERANCE, relative <= asked
+    kept, close = claim.excess <= CEILING_TOLERANCE, relative <= tolerance
     why = OPTIMAL if claim.mass_lower_bound is None else OPTIMAL_LIGHTEST
     optimal = ~false & kept & close & light
-    if optimal.all() and asked < np.inf:
+    if optimal.all() and tolerance < np.inf:
         # all is finite then
         every = np.full(optimal.shape, "optimal"), np.full(optimal.shape, why)
         return Verdict(*every, bound, gap, relative, mass_bound, mass_gap, mass_yardstick)

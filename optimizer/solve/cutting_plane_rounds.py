@@ -17,7 +17,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.cut import Cut, Pool
 from optimizer.program.cuts.exact_penalty import under_levels
 from optimizer.program.cuts.optimum import Found
-from optimizer.program.cuts.row_generation import FEW, MANY, one_group
+from optimizer.program.cuts.row_generation import FEW, MANY, single_group
 from optimizer.program.cuts.semi_infinite import OverTurn
 from optimizer.program.methods.discs import in_discs
 
@@ -92,15 +92,15 @@ def in_rounds(
         posed = replace(program.statement(pool.cuts), limits=best.limits)
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
         loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
-        below = one_group(loose, case_of, recent, FEW, kinds)
+        below = single_group(loose, case_of, recent, FEW, kinds)
         if choices.solved:
             # what comes to less than is known keeps the goals that come first
             whole = in_discs(under_levels(posed, program, most, least, _STEEP), choices.reach, inside=True)
-            whole = one_group(whole, case_of, recent, FEW, kinds)
+            whole = single_group(whole, case_of, recent, FEW, kinds)
         else:
             whole = under_levels(posed, program, most, bound, _SHEER)
             # a statement is of one sum
-            whole = one_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
+            whole = single_group(whole, case_of, points, MANY, kinds) if case_of[-1] > 0 else whole
         wanted = _ASKED * gap if stuck else max(_ASKED * gap, _LEFT * (min(least, at_rest) - bound))
         left = left_s() * (1.0 if stuck else _TURN)
         last = choices.best(Subproblem(whole, points, bound, wanted / size, size, left, below))

@@ -119,7 +119,7 @@ def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u
     most = np.inf
     for width in (_ABOUT, _CLOSE):
         no = [False] * len(quantities)
-        found = Brackets(quantities, no, robust.scatter).found(u, np.full(len(quantities), width))
+        found = Brackets(quantities, no, robust.scatter).evaluate(u, np.full(len(quantities), width))
         least = max(each.lower for each in found)
         # a narrow bracket that is not reached may be wider than one that was
         most = min(most, max(each.upper for each in found))

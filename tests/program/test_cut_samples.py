@@ -136,14 +136,14 @@ def test_what_is_known_of_an_unbalance_tells_of_what_is_near_it() -> None:
     """Property: no narrower than asked, never wrong, and nothing is bracketed again."""
     every, u = quantities(np.random.default_rng(1), 4, 6), drawn(1, 6)
     brackets = Brackets(every, [False] * 4, EXACT)
-    known = brackets.found(u, np.full(4, 1e-10))
-    assert brackets.found(u, np.full(4, 1e-10)) == known
+    known = brackets.evaluate(u, np.full(4, 1e-10))
+    assert brackets.evaluate(u, np.full(4, 1e-10)) == known
     beside = u * (1.0 + 1e-14)
-    near, bracket = brackets.found(beside, np.full(4, 1e-9)), peaks([each.response for each in every], beside, 1e-12)
+    near, bracket = brackets.evaluate(beside, np.full(4, 1e-9)), peaks([each.response for each in every], beside, 1e-12)
     for each, of, low, high in zip(near, known, bracket.lower, bracket.upper, strict=True):
         assert each.cut is of.cut
         assert each.lower <= low
         assert high <= each.upper <= each.lower * (1.0 + 1e-9)
     # what is asked more closely, or lies farther away, is bracketed by itself
-    assert brackets.found(u, np.full(4, 1e-13))[0].cut is not known[0].cut
-    assert brackets.found(u * 1.001, np.full(4, 1e-10))[0].cut is not known[0].cut
+    assert brackets.evaluate(u, np.full(4, 1e-13))[0].cut is not known[0].cut
+    assert brackets.evaluate(u * 1.001, np.full(4, 1e-10))[0].cut is not known[0].cut

@@ -6,7 +6,7 @@ import pytest
 from optimizer.mechanics.angles import direction
 from optimizer.numerics.arrays import Complex
 from optimizer.program.limits import Limits
-from optimizer.program.methods.implied_bounds import _told, within_reach
+from optimizer.program.methods.implied_bounds import _masses_by_inverse, within_reach
 from optimizer.program.reference.solver import _blended
 from optimizer.program.rows import combined, statement, weighted_peak
 from optimizer.program.solution import evaluated
@@ -32,19 +32,19 @@ def test_webs_that_are_told_by_what_they_change(webs: int, scale: float) -> None
     for _ in range(20):
         matrix = rng.normal(size=(3, webs)) * scale ** rng.uniform(0, 1, webs)
         masses: Complex = rng.normal(size=(2, webs)).T @ np.array([1, 1j])
-        told = _told(matrix, np.abs(matrix @ masses))
+        told = _masses_by_inverse(matrix, np.abs(matrix @ masses))
         assert np.all(np.abs(masses) <= told)
-    assert np.all(np.isinf(_told(rng.normal(size=(webs - 1, webs)), np.ones(webs - 1))))
+    assert np.all(np.isinf(_masses_by_inverse(rng.normal(size=(webs - 1, webs)), np.ones(webs - 1))))
 
 
 def test_one_web_is_told_by_one_response() -> None:
     """Analytic: half a unit a kilogram, and one unit at most."""
-    assert _told(np.array([[0.5]]), np.array([1.0])) == pytest.approx([2.0], rel=1e-12)
+    assert _masses_by_inverse(np.array([[0.5]]), np.array([1.0])) == pytest.approx([2.0], rel=1e-12)
 
 
 def test_webs_that_cannot_be_told_apart_are_not() -> None:
-    assert np.all(np.isinf(_told(np.array([[1.0, 1.0], [2.0, 2.0]]), np.ones(2))))
-    assert np.all(np.isinf(_told(np.array([[1.0, 0.0], [2.0, 0.0]]), np.ones(2))))
+    assert np.all(np.isinf(_masses_by_inverse(np.array([[1.0, 1.0], [2.0, 2.0]]), np.ones(2))))
+    assert np.all(np.isinf(_masses_by_inverse(np.array([[1.0, 0.0], [2.0, 0.0]]), np.ones(2))))
 
 
 def test_a_web_that_is_all_but_free_has_a_proven_reach() -> None:

@@ -13,7 +13,7 @@ from optimizer.program.equal_unknowns import apart, united
 from optimizer.program.methods.cascade import cascade
 from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.methods.feasibility_phase import Unreachable
-from optimizer.program.methods.single import Asked, interior_point
+from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
 
@@ -48,7 +48,7 @@ def solved(program: Statement, alike: Alike | None, share: Real, gap: Real, leas
         one = program.chosen(n)
         one = replace(one, limits=replace(one.limits, alike=alike))
         near = max(float(share[n]), _CLOSE * float(one.at_rest))
-        asked = Asked(near, max(float(gap[n]), near), least_mass)
+        asked = Target(near, max(float(gap[n]), near), least_mass)
         answer = cascade(one, asked, solver, interior_point(one, asked))
         if isinstance(answer, Unreachable):
             points[n], nowhere[n] = answer.closest, answer.excess > CEILING_TOLERANCE

@@ -29,9 +29,9 @@ class Brackets:
         cancelled : (quantities,) those whose curves are nothing.
         """
         self._quantities, self._cancelled, self._scatter = quantities, cancelled, scatter
-        self._known: list[tuple[Complex, dict[int, Reached]]] = []
+        self._recent: list[tuple[Complex, dict[int, Reached]]] = []
 
-    def found(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Reached, ...]:
+    def evaluate(self, u: Complex, tolerance: Real, chosen: Sequence[int] | None = None) -> tuple[Reached, ...]:
         """What quantities come to with an unbalance (K,) kg m.
 
         Parameters
@@ -41,7 +41,7 @@ class Brackets:
         """
         asked = range(len(self._quantities)) if chosen is None else chosen
         found: dict[int, Reached] = {}
-        for at, known in reversed(self._known):
+        for at, known in reversed(self._recent):
             change = np.abs(u - at)
             if np.max(change, initial=0.0) <= _NEAR * np.max(np.abs(u), initial=0.0):
                 near = {q: self._near(q, known[q], change) for q in asked if q in known and q not in found}
@@ -50,14 +50,14 @@ class Brackets:
         if sought:
             # half, so that rounding and what is near leave them as narrow as asked
             new = dict(zip(sought, self._bracketed(u, 0.5 * tolerance, sought), strict=True))
-            self._known = [*self._known[1 - _REMEMBERED :], (u, new)]
+            self._recent = [*self._recent[1 - _REMEMBERED :], (u, new)]
             found |= new
         return tuple(found[q] for q in asked)
 
-    def _near(self, q: int, known: Reached, change: Real) -> Reached:
+    def _near(self, q: int, reached: Reached, change: Real) -> Reached:
         influence = np.abs(self._quantities[q].response.influence)
         off = float(influence @ change) * (1.0 + self._scatter.share)
-        return Reached(known.lower - off, known.upper + off, known.cut)
+        return Reached(reached.lower - off, reached.upper + off, reached.cut)
 
     def _bracketed(self, u: Complex, tolerance: Real, chosen: list[int]) -> tuple[Reached, ...]:
         quantities, scatter = self._quantities, self._scatter

@@ -139,10 +139,10 @@ class Pool:
     def count(self) -> int:
         return sum(len(cuts) for cuts in self.cuts)
 
-    def add(self, found: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+    def add(self, evaluations: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
         """Take the cuts of every quantity whose true value is above what matters; whether any was new."""
         new = False
-        for cuts, several, least in zip(self.cuts, found, matters, strict=True):
+        for cuts, several, least in zip(self.cuts, evaluations, matters, strict=True):
             above = [each for each in several if each.lower > least]
             if not above:
                 continue

@@ -41,11 +41,13 @@ def spare(groups: Sequence[Group], about: Real) -> Real:
     return np.clip(_SHARE * left / np.maximum(about, _TINY), 0.0, _SHARE)
 
 
-def deciding(groups: Sequence[Group], found: Sequence[Reached]) -> np.ndarray:
+def deciding(groups: Sequence[Group], evaluations: Sequence[Reached]) -> np.ndarray:
     """(quantities,) whether any may be the largest of a group, by brackets."""
-    may = np.zeros(len(found), dtype=bool)
+    may = np.zeros(len(evaluations), dtype=bool)
     for group in groups:
-        least = max((each.offset + each.weight * found[each.quantity].lower for each in group.weighed), default=0.0)
+        least = max(
+            (each.offset + each.weight * evaluations[each.quantity].lower for each in group.weighed), default=0.0
+        )
         for each in group.weighed:
-            may[each.quantity] |= each.offset + each.weight * found[each.quantity].upper > least
+            may[each.quantity] |= each.offset + each.weight * evaluations[each.quantity].upper > least
     return may

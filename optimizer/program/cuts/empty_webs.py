@@ -12,7 +12,7 @@ from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.cut import Pool
 from optimizer.program.cuts.rounding import settled_turn
 from optimizer.program.cuts.semi_infinite import OverTurn
-from optimizer.program.cuts.stage import Kept, Point, Search
+from optimizer.program.cuts.stage import Levels, Point, Search
 from optimizer.program.methods.rounding import dust
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
@@ -69,7 +69,7 @@ class EmptyWebs:
         bare = self.program.changed(limits=replace(limits, max_mass=np.where(empty, 0.0, limits.max_mass)))
         u = np.where(empty, 0.0, point.unbalance)
         start = Point(u, bare.values(u, self.width), _NO_POINT * point.mass)
-        kept = Kept(self.margin, self.most, self.most)
+        kept = Levels(self.margin, self.most, self.most)
         found = Search(bare, self.pool, kept, start, self.raised, self.until).run(self.enough).point
         if found is start or found.mass >= start.mass:
             return None

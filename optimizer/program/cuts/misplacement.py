@@ -75,12 +75,12 @@ def _matter(program: OverTurn, reached: Sequence[Reached], worst: Sequence[float
     return sorted(q for q in found if peaks[q])
 
 
-def _sharper(program: OverTurn, u: Complex, asked: Sequence[tuple[_Kind, int]]) -> Iterator[float]:
+def _sharper(program: OverTurn, u: Complex, kinds: Sequence[tuple[_Kind, int]]) -> Iterator[float]:
     """The worst of peaks by brackets at all corners."""
-    if not asked:
+    if not kinds:
         return
     responses, offsets, of = [], [], []
-    for n, ((_, _, corners), q) in enumerate(asked):
+    for n, ((_, _, corners), q) in enumerate(kinds):
         response = program.quantities[q].response
         added = response.influence * u
         some = corners(added[added != 0])

@@ -13,7 +13,7 @@ from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
 from optimizer.program.cuts.rounding import settled_turn
 from optimizer.program.cuts.semi_infinite import OverTurn
-from optimizer.program.cuts.stage import Kept, Point, Search, Stage
+from optimizer.program.cuts.stage import Levels, Point, Search, Stage
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import bounded, far_limits
 from optimizer.program.methods.semicontinuous_bounds import within_semicontinuous_reach
@@ -187,15 +187,15 @@ class _Course:
         self.goals: list[Reached] = []
         self.margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * program.units
 
-    def smallest(self, n: int, enough: float, known: Proof | None = None) -> Proof:
+    def smallest(self, n: int, enough: float, proof: Proof | None = None) -> Proof:
         """Make a goal small under those before it."""
         so_far = self.program.changed(goals=self.program.goals[: n + 1])
         self.inside, most = _again(so_far, self.inside), self._most(n)
         self.so_far = _bounded(so_far, self.inside, most)
         margin = _TARGET_MARGIN * _SHARPNESS[0] * OPTIMUM_SHARE * self.program.units[:n]
-        found = self._run(Kept(margin, most - _RESERVED * self.program.units[:n], most), enough)
+        found = self._run(Levels(margin, most - _RESERVED * self.program.units[:n], most), enough)
         assert found is not None  # rest proves something of every objective
-        return found if known is None or found.bound > known.bound else known
+        return found if proof is None or found.bound > proof.bound else proof
 
     def keep(self, n: int, proof: Proof, share: float) -> None:
         """What a goal may come to from now on: so much above its bound."""
@@ -219,7 +219,7 @@ class _Course:
         self.margin = margins
         reserved = _RESERVED * self.program.units
         reserved[-1] = 0.0
-        return self._run(Kept(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
+        return self._run(Levels(margins, most - reserved, np.append(most[:-1], target)), _MASS_GAP)
 
     def found(self, mass_proof: Proof | None, target: float, loosest: float = -np.inf) -> Found:
         """What the course has come to.
@@ -261,8 +261,8 @@ class _Course:
     def _most(self, n: int) -> Real:
         return np.array([goal.most for goal in self.goals[:n]])
 
-    def _run(self, kept: Kept, enough: float) -> Proof | None:
-        stage = Search(self.so_far, self.pool, kept, self.inside, self.raised, self.until).run(enough)
+    def _run(self, levels: Levels, enough: float) -> Proof | None:
+        stage = Search(self.so_far, self.pool, levels, self.inside, self.raised, self.until).run(enough)
         self.timed_out |= stage.timed_out
         self.inside, self.rounds = stage.point, self.rounds + stage.rounds
         self.certify_s += stage.certify_s
@@ -282,7 +282,7 @@ def _nearest(program: OverTurn, pool: Pool, until: float) -> Stage:
     still = _rest(excess)
     excess = _bounded(excess, still, np.zeros(0))
     none = np.zeros(0)
-    found = Search(excess, pool, Kept(none, none, none), still, False, until).run(
+    found = Search(excess, pool, Levels(none, none, none), still, False, until).run(
         _TOLD, lambda value, bound: bound > CEILING_ROUNDING or value <= -max(_AMPLE, 0.5 * -bound)
     )
     return found._replace(point=_again(program, found.point))

@@ -65,7 +65,7 @@ def resting_proof(program: OverTurn, cuts: Cuts, statement: Statement) -> Proof:
 
 
 def proofs(
-    program: OverTurn, cuts: Cuts, statement: Statement, u: Complex, found: Multipliers, counted: Real
+    program: OverTurn, cuts: Cuts, statement: Statement, u: Complex, dual: Multipliers, counted: Real
 ) -> Iterator[Proof]:
     """Bounds of the last goal, or of the mass, by the multipliers of the solver and by sharper ones.
 
@@ -73,18 +73,18 @@ def proofs(
     ----------
     statement : of the program with these cuts.
     u : the solver's point.
-    found : the solver's multipliers, of the statement whose goals are in their units where there are several.
+    dual : the solver's multipliers, of the statement whose goals are in their units where there are several.
     counted : levels that the bound counts with, of all goals but the last; of all where the mass is to be small.
     """
     of_mass = counted.size == len(program.goals)
     charge, prices = float(np.sum(counted)), 1.0
     if program.goal_of_case.size > 1:
-        statement, found, charges = _charged(program, of_mass, statement, found)
+        statement, dual, charges = _charged(program, of_mass, statement, dual)
         kept = program.goal_of_case < counted.size
         charge = float(np.sum(charges[kept] * counted[program.goal_of_case[kept]]))
         prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
     sharper = mass_multipliers if of_mass else objective_multipliers
-    for multipliers in sharper(statement, u, found):
+    for multipliers in sharper(statement, u, dual):
         price = 0.0
         if of_mass:
             bound = float(mass_lower_bound(statement, multipliers, np.asarray(charge)))
@@ -97,12 +97,12 @@ def proofs(
 
 
 def _charged(
-    program: OverTurn, of_mass: bool, statement: Statement, found: Multipliers
+    program: OverTurn, of_mass: bool, statement: Statement, dual: Multipliers
 ) -> tuple[Statement, Multipliers, Real]:
     """The statement whose groups have the prices of their sums, where each group's multipliers sum to 1."""
     case_of, goal_of_case, unit_of = program.case_of, program.goal_of_case, units(program)
     price = np.zeros(goal_of_case.size)
-    np.maximum.at(price, case_of, np.add.reduceat(np.maximum(found.row, 0.0), statement.first_rows))
+    np.maximum.at(price, case_of, np.add.reduceat(np.maximum(dual.row, 0.0), statement.first_rows))
     last = goal_of_case == len(program.goals) - 1
     unit = 1.0 if of_mass else float(np.sum(price[last])) / unit_of[-1]
     if not unit > 0:
@@ -113,13 +113,13 @@ def _charged(
         charges[last] *= _MEAN
     each = np.where(price > 0, 1.0 / np.where(price > 0, price, 1.0), 0.0)[case_of]
     multipliers = Multipliers(
-        found.term * each[statement.group][statement.row], found.row * each[statement.group], found.ceiling / unit
+        dual.term * each[statement.group][statement.row], dual.row * each[statement.group], dual.ceiling / unit
     )
     return times(statement, charges[case_of]), multipliers, charges
 
 
 def units(program: OverTurn) -> Real:
-    """(goals,) what the goals are divided by before they are solved: one alone stays as it is."""
+    """(goals,) what the goals are divided by before they are dual: one alone stays as it is."""
     return program.units if len(program.goals) > 1 else np.ones(1)
 
 

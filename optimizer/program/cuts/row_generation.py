@@ -22,7 +22,9 @@ FEW, MANY = 16, 240
 _TOGETHER = 20_000
 
 
-def one_group(statement: Statement, case_of: np.ndarray, points: Complex, most: int, kind_of: np.ndarray) -> Statement:
+def single_group(
+    statement: Statement, case_of: np.ndarray, points: Complex, most: int, kind_of: np.ndarray
+) -> Statement:
     """One program with rows of one group, none of them above the objective, and with the ceilings that come next to
     being exceeded.
 

@@ -145,7 +145,7 @@ class OverTurn:
         """Brackets without counterweights, and which are coarse (quantities,)."""
         still = np.zeros(self.limits.radius.shape, complex)
         spare = self._spare(self.samples.sizes(still, self.scatter))
-        return self.brackets.found(still, np.maximum(_FINE, spare)), spare > _FINE
+        return self.brackets.evaluate(still, np.maximum(_FINE, spare)), spare > _FINE
 
     @cached_property
     def yardsticks(self) -> Real:
@@ -261,7 +261,7 @@ class OverTurn:
         faint = np.where(np.isfinite(self._shares), _FAINT * self._shares, 0.0)
         wanted = np.clip(width * self._shares / np.maximum(about, faint), 1e-15, 1e300)
         spare = self._spare(about)
-        return self._decided(u, wanted, self.brackets.found(u, np.maximum(wanted, spare)), spare > wanted)
+        return self._decided(u, wanted, self.brackets.evaluate(u, np.maximum(wanted, spare)), spare > wanted)
 
     def _spare(self, about: Real) -> Real:
         """Widths of brackets (quantities,) that tell of what decides nothing that it does not.
@@ -273,14 +273,14 @@ class OverTurn:
         found[[quantity.masses > 0.0 for quantity in self.quantities]] = 0.0
         return found
 
-    def _decided(self, u: Complex, tolerance: Real, found: tuple[Reached, ...], coarse: np.ndarray) -> Values:
+    def _decided(self, u: Complex, tolerance: Real, reached: tuple[Reached, ...], coarse: np.ndarray) -> Values:
         """What an unbalance comes to, by brackets of which those that are coarse (quantities,) are told again to a
         tolerance (quantities,) where they may decide something."""
-        may = deciding(self.groups, found)
+        may = deciding(self.groups, reached)
         may[[q for q, _ in self.limited]] = True
         again = np.flatnonzero(coarse & may).tolist()
-        closer = dict(zip(again, self.brackets.found(u, tolerance, again), strict=True)) if again else {}
-        return self._values(u, tuple(closer.get(q, each) for q, each in enumerate(found)), self.sizes)
+        closer = dict(zip(again, self.brackets.evaluate(u, tolerance, again), strict=True)) if again else {}
+        return self._values(u, tuple(closer.get(q, each) for q, each in enumerate(reached)), self.sizes)
 
     @cached_property
     def _shares(self) -> Real:
@@ -304,19 +304,19 @@ class OverTurn:
         found = self.samples.highest(u, self.scatter, matters)
         return self._values(u, tuple(each[0] for each in found), self.sizes), found
 
-    def _values(self, u: Complex, found: tuple[Reached, ...], sizes: Real) -> Values:
+    def _values(self, u: Complex, reached: tuple[Reached, ...], sizes: Real) -> Values:
         largest = [
             max(
                 [_sum(row, u, self.scatter) for row in group.rows]
-                + [each.offset + each.weight * found[each.quantity].upper for each in group.weighed]
+                + [each.offset + each.weight * reached[each.quantity].upper for each in group.weighed]
             )
             for group in self.groups
         ]
         over = [
             float(response.to(u).peak) + self.scatter.of(response.influence, u) - cap for response, cap in self.ceilings
         ]
-        over += [found[q].upper - cap for q, cap in self.limited]
-        return Values(self.of_goals(np.array(largest)), np.array(over) / sizes, found)
+        over += [reached[q].upper - cap for q, cap in self.limited]
+        return Values(self.of_goals(np.array(largest)), np.array(over) / sizes, reached)
 
     def excess_scales(self, cuts: Sequence[int]) -> Real:
         """What the rows of the program of the smallest excess are divided by, with so many cuts of every quantity."""

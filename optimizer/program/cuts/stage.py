@@ -50,7 +50,7 @@ _JUDGED, _CLOSE = 5e-11, 1e-12
 
 
 @dataclass(frozen=True)
-class Kept:
+class Levels:
     """Levels of goals that come first, (goals,) each."""
 
     margin: Real  # by which the solver aims lower
@@ -87,7 +87,9 @@ class Stage(NamedTuple):
 class Search:
     """One stage: the last goal of a program, or the mass, under what is kept."""
 
-    def __init__(self, program: OverTurn, pool: Pool, kept: Kept, inside: Point, raised: bool, until: float) -> None:
+    def __init__(
+        self, program: OverTurn, pool: Pool, levels: Levels, inside: Point, raised: bool, until: float
+    ) -> None:
         """Prepare.
 
         Parameters
@@ -98,11 +100,11 @@ class Search:
         until : time.thread_time() at which the search ends.
         """
         self.until = until
-        self.program, self.pool, self.kept, self.inside = program, pool, kept, inside
-        self.of_mass = kept.most.size == len(program.goals)
+        self.program, self.pool, self.levels, self.inside = program, pool, levels, inside
+        self.of_mass = levels.most.size == len(program.goals)
         self.raised = raised
         # nothing has to be kept, nor is it one that is measured by 1: an excess over ceilings, the trade of a front
-        self.free = not (kept.most.size or program.ceilings or program.limited or program.goals[-1].unit)
+        self.free = not (levels.most.size or program.ceilings or program.limited or program.goals[-1].unit)
         self.allowed = CEILING_TOLERANCE if raised else CEILING_ROUNDING
         self.unit = units(program)
         statement = times(program.begun, 1.0 / self.unit[program.goal_of])
@@ -111,21 +113,21 @@ class Search:
         natural = float(natural_reach(statement))
         self.clip = min(max(_REACH * natural, needed), largest) if natural > 0 else largest
         self.certify_s = 0.0
-        self.margin = kept.margin  # that is aimed at, no more than what is small can bear
-        self.price = np.zeros(kept.margin.size)  # of what is kept, in units of what is small
-        self.aimed = kept.most  # levels that the solver was last asked to keep
-        self.missed = np.zeros(kept.most.size)  # by what its points were above them
+        self.margin = levels.margin  # that is aimed at, no more than what is small can bear
+        self.price = np.zeros(levels.margin.size)  # of what is kept, in units of what is small
+        self.aimed = levels.most  # levels that the solver was last asked to keep
+        self.missed = np.zeros(levels.most.size)  # by what its points were above them
         self.about: Real | None = None  # variables of the last program
         self.near: Point | None = None  # the last one that kept all
         self.beyond: Point | None = None  # the last one that did not
 
-    def run(self, enough: float, told: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
+    def run(self, enough: float, stop: Callable[[float, float], bool] = lambda value, bound: False) -> Stage:
         """Rounds until the gap is small enough, or nothing more is to be had.
 
         Parameters
         ----------
         enough : gap that ends the search, in the goal's unit; of a mass relative to it.
-        told : whether a value and its bound are all that has to be known.
+        stop : whether a value and its bound are all that has to be known.
         """
         statement = self._posed()
         best, proof = self.inside, self._closed(None, statement)
@@ -150,8 +152,8 @@ class Search:
             figure = self._promise(Point(u, seen, mass))
             promised = min(promised, _Promise(figure, u), key=lambda one: one.figure)
             gap = figure - bound
-            lost = self.free and self._said(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap
-            if gap > self._wanted(enough, best) and not told(figure, bound) and self._learnt(places, u, matters):
+            lost = self.free and self._stated_goals(statement, u)[-1] - max(one.bound for one in proven) > _LOST * gap
+            if gap > self._wanted(enough, best) and not stop(figure, bound) and self._added_cuts(places, u, matters):
                 if lost:
                     # not cuts are missing but digits of the multipliers
                     attempts = [*attempts[1:], attempts[0]]
@@ -163,11 +165,11 @@ class Search:
                 narrow = _CLOSE if self.of_mass else _JUDGED
             point = self._evaluated(u, min(self._width(enough, gap), narrow))
             promised = none if promised.unbalance is u else promised
-            best = min(best, self._kept(point), key=self.figure)
+            best = min(best, self._feasible(point), key=self.figure)
             gap = self.figure(best) - bound
-            if gap <= self._wanted(enough, best) or told(self.figure(best), bound):
+            if gap <= self._wanted(enough, best) or stop(self.figure(best), bound):
                 break
-            if not self._learnt([(each,) for each in point.values.reached], u, matters):
+            if not self._added_cuts([(each,) for each in point.values.reached], u, matters):
                 proof = self._closed(proof, statement)
                 self.missed = _MISSED * np.maximum(point.values.goals[: self.aimed.size] - self.aimed, 0.0)
                 attempts = attempts[1:]
@@ -179,7 +181,7 @@ class Search:
             timed_out = self._late()
         if promised.figure < self.figure(best):
             width = self._width(enough, promised.figure - (-np.inf if proof is None else proof.bound))
-            best = min(best, self._kept(self._evaluated(promised.unbalance, width)), key=self.figure)
+            best = min(best, self._feasible(self._evaluated(promised.unbalance, width)), key=self.figure)
         return Stage(self._tidied(best), proof, rounds, self.certify_s, timed_out)
 
     def _wanted(self, enough: float, best: Point) -> float:
@@ -190,7 +192,7 @@ class Search:
         """
         if not self.of_mass:
             return enough
-        room = self.kept.counted - self.kept.most + self.margin
+        room = self.levels.counted - self.levels.most + self.margin
         return enough * best.mass + float(np.sum(self.price * np.maximum(room, 0.0)))
 
     def _late(self) -> bool:
@@ -213,11 +215,11 @@ class Search:
         """Keep back no more than costs a share of the gap that is asked for."""
         least = _LEAST_MARGIN * self.program.units[: self.margin.size]
         worth = np.where(self.price > 0, _OPEN * enough / np.where(self.price > 0, self.price, 1.0), np.inf)
-        self.margin = np.minimum(self.kept.margin, np.maximum(worth, least))
+        self.margin = np.minimum(self.levels.margin, np.maximum(worth, least))
 
-    def _learnt(self, found: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
+    def _added_cuts(self, evaluations: Sequence[Sequence[Reached]], u: Complex, matters: Real) -> bool:
         """Whether a point has shown a cut that was not known."""
-        new = self.pool.add(found, u, matters)
+        new = self.pool.add(evaluations, u, matters)
         self.pool.forget(u)
         return new
 
@@ -234,7 +236,7 @@ class Search:
                 found.append(self.figure(point) + step * (self.figure(inside) - self.figure(point)))
         return min(found)
 
-    def _said(self, statement: Statement, u: Complex) -> Real:
+    def _stated_goals(self, statement: Statement, u: Complex) -> Real:
         """(goals,) what a point comes to by its statement."""
         return self.program.of_goals(statement.largest(statement.rows(statement.norms.sizes(u))))
 
@@ -263,7 +265,7 @@ class Search:
         stage: CostStage = "mass" if self.of_mass else "objective"
         data, scaling = scale(posed, stage, self.clip, lowered, mass_unit=mass, unit=largest)
         highest = posed.largest(posed.floor)
-        aimed = self.aimed = self.kept.most - attempt.margins * self.margin - self.missed
+        aimed = self.aimed = self.levels.most - attempt.margins * self.margin - self.missed
 
         def sums(n: int, most: float) -> list[Target]:
             """The sums of a goal, none above a level."""
@@ -289,7 +291,7 @@ class Search:
         u = program.limits.into(scaling.unbalance(posed, found.solution))
         began = time.perf_counter()
         multipliers = scaling.multipliers(posed, found.solution)
-        proven = list(proofs(program, self.pool.cuts, statement, u, multipliers, self.kept.counted))
+        proven = list(proofs(program, self.pool.cuts, statement, u, multipliers, self.levels.counted))
         self.certify_s += time.perf_counter() - began
         return u, proven
 
@@ -320,7 +322,7 @@ class Search:
     def _mass(self, u: Complex) -> float:
         return float(np.sum(np.abs(u) / self.program.limits.radius))
 
-    def _kept(self, point: Point) -> Point:
+    def _feasible(self, point: Point) -> Point:
         """The best that is kept between a point and those inside; later points are moved towards the nearest."""
         if np.all(self._excess(point.values) <= 0.0):
             self.near = point
@@ -344,7 +346,7 @@ class Search:
 
     def _excess(self, values: Values) -> Real:
         """Over what has to be kept, each relative to its size (goals kept and ceilings,)."""
-        kept = self.kept.most
+        kept = self.levels.most
         over = (values.goals[: kept.size] - kept) / self.program.units[: kept.size]
         return np.concatenate([over, values.over - self.allowed])
 

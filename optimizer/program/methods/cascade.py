@@ -27,7 +27,7 @@ from optimizer.program.methods.feasibility_phase import (
 )
 from optimizer.program.methods.polish import lightened, polished
 from optimizer.program.methods.rounding import settled
-from optimizer.program.methods.single import Asked, Found, enough, interior_point
+from optimizer.program.methods.single import StagePair, Target, enough, interior_point
 from optimizer.program.points import points_at
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_ROUNDING, Solution
@@ -39,7 +39,7 @@ _SHARPNESS = 1e-4
 _MASS_GAP = 1e-6
 
 
-def cascade(statement: Statement, asked: Asked, solver: Solver, quick: Found) -> Solution | Unreachable:
+def cascade(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution | Unreachable:
     """Certified optimum of one program whose webs can all carry something.
 
     Parameters
@@ -52,52 +52,52 @@ def cascade(statement: Statement, asked: Asked, solver: Solver, quick: Found) ->
     (if neither could be decided, on the very boundary, they are not); or the proof that they cannot be.
     """
     find = _under_ceilings if statement.ceilings.names else _by_all
-    found = find(statement, asked, solver, quick)
+    found = find(statement, target, solver, quick)
     if isinstance(found, Unreachable):
         return found
-    if asked.least_mass and found.mass_multipliers is None:
+    if target.least_mass and found.mass_multipliers is None:
         # nothing is proven about the mass but that it is not below 0
-        found = replace(found, mass_multipliers=nothing_proven(statement), mass_target=found.objective + asked.share)
-    return _settled(statement, asked, found)
+        found = replace(found, mass_multipliers=nothing_proven(statement), mass_target=found.objective + target.share)
+    return _settled(statement, target, found)
 
 
-def _settled(statement: Statement, asked: Asked, found: Solution) -> Solution:
+def _settled(statement: Statement, target: Target, solution: Solution) -> Solution:
     """The same without dust, and at the limits that it touches."""
-    target = found.objective
-    if found.below_ceilings:
+    limit = solution.objective
+    if solution.below_ceilings:
         # what exceeds the ceilings is judged by a lower bound
-        share = (TARGET if asked.least_mass else ENOUGH) * asked.share
-        target = found.lower_bound + share - float(statement.rounding(found.unbalance))
-    bound = np.array([found.mass_lower_bound]) if asked.least_mass else None
+        share = (TARGET if target.least_mass else ENOUGH) * target.share
+        limit = solution.lower_bound + share - float(statement.rounding(solution.unbalance))
+    bound = np.array([solution.mass_lower_bound]) if target.least_mass else None
     alone = statement.alone()
-    points = settled(alone, points_at(alone, found.unbalance[None]), np.array([target]), bound)
-    return found.moved_to(statement, points.unbalance[0])
+    points = settled(alone, points_at(alone, solution.unbalance[None]), np.array([limit]), bound)
+    return solution.moved_to(statement, points.unbalance[0])
 
 
-def _under_ceilings(statement: Statement, asked: Asked, solver: Solver, quick: Found) -> Solution | Unreachable:
+def _under_ceilings(statement: Statement, target: Target, solver: Solver, quick: StagePair) -> Solution | Unreachable:
     """With ceilings: first whether they can be kept, and with how much room (docs/mathematics.md section 9)."""
     nearest = smallest_excess(statement, solver)
     if nearest.lower_bound > CEILING_ROUNDING:
         assert nearest.multipliers is not None  # they are what proves the bound
         return Unreachable(nearest.unbalance, nearest.objective, nearest.certify_s, nearest.multipliers)
-    if asked.least_mass and (rest := at_rest(statement, asked, quick.smallest)):
+    if target.least_mass and (rest := at_rest(statement, target, quick.smallest)):
         return replace(rest, certify_s=rest.certify_s + nearest.certify_s)
     if nearest.objective <= -AMPLE:
-        found = _by_all(statement, asked, solver, quick, nearest.unbalance, finer=False)
-        if enough(found, asked):
+        found = _by_all(statement, target, solver, quick, nearest.unbalance, finer=False)
+        if enough(found, target):
             return replace(found, certify_s=found.certify_s + nearest.certify_s)
     # what stands on the edge, or is too steep to be proven, takes up the tolerance of its ceilings
     higher = raised(statement)
-    quick = interior_point(higher, asked, inside=nearest.unbalance)
-    found = quick.lightest if quick.certified else _by_all(higher, asked, solver, quick, nearest.unbalance)
+    quick = interior_point(higher, target, inside=nearest.unbalance)
+    found = quick.lightest if quick.certified else _by_all(higher, target, solver, quick, nearest.unbalance)
     return proven_again(statement, replace(found, certify_s=found.certify_s + nearest.certify_s))
 
 
 def _by_all(
     statement: Statement,
-    asked: Asked,
+    target: Target,
     solver: Solver,
-    quick: Found,
+    quick: StagePair,
     inside: Complex | None = None,
     finer: bool = True,
 ) -> Solution:
@@ -108,34 +108,38 @@ def _by_all(
     inside : a point as far below the ceilings as there is.
     finer : whether finer numbers are tried too.
     """
-    quick = lightened(statement, asked, polished(statement, asked, quick, inside))
+    quick = lightened(statement, target, polished(statement, target, quick, inside))
     if quick.certified:
         return quick.lightest
-    found = solver.smallest_objective(statement, _SHARPNESS * asked.share, quick.smallest)
-    if asked.least_mass and found.below_ceilings:
-        found = solver.least_mass(statement, found, asked.share, _MASS_GAP, quick.lightest)
+    found = solver.smallest_objective(statement, _SHARPNESS * target.share, quick.smallest)
+    if target.least_mass and found.below_ceilings:
+        found = solver.least_mass(statement, found, target.share, _MASS_GAP, quick.lightest)
     precision = finest(statement.limits.radius.size) if finer and suits_kernel(statement) else None
-    if precision is None or enough(found, asked):
+    if precision is None or enough(found, target):
         return found
-    fine = polished(statement, asked, interior_point(statement, asked, precision, inside), inside)
-    fine = lightened(statement, asked, fine, precision)
-    return fine.lightest if fine.certified else _better_of(found, fine.lightest, asked.share)
+    fine = polished(statement, target, interior_point(statement, target, precision, inside), inside)
+    fine = lightened(statement, target, fine, precision)
+    return fine.lightest if fine.certified else _better_of(found, fine.lightest, target.share)
 
 
-def _better_of(one: Solution, other: Solution, share: float) -> Solution:
+def _better_of(first: Solution, second: Solution, share: float) -> Solution:
     """The better point with the better bound on the objective; of two optima the lighter one."""
-    one = one.bounded(other.lower_bound, other.multipliers)
-    if not other.below_ceilings:
-        return one
-    bound = one.lower_bound
-    both_optimal = max(one.objective, other.objective) - bound <= share
-    lighter = other.mass < one.mass
-    chosen = other if not one.below_ceilings or (lighter if both_optimal else other.objective < one.objective) else one
+    first = first.bounded(second.lower_bound, second.multipliers)
+    if not second.below_ceilings:
+        return first
+    bound = first.lower_bound
+    both_optimal = max(first.objective, second.objective) - bound <= share
+    lighter = second.mass < first.mass
+    chosen = (
+        second
+        if not first.below_ceilings or (lighter if both_optimal else second.objective < first.objective)
+        else first
+    )
     # a bound on the mass holds for its own first stage only, unless that stage was the worse one
-    heavier = other if other.mass_lower_bound > one.mass_lower_bound else one
+    heavier = second if second.mass_lower_bound > first.mass_lower_bound else first
     proof = heavier if both_optimal else chosen
     return replace(
-        chosen.bounded(bound, one.multipliers),
+        chosen.bounded(bound, first.multipliers),
         mass_lower_bound=proof.mass_lower_bound,
         mass_multipliers=proof.mass_multipliers,
         mass_target=proof.mass_target,

@@ -38,30 +38,32 @@ class Optimum(NamedTuple):
         return bool(np.all(close & (points.mass <= self.mass) & (points.excess <= self.excess)))
 
 
-def leave_empty(statement: Statement, found: Solutions, share: Real, least_mass: bool) -> None:
+def leave_empty(statement: Statement, solutions: Solutions, share: Real, least_mass: bool) -> None:
     """Take dust away in place from answers of N programs, as far as they stay optima.
 
     Parameters
     ----------
-    found : proven optima, or points of which less is proven, which get no worse then.
+    solutions : proven optima, or points of which less is proven, which get no worse then.
     share : (N,) how far above the smallest objective an optimum may be.
     """
     if statement.limits.radius.shape[-1] < 2:
         return
-    for n in np.flatnonzero(has_dust(statement.limits, found.unbalance)).tolist():
+    for n in np.flatnonzero(has_dust(statement.limits, solutions.unbalance)).tolist():
         some = slice(n, n + 1)
         program = statement.chosen(np.array([n]))
-        old = points_at(program, found.unbalance[some])
-        largest = np.maximum(found.lower_bound[some] + TARGET * share[some] - old.rounding, old.objective)
+        old = points_at(program, solutions.unbalance[some])
+        largest = np.maximum(solutions.lower_bound[some] + TARGET * share[some] - old.rounding, old.objective)
         optimum = Optimum(
             largest,
-            np.maximum(old.mass, found.mass_lower_bound[some] / (1.0 - _HEAVIER)) if least_mass else np.array([np.inf]),
+            np.maximum(old.mass, solutions.mass_lower_bound[some] / (1.0 - _HEAVIER))
+            if least_mass
+            else np.array([np.inf]),
             np.maximum(old.excess, CEILING_ROUNDING),
-            found.mass_lower_bound[some] if least_mass else None,
+            solutions.mass_lower_bound[some] if least_mass else None,
         )
         new = _emptied(program, old, optimum, share[some], least_mass)
-        found.unbalance[n], found.objective[n] = new.unbalance[0], new.objective[0]
-        found.mass[n], found.excess[n] = new.mass[0], new.excess[0]
+        solutions.unbalance[n], solutions.objective[n] = new.unbalance[0], new.objective[0]
+        solutions.mass[n], solutions.excess[n] = new.mass[0], new.excess[0]
 
 
 def _emptied(program: Statement, old: Points, optimum: Optimum, share: Real, least_mass: bool) -> Points:

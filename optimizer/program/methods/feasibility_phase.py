@@ -14,7 +14,7 @@ from optimizer.program.certificate import (
     objective_lower_bound,
 )
 from optimizer.program.kernel.finer_numbers import EXTENDED
-from optimizer.program.methods.single import Asked, interior_point
+from optimizer.program.methods.single import Target, interior_point
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import CEILING_ROUNDING, Solution
 from optimizer.program.statement import Statement
@@ -40,7 +40,7 @@ class Unreachable:
 def smallest_excess(statement: Statement, solver: Solver) -> Solution:
     """The smallest largest excess over the ceilings, as far as its sign and the room below them are told."""
     program = statement.excess()
-    asked = Asked(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
+    asked = Target(CEILING_TOLERANCE, CEILING_TOLERANCE, False)
     found = interior_point(program, asked).smallest
     if not _tells(found) and statement.limits.radius.size <= EXTENDED.most_webs:
         # sharper than the reference solver, and less work than its tries
@@ -54,16 +54,16 @@ def _tells(excess: Solution) -> bool:
     return excess.lower_bound > CEILING_ROUNDING or excess.objective <= -AMPLE or excess.gap <= _TOLD
 
 
-def at_rest(statement: Statement, asked: Asked, known: Solution) -> Solution | None:
+def at_rest(statement: Statement, target: Target, solution: Solution) -> Solution | None:
     """No counterweights, where they are an optimum but for the tolerance of the ceilings: nothing is lighter."""
-    rest = known.moved_to(statement, np.zeros_like(known.unbalance))
+    rest = solution.moved_to(statement, np.zeros_like(solution.unbalance))
     if not rest.keeps_ceilings or rest.below_ceilings:
         return None
     rest = replace(rest, mass_lower_bound=0.0, mass_multipliers=nothing_proven(statement))
-    rest = replace(rest, mass_target=rest.objective + asked.share)
-    assert known.multipliers is not None  # those of rest, at least
-    allowance = ceiling_allowance(statement, known.multipliers, statement.ceilings.excess(rest.unbalance))
-    return rest if rest.gap + float(allowance) <= asked.share else None
+    rest = replace(rest, mass_target=rest.objective + target.share)
+    assert solution.multipliers is not None  # those of rest, at least
+    allowance = ceiling_allowance(statement, solution.multipliers, statement.ceilings.excess(rest.unbalance))
+    return rest if rest.gap + float(allowance) <= target.share else None
 
 
 def raised(statement: Statement) -> Statement:
@@ -71,12 +71,14 @@ def raised(statement: Statement) -> Statement:
     return replace(statement, ceilings=statement.ceilings.raised(_RAISED))
 
 
-def proven_again(statement: Statement, found: Solution) -> Solution:
+def proven_again(statement: Statement, solution: Solution) -> Solution:
     """The same point with its bounds, both for the ceilings that were asked for."""
-    found = found.moved_to(statement, found.unbalance)
-    if found.multipliers is not None:
-        found = replace(found, lower_bound=float(objective_lower_bound(statement, found.multipliers)))
-    if found.mass_multipliers is not None:
-        target = np.asarray(found.mass_target)
-        found = replace(found, mass_lower_bound=float(mass_lower_bound(statement, found.mass_multipliers, target)))
-    return found
+    solution = solution.moved_to(statement, solution.unbalance)
+    if solution.multipliers is not None:
+        solution = replace(solution, lower_bound=float(objective_lower_bound(statement, solution.multipliers)))
+    if solution.mass_multipliers is not None:
+        target = np.asarray(solution.mass_target)
+        solution = replace(
+            solution, mass_lower_bound=float(mass_lower_bound(statement, solution.mass_multipliers, target))
+        )
+    return solution

@@ -123,7 +123,7 @@ def _masses(statement: Statement, far: np.ndarray, level: float) -> Real:
         return masses
     influence = rows * limits.radius
     together = carrying_mass(influence, limits, most, scalar)
-    each = _MARGIN * np.minimum(together, _told(influence[~scalar], most[~scalar]))
+    each = _MARGIN * np.minimum(together, _masses_by_inverse(influence[~scalar], most[~scalar]))
     masses[far] = np.where(np.isfinite(each), each, LARGEST)
     return masses
 
@@ -196,7 +196,7 @@ def responses(statement: Statement, far: np.ndarray, level: float) -> tuple[Real
     return np.array(rows), np.array(most) * _MARGIN, np.array(kinds)
 
 
-def _told(influence: Real | Complex, most: Real) -> Real:
+def _masses_by_inverse(influence: Real | Complex, most: Real) -> Real:
     """Masses (n,) of webs that are told by what they change, of which every c has |c_s| <= most_s, kg; else inf.
 
     Each is G c, with G a left inverse of the influences, but for the error 1 - G A of that.

@@ -21,7 +21,7 @@ _FAR = 0.5
 
 
 def settle_without_slack_rows(
-    statement: Statement, share: Real, demand: Real, least_mass: bool, found: BothStages
+    statement: Statement, share: Real, demand: Real, least_mass: bool, stages: BothStages
 ) -> None:
     """Certify in place what both stages left open of N programs of one group, as far as fewer rows do.
 
@@ -31,10 +31,10 @@ def settle_without_slack_rows(
     """
     if statement.floor.shape[-1] < 2:
         return
-    left = np.flatnonzero(~found.certified)
+    left = np.flatnonzero(~stages.certified)
     if not left.size:
         return
-    rows = statement.chosen(left).rows(statement.chosen(left).norms.sizes(found.smallest[left]))
+    rows = statement.chosen(left).rows(statement.chosen(left).norms.sizes(stages.smallest[left]))
     largest = np.max(rows, axis=-1, keepdims=True)
     # never the largest itself, which may be below 0
     far = largest - rows > _FAR * np.abs(largest)
@@ -52,7 +52,7 @@ def settle_without_slack_rows(
             multipliers=_over_all(whole, ~pattern, terms, part.multipliers),
             mass_multipliers=_over_all(whole, ~pattern, terms, part.mass_multipliers),
         )
-        found.put(programs[kept], part.chosen(kept))
+        stages.put(programs[kept], part.chosen(kept))
 
 
 def _of_rows(statement: Statement, rows: np.ndarray, terms: np.ndarray) -> Statement:

@@ -14,7 +14,7 @@ from optimizer.program.methods.compiled import both_stages, suits_kernel
 from optimizer.program.methods.empty_webs import leave_empty
 from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.inactive_rows import settle_without_slack_rows
-from optimizer.program.methods.single import Asked, interior_point, only
+from optimizer.program.methods.single import Target, interior_point, only
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import (
     CLOSED_FORM,
@@ -96,19 +96,19 @@ def _optima(statement: Statement, relative_gap: float, least_mass: bool, solver:
         settle_without_slack_rows(statement, share, demand, least_mass, found)
     answer = _nothing(statement) if found is None else _compiled(statement, found)
     for n in range(size.size) if found is None else np.flatnonzero(~found.certified).tolist():
-        program, asked = statement.chosen(n), Asked(float(share[n]), float(demand[n]), least_mass)
+        program, asked = statement.chosen(n), Target(float(share[n]), float(demand[n]), least_mass)
         quick = interior_point(program, asked) if found is None else only(program, asked, found.chosen(np.array([n])))
         _put(answer, n, program, cascade(program, asked, solver, quick))
     leave_empty(statement, answer, share, least_mass)
     return answer
 
 
-def _compiled(statement: Statement, found: Solutions) -> Optima:
+def _compiled(statement: Statement, solutions: Solutions) -> Optima:
     """What the compiled interior point has found."""
-    programs = found.objective.shape
+    programs = solutions.objective.shape
     method = INTERIOR_POINT if statement.limits.radius.shape[-1] else CLOSED_FORM
     return Optima(
-        **{field.name: getattr(found, field.name) for field in fields(Solutions)},
+        **{field.name: getattr(solutions, field.name) for field in fields(Solutions)},
         unreachable=np.zeros(programs, bool),
         method=np.full(programs, method, dtype=object),
         conflict=_no_conflict(statement),
@@ -141,16 +141,16 @@ def _nothing(statement: Statement) -> Optima:
     )
 
 
-def _put(answer: Optima, n: int, statement: Statement, found: Solution | Unreachable) -> None:
-    if isinstance(found, Unreachable):
+def _put(answer: Optima, n: int, statement: Statement, solution: Solution | Unreachable) -> None:
+    if isinstance(solution, Unreachable):
         answer.unreachable[n] = True
-        answer.conflict.put(n, found.multipliers)
+        answer.conflict.put(n, solution.multipliers)
         # that ceilings cannot be kept is a finding of the reference solver alone
-        method = CONE_PROGRAM if found.closest.size else CLOSED_FORM
-        nowhere = Solution(found.closest, np.inf, -np.inf, np.inf, 0.0, np.inf, method, found.certify_s)
-        found = nowhere.moved_to(statement, found.closest)
+        method = CONE_PROGRAM if solution.closest.size else CLOSED_FORM
+        nowhere = Solution(solution.closest, np.inf, -np.inf, np.inf, 0.0, np.inf, method, solution.certify_s)
+        solution = nowhere.moved_to(statement, solution.closest)
     for field in fields(Solution):
-        value = getattr(found, field.name)
+        value = getattr(solution, field.name)
         if isinstance(value, Multipliers):
             getattr(answer, field.name).put(n, value)
         elif value is not None:

@@ -9,7 +9,7 @@ from optimizer.numerics.arrays import Complex
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.kernel.finer_numbers import FIFTY_DIGITS, Precision
 from optimizer.program.methods.compiled import ENOUGH, ENOUGH_FOR_MASS, pulled
-from optimizer.program.methods.single import Asked, Found, interior_point, light
+from optimizer.program.methods.single import StagePair, Target, interior_point, light
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, supporting_multipliers
 from optimizer.program.solution import Solution
 from optimizer.program.statement import Statement
@@ -20,64 +20,64 @@ _LIGHTENINGS, _ROOM_FOR_MASS = 8, 4.0
 _WORTH_LESS, _WORTH_LESS_IN_FIFTY = 0.1, 1e-3
 
 
-def polished(statement: Statement, asked: Asked, found: Found, inside: Complex | None) -> Found:
+def polished(statement: Statement, target: Target, stages: StagePair, inside: Complex | None) -> StagePair:
     """The same with points below the ceilings and sharper multipliers, which is often all that is missing."""
-    if statement.limits.radius.size == 0 or found.certified:
-        return found
+    if statement.limits.radius.size == 0 or stages.certified:
+        return stages
     began = time.perf_counter()
-    smallest, lightest = (_pulled(statement, each, inside) for each in (found.smallest, found.lightest))
+    smallest, lightest = (_pulled(statement, each, inside) for each in (stages.smallest, stages.lightest))
     assert smallest.multipliers is not None  # those of rest, at least
     for multipliers in objective_multipliers(statement, smallest.unbalance, smallest.multipliers):
         bound = float(objective_lower_bound(statement, multipliers))
         smallest, lightest = smallest.bounded(bound, multipliers), lightest.bounded(bound, multipliers)
-    if asked.least_mass and smallest.below_ceilings:
-        counted = np.asarray(smallest.objective + asked.share)
+    if target.least_mass and smallest.below_ceilings:
+        counted = np.asarray(smallest.objective + target.share)
         candidates = list(supporting_multipliers(statement, lightest.unbalance))
         if lightest.mass_multipliers is not None:
             candidates += mass_multipliers(statement, lightest.unbalance, lightest.mass_multipliers)
         for multipliers in candidates:
             bound = float(mass_lower_bound(statement, multipliers, counted))
             lightest = lightest.weighed(bound, multipliers, float(counted))
-    enough = (ENOUGH_FOR_MASS if asked.least_mass else ENOUGH) * asked.share
-    certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= asked.share
-    certified &= not asked.least_mass or light(lightest)
+    enough = (ENOUGH_FOR_MASS if target.least_mass else ENOUGH) * target.share
+    certified = smallest.gap <= enough and lightest.below_ceilings and lightest.gap <= target.share
+    certified &= not target.least_mass or light(lightest)
     spent = time.perf_counter() - began
     smallest, lightest = (replace(each, certify_s=each.certify_s + spent) for each in (smallest, lightest))
-    return Found(smallest, lightest, certified)
+    return StagePair(smallest, lightest, certified)
 
 
-def lightened(statement: Statement, asked: Asked, found: Found, precision: Precision | None = None) -> Found:
+def lightened(statement: Statement, target: Target, stages: StagePair, precision: Precision | None = None) -> StagePair:
     """The least mass again, in units of the least so far: where next to nothing has to be fitted, all else is far away.
 
     No web carries more than all of them together in anything lighter.
     """
-    if found.certified or not asked.least_mass or statement.limits.radius.size == 0:
-        return found
+    if stages.certified or not target.least_mass or statement.limits.radius.size == 0:
+        return stages
     worth_less = _WORTH_LESS_IN_FIFTY if precision is FIFTY_DIGITS else _WORTH_LESS
     for _ in range(_LIGHTENINGS):
-        before = found.lightest
-        if not (before.below_ceilings and before.gap <= asked.share) or light(before):
+        before = stages.lightest
+        if not (before.below_ceilings and before.gap <= target.share) or light(before):
             break
         limits = statement.limits
         if not np.any(_ROOM_FOR_MASS * before.mass < worth_less * np.minimum(limits.max_mass, limits.max_total_mass)):
             break
         near = replace(limits, max_mass=np.minimum(limits.max_mass, _ROOM_FOR_MASS * before.mass))
-        again = interior_point(replace(statement, limits=near), asked, precision).lightest
-        if again.below_ceilings and again.objective <= before.lower_bound + asked.share and again.mass < before.mass:
+        again = interior_point(replace(statement, limits=near), target, precision).lightest
+        if again.below_ceilings and again.objective <= before.lower_bound + target.share and again.mass < before.mass:
             lightest = before.moved_to(statement, again.unbalance)
         else:
             lightest = before
         lightest = replace(lightest, mass_multipliers=again.mass_multipliers, mass_lower_bound=0.0)
-        sharper = polished(statement, asked, Found(found.smallest, lightest, False), None)
+        sharper = polished(statement, target, StagePair(stages.smallest, lightest, False), None)
         weighed = sharper.lightest.weighed(before.mass_lower_bound, before.mass_multipliers, before.mass_target)
-        found = Found(sharper.smallest, weighed, sharper.certified)
-        if found.certified or weighed.mass > 0.5 * before.mass:
+        stages = StagePair(sharper.smallest, weighed, sharper.certified)
+        if stages.certified or weighed.mass > 0.5 * before.mass:
             break
-    return found
+    return stages
 
 
-def _pulled(statement: Statement, found: Solution, inside: Complex | None) -> Solution:
+def _pulled(statement: Statement, solution: Solution, inside: Complex | None) -> Solution:
     """A point above a ceiling, moved towards one below it just so far; excesses are convex."""
-    if inside is None or found.below_ceilings:
-        return found
-    return found.moved_to(statement, pulled(statement, found.unbalance, inside))
+    if inside is None or solution.below_ceilings:
+        return solution
+    return solution.moved_to(statement, pulled(statement, solution.unbalance, inside))

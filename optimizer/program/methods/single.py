@@ -14,15 +14,15 @@ from optimizer.program.solution import INTERIOR_POINT, Solution, evaluated
 from optimizer.program.statement import Statement
 
 
-class Asked(NamedTuple):
-    """What is asked of a program."""
+class Target(NamedTuple):
+    """How close to its optimum a program is to be solved."""
 
     share: float  # how far above the smallest objective an optimum may be, in units of the objective
     demand: float  # certified gap
     least_mass: bool
 
 
-class Found(NamedTuple):
+class StagePair(NamedTuple):
     """The ends of both stages."""
 
     smallest: Solution
@@ -31,8 +31,8 @@ class Found(NamedTuple):
 
 
 def interior_point(
-    statement: Statement, asked: Asked, precision: Precision | None = None, inside: Complex | None = None
-) -> Found:
+    statement: Statement, target: Target, precision: Precision | None = None, inside: Complex | None = None
+) -> StagePair:
     """What the interior point finds, compiled or in finer numbers; rest, where the program is none for it.
 
     Parameters
@@ -43,45 +43,45 @@ def interior_point(
     if radius.size == 0 or not suits_kernel(statement):
         resting = evaluated(statement, np.zeros(radius.shape, complex))
         resting = proven(statement, resting, resting_multipliers(statement))
-        return Found(resting, resting, False)
-    share, demand = np.array([asked.share]), np.array([asked.demand])
+        return StagePair(resting, resting, False)
+    share, demand = np.array([target.share]), np.array([target.demand])
     at_least = 0.0 if inside is None else float(statement.objective(inside))
-    found = both_stages(statement.alone(), share, demand, asked.least_mass, precision, at_least)
-    return only(statement, asked, found, precision.name if precision else INTERIOR_POINT)
+    found = both_stages(statement.alone(), share, demand, target.least_mass, precision, at_least)
+    return only(statement, target, found, precision.name if precision else INTERIOR_POINT)
 
 
-def only(statement: Statement, asked: Asked, found: BothStages, method: str = INTERIOR_POINT) -> Found:
+def only(statement: Statement, target: Target, stages: BothStages, method: str = INTERIOR_POINT) -> StagePair:
     """The only answer of a leading axis (1,)."""
     nothing = Solution(
-        found.smallest[0],
+        stages.smallest[0],
         np.inf,
-        float(found.lower_bound[0]),
+        float(stages.lower_bound[0]),
         np.inf,
         0.0,
         np.inf,
         method,
-        float(found.certify_s[0]),
-        found.multipliers.chosen(0),
+        float(stages.certify_s[0]),
+        stages.multipliers.chosen(0),
     )
-    smallest = nothing.moved_to(statement, found.smallest[0])
+    smallest = nothing.moved_to(statement, stages.smallest[0])
     lightest = smallest
-    if asked.least_mass:
+    if target.least_mass:
         lightest = replace(
             smallest,
             # what exceeds the ceilings has an objective below the smallest: too few would count as optima
-            mass_lower_bound=float(found.mass_lower_bound[0]) if smallest.below_ceilings else 0.0,
-            mass_multipliers=found.mass_multipliers.chosen(0),
-            mass_target=float(found.mass_target[0]),
+            mass_lower_bound=float(stages.mass_lower_bound[0]) if smallest.below_ceilings else 0.0,
+            mass_multipliers=stages.mass_multipliers.chosen(0),
+            mass_target=float(stages.mass_target[0]),
         )
-    return Found(smallest, lightest.moved_to(statement, found.unbalance[0]), bool(found.certified[0]))
+    return StagePair(smallest, lightest.moved_to(statement, stages.unbalance[0]), bool(stages.certified[0]))
 
 
-def enough(found: Solution, asked: Asked) -> bool:
+def enough(solution: Solution, target: Target) -> bool:
     """Whether finer numbers are not worth their time."""
-    optimal = found.below_ceilings and found.gap <= asked.share
-    return optimal and (not asked.least_mass or light(found))
+    optimal = solution.below_ceilings and solution.gap <= target.share
+    return optimal and (not target.least_mass or light(solution))
 
 
-def light(found: Solution) -> bool:
+def light(solution: Solution) -> bool:
     """Whether the mass is proven as well as is worth any time."""
-    return found.mass - found.mass_lower_bound <= MASS_ENOUGH * found.mass
+    return solution.mass - solution.mass_lower_bound <= MASS_ENOUGH * solution.mass

@@ -61,7 +61,7 @@ class Solver:
         statement: Statement,
         enough: float,
         start: Solution | None = None,
-        told: Callable[[Solution], bool] = lambda best: False,
+        stop: Callable[[Solution], bool] = lambda best: False,
     ) -> Solution:
         """The smallest objective, with its bound.
 
@@ -72,7 +72,7 @@ class Solver:
         ----------
         enough : gap that ends the search, in units of the objective.
         start : what is known already.
-        told : whether the best so far is all that has to be known.
+        stop : whether the best so far is all that has to be known.
         """
         best = evaluated(statement, np.zeros(statement.limits.radius.shape, complex))
         best = proven(statement, best, resting_multipliers(statement))
@@ -93,7 +93,7 @@ class Solver:
                 began = time.perf_counter()
                 best = proven(statement, best, objective_multipliers(statement, *solved))
                 best = replace(best, certify_s=best.certify_s + time.perf_counter() - began)
-            if told(best) or (best.below_ceilings and best.gap <= enough):
+            if stop(best) or (best.below_ceilings and best.gap <= enough):
                 break
         return best
 
