@@ -15,6 +15,7 @@ from optimizer.program.methods.optima import optima
 from optimizer.program.statement import Statement
 from optimizer.solve.process_solver import own_solver
 from tests.choices.sets import options_of
+from tests.pairs.asking import ask
 from tests.program.cases import SOLVER, random_statement
 
 _LONG = 1e9
@@ -133,3 +134,21 @@ def test_a_tree_of_leasts_bounds_as_many_nodes_as_it_has_time_for(
     ended = tree.branch(incumbent, -np.inf, -1.0, lambda bound: False, Clock(limit_s, seconds), problem)
     # a whole turn has four pieces, and nothing
     assert limit_s <= ended.nodes == seconds.now <= limit_s + 5
+
+
+def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Between two looks at the time as many terms, whether pairs have four or hundreds, as over the turn."""
+    batches, evaluated = list[int](), halves._Pairs.evaluated
+
+    def counting(pairs: Any, i: np.ndarray, j: np.ndarray) -> None:
+        batches.append(i.size * pairs.terms.size)
+        evaluated(pairs, i, j)
+
+    monkeypatch.setattr(halves._Pairs, "evaluated", counting)
+    outcome = ask("twin", ["bending weight", "steps"])
+    assert outcome.kind == "answered"
+    # several were made, and the last of a batch may be more than fill it
+    assert len(batches) > 1
+    assert max(batches) <= 1.5 * halves._AT_ONCE

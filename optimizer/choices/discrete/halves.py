@@ -25,8 +25,8 @@ _SAME = 1e-12
 _MARGIN = 1.0 + 1e-9
 #: of an objective that is evaluated from sums, in units of the sum of the magnitudes of what is summed
 _ROUNDING = 1e-14
-#: pairs that are evaluated at once
-_AT_ONCE = 200_000
+#: terms of pairs that are evaluated at once, between two looks at the time, and pairs at least
+_AT_ONCE, _PAIRS_AT_ONCE = 800_000, 1_000
 #: points whose nearest neighbours are sought at once, and whose neighbours are counted: far from all it takes a while
 _SOUGHT, _COUNTED = 2_000, 64
 #: pairs up to which all are evaluated
@@ -174,6 +174,11 @@ class _Pairs:
         each = np.sum(np.abs(self.lever) @ size) + np.sum(np.abs(self.terms)) + np.max(np.abs(self.statement.floor))
         return _ROUNDING * float(each)
 
+    @property
+    def at_once(self) -> int:
+        """Pairs that are evaluated at once: over the turn each has hundreds of terms."""
+        return max(_AT_ONCE // max(self.terms.size, 1), _PAIRS_AT_ONCE)
+
     def evaluated(self, i: np.ndarray, j: np.ndarray) -> None:
         """Offer those of some pairs that are no worse than the best."""
         sums = self.terms + (self.one[i] + self.other[j]) @ self.lever.T
@@ -184,7 +189,7 @@ class _Pairs:
 
     def all(self, clock: Clock) -> bool:
         """Every pair; whether the time was enough."""
-        step = max(1, _AT_ONCE // self.one.shape[0])
+        step = max(1, self.at_once // self.one.shape[0])
         for start in range(0, self.other.shape[0], step):
             if start and clock.spent():
                 return False
@@ -221,7 +226,7 @@ class _Pairs:
         if int(np.sum(counts)) > most:
             return False
         some = np.flatnonzero(counts)
-        for part in np.split(some, np.flatnonzero(np.diff(np.cumsum(counts[some]) // _AT_ONCE)) + 1):
+        for part in np.split(some, np.flatnonzero(np.diff(np.cumsum(counts[some]) // self.at_once)) + 1):
             if part.size:
                 pairs = _tree(points[part]).sparse_distance_matrix(tree, radius, output_type="ndarray")
                 self.evaluated(pairs["j"], part[pairs["i"]])
