@@ -4,6 +4,8 @@ import asyncio
 import json
 from contextlib import AsyncExitStack
 
+import pytest
+
 from service.documents.examples import load
 from tests.network.bystander import connected
 from tests.network.serving import Service, request, service
@@ -45,10 +47,11 @@ async def _given_back(target: Service, rest_mb: float) -> None:
             await asyncio.sleep(0.5)
 
 
-def test_memory_of_stopped_readers_is_given_back() -> None:
+@pytest.mark.parametrize("times", [1, pytest.param(3, marks=pytest.mark.nightly)])
+def test_memory_of_stopped_readers_is_given_back(times: int) -> None:
     with service() as target:
         path = asyncio.run(_swept(target))
         rest_mb = target.memory_mb()[0]
-        for _ in range(2):
+        for _ in range(times):
             asyncio.run(_stopped_readers(target, path, rest_mb + _ABOVE_MB))
             asyncio.run(_given_back(target, rest_mb))
