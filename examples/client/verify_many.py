@@ -19,7 +19,7 @@ from verify_machine import NAMES, Machine
 from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Place, Unreadable, largest, read, real
 from verify_program import CEILINGS, Statement
 from verify_turn import single
-from verify_weights import counterweights
+from verify_weights import counterweights, usual_gap
 
 __all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
 
@@ -87,7 +87,7 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
             above = peaks[name] + SPECK * peaks[name] - corner.number()
             yield "gap", corner, relative.number() * size - above, peaks[name]
     if optimal:
-        asked = (request / "accuracy" / "relative_gap").number(1e-6, least=0)
+        asked = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
         yield "status", relative, asked - relative.number() if relative else None, ONE
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
     priced = partial(priced_at, {name: (proof / f"{name}_{unit}").number(0.0) for name, unit in NAMES.items()})

@@ -31,7 +31,7 @@ MAX_PLACES = 20_000
 Status = Literal["optimal", "inaccurate", "infeasible"]
 _NO_ORDER = "a front has no order of its goals"
 
-Reason = Literal["reached_together", "resolution", "undecided"]
+Reason = Literal["reached_together", "resolution", "undecided", "complete", "time"]
 Budgets = Annotated[tuple[Annotated[Mass, Unit("kg")], ...], Field(max_length=MAX_BUDGETS), NotEmpty()]
 
 
@@ -70,16 +70,27 @@ class ParetoRequest(OptimizeRequest):
         False, description="the multipliers of every point's certificate, and of the ends'", examples=[False]
     )
 
+    @property
+    def chosen(self) -> bool:
+        """Whether counterweights are chosen, heavy enough where they are fitted, or cut from plates."""
+        machine = self.machine
+        return machine.discrete or machine.semicontinuous or any(web.envelope is not None for web in machine.webs)
+
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
         yield from self.worst_case_rules("a front is of one machine as it is given")
-        yield from self.envelope_rules("a front is of counterweights of a known radius: sweep force_ceiling_N")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
-        if self.counts is None:
-            yield from no_catalogue(self.machine, ("machine",), "a front but for one of counts: sweep force_ceiling_N")
-        else:
+        if self.counts is not None or self.responses is not None:
+            # but for force and moment alone
+            yield from self.envelope_rules("such a front is of counterweights of a known radius: sweep a ceiling")
+        if self.responses is not None:
+            yield from no_catalogue(self.machine, ("machine",), "a front of named responses: sweep a ceiling of one")
+        if self.counts is not None:
             yield from self._count_rules(self.counts)
+        elif self.chosen:
+            message = "prove what any masses at any angles reach: leave it out where counterweights are chosen"
+            yield Rule(self.multipliers, ("multipliers",), message)
         budgets = self.total_mass_budgets_kg or ()
         fixed = sum((web.fixed.mass_kg for web in self.machine.webs if web.fixed is not None), 0.0)
         for index, budget in enumerate(budgets):
@@ -260,7 +271,9 @@ class ParetoFront(Model):
         None,
         description="why there are fewer points than asked for. reached_together: both peaks are smallest at the same"
         " counterweights, within the asked gap. resolution: points that rounding could not tell apart were left out."
-        " undecided: the ceilings are on the very boundary of what can be reached, and the point comes closest",
+        " undecided: the ceilings are on the very boundary of what can be reached, and the point comes closest."
+        " Where counterweights are chosen: complete: no set is better than these by more than the asked gap; time:"
+        " accuracy.time_limit_s ended the search",
         examples=[None],
     )
     knee: int | None = Field(

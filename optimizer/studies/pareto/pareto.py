@@ -21,6 +21,7 @@ from optimizer.solve.first_order import finite_or_null
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.proof import implied_max_mass, named, physical
+from optimizer.studies.pareto.chosen_front import chosen_front
 from optimizer.studies.pareto.counts import count_front
 from optimizer.studies.pareto.front import Front, Point, front
 from optimizer.studies.pareto.trade import Trade, trade
@@ -108,6 +109,8 @@ def _machines(request: ParetoRequest) -> tuple[Machine, ...]:
 
 def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: Solver) -> _Made:
     start = time.perf_counter()
+    if request.chosen:
+        return _Made(_of_choices(request, machine, scene), time.perf_counter() - start, 0.0)
     traded = trade(machine, request.objective, scene.responses, scene.omega_squared)
     found = front(traded, request.points, request.accuracy.relative_gap, request.objective.least_mass, solver)
     solve_s = time.perf_counter() - start
@@ -115,6 +118,23 @@ def _front(request: ParetoRequest, machine: Machine, scene: Prepared, solver: So
         return _Made(_infeasible(request, machine, solver), solve_s, found.certify_s)
     certify_s = sum(point.solution.certify_s for point in found.points)
     return _Made(_certified(request, machine, scene, found), solve_s, certify_s)
+
+
+def _of_choices(request: ParetoRequest, machine: Machine, scene: Prepared) -> ParetoFront:
+    """The front of counterweights that are chosen, heavy enough, or cut from plates."""
+    made = chosen_front(request, machine, scene)
+    points = made.points
+    status: Status = "optimal" if all(point.status == "optimal" for point in points) else "inaccurate"
+    return ParetoFront(
+        max_total_mass_kg=machine.max_total_mass_kg,
+        status=status if points else "infeasible",
+        points=points,
+        reason=made.reason,
+        knee=knee(points),
+        ends=made.ends,
+        scale=made.scale,
+        infeasibility=made.infeasibility,
+    )
 
 
 def _certified(request: ParetoRequest, machine: Machine, scene: Prepared, found: Front) -> ParetoFront:

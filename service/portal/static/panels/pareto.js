@@ -18,6 +18,8 @@ const WHY = {
   reached_together: "Both are smallest at the same counterweights: there is nothing to trade.",
   resolution: "Points that rounding could not tell apart were left out.",
   undecided: "The ceilings are on the very boundary of what can be reached.",
+  complete: "These are all: no set that can be chosen is better.",
+  time: "The time limit ended the search: there may be more points between these.",
 };
 
 export const pareto = {

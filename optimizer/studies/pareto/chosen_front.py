@@ -1,0 +1,263 @@
+"""The front of peak force and peak moment of counterweights that are chosen: from a catalogue, heavy enough where they
+are fitted, or cut from plates.
+
+Such sets are not convex, and their front is no curve. Between two of its points lies a box: what neither of them beats
+has less force than the one and less moment than the other. The optimum of the larger of both peaks, each as a share of
+its edge of the box, is a point inside, or proves that there is none (weighted Chebyshev, Steuer and Choo 1983). Its
+bound t proves that nothing is below the corner t times the edges. The largest box is searched next.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from time import thread_time
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.scatter import weighted
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.optimize import optimize
+from optimizer.program.solution import OPTIMUM_SHARE
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.infeasibility import Infeasibility
+from schemas.front.pareto import CornerCertificate, Ends, ParetoPoint, ParetoRequest, Reason, Scale
+from schemas.machine.machine import Machine
+from schemas.request.objective import Objective
+from schemas.request.requests import Accuracy, OptimizeRequest
+
+#: share of the time limit that either end has
+_END = 0.2
+#: share of the gap by which the peak that counts first may be above its smallest value at an end
+_SLACK = 0.1
+#: searches for each point that is asked for, at most
+_SEARCHES = 4
+#: an optimum no nearer to its box than this leaves it empty
+_INSIDE = 1e-12
+#: least gap that may be asked of an optimum
+_LEAST_GAP = 1e-12
+#: least time of a search, s
+_LEAST_TIME = 1e-3
+
+
+class ChosenFront(NamedTuple):
+    """The front under one limit of the total mass."""
+
+    points: tuple[ParetoPoint, ...]  # in the order of rising force
+    ends: Ends | None  # None where the ceilings are out of reach
+    scale: Scale | None
+    reason: Reason | None  # why there are fewer points than asked for
+    infeasibility: Infeasibility | None
+
+
+@dataclass(frozen=True)
+class _Optimum:
+    """An answer beside its weighted peaks."""
+
+    answer: OptimizeAnswer
+    peaks: Real  # (2,) N and N m
+    corner: Real  # (2,) no choice is below this in both peaks; nan where nothing is proven
+
+
+class _Box(NamedTuple):
+    """What neither of two neighbours beats: force below that of ``right``, moment below that of ``left``."""
+
+    left: _Optimum
+    right: _Optimum
+
+    @property
+    def edges(self) -> Real:
+        """(2,) force and moment that a point inside stays below."""
+        return np.array([self.right.peaks[0], self.left.peaks[1]])
+
+    @property
+    def size(self) -> Real:
+        """(2,) widths in force and moment."""
+        return np.array([self.right.peaks[0] - self.left.peaks[0], self.left.peaks[1] - self.right.peaks[1]])
+
+
+def chosen_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> ChosenFront:
+    """The front of what can be chosen; all its searches together end at the time asked.
+
+    Parameters
+    ----------
+    machine : that of the request under one limit of the total mass.
+    """
+    return _Search(request, machine, scene).front()
+
+
+class _Search:
+    """What the searches of one front share."""
+
+    def __init__(self, request: ParetoRequest, machine: Machine, scene: Prepared) -> None:
+        self.request, self.machine, self.scene = request, machine, scene
+        self.gap, self.seconds = request.accuracy.relative_gap, request.accuracy.time_limit_s
+        self.until = thread_time() + self.seconds
+        self.at_rest = self._peaks(np.zeros(len(machine.webs), complex))
+
+    def front(self) -> ChosenFront:
+        """Both ends, and what lies between them."""
+        ends = (
+            self._optimum(_only(0), self.gap, _END * self.seconds),
+            self._optimum(_only(1), self.gap, _END * self.seconds),
+        )
+        force, moment = ends
+        if isinstance(force, OptimizeAnswer) or isinstance(moment, OptimizeAnswer):
+            none = next(each for each in ends if isinstance(each, OptimizeAnswer))
+            return ChosenFront((), None, None, None, none.infeasibility)
+        edges = np.maximum(force.peaks, moment.peaks)
+        size = np.where(self.at_rest > OPTIMUM_SHARE * edges, self.at_rest, np.where(edges > 0, edges, 1.0))
+        bounds = force.corner[0], moment.corner[1]
+        optima, reason = self._between(self._corner(force, 0, size), self._corner(moment, 1, size), size)
+        first, last = optima[0].peaks, optima[-1].peaks
+        return ChosenFront(
+            tuple(self._point(each, size) for each in optima),
+            Ends(
+                smallest_force_N=float(first[0]),
+                smallest_force_lower_bound_N=float(bounds[0]),
+                moment_at_smallest_force_Nm=float(first[1]),
+                smallest_moment_Nm=float(last[1]),
+                smallest_moment_lower_bound_Nm=float(bounds[1]),
+                force_at_smallest_moment_N=float(last[0]),
+            ),
+            Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
+            reason,
+            None,
+        )
+
+    def _corner(self, end: _Optimum, axis: int, size: Real) -> _Optimum:
+        """Of all whose peak ``axis`` is the smallest, but for a share of the gap, the least of the other peak."""
+        across, field = self.request.objective.direction_weights, ("force_ceiling_N", "moment_ceiling_Nm")[axis]
+        plates = any(web.envelope is not None for web in self.machine.webs)
+        if (across.x, across.y) != (1.0, 1.0) or (plates and self.machine.max_total_mass_kg is not None):
+            # a ceiling is of a whole vector, and plates take none beside a budget; the boxes find the corner
+            return end
+        most = float(end.peaks[axis] + _SLACK * self.gap * size[axis])
+        limit = getattr(self.request.objective, field)
+        if limit is not None and limit <= most:
+            return end
+        under = _only(1 - axis, {field: most})
+        corner = self._optimum(under, self.gap, _END * self.seconds)
+        if isinstance(corner, OptimizeAnswer) or corner.peaks[1 - axis] > end.peaks[1 - axis]:
+            return end
+        # what exceeds the ceiling by no more than this optimum has no less of the other peak
+        proven = np.where(np.arange(2) == axis, max(most, float(corner.peaks[axis])), corner.corner)
+        return replace(corner, corner=proven)
+
+    def _between(self, force: _Optimum, moment: _Optimum, size: Real) -> tuple[list[_Optimum], Reason | None]:
+        """Points in the order of rising force, and why there are no more of them."""
+        optima, boxes, points = _undominated([force, moment]), [_Box(force, moment)], self.request.points
+        if len(optima) == 1:
+            return optima, "reached_together"
+        undecided = False
+        for _ in range(_SEARCHES * points):
+            boxes = [each for each in boxes if np.all(each.size > self.gap * size)]
+            left_s = self.until - thread_time()
+            if not boxes or len(optima) >= points or left_s <= 0.0:
+                break
+            box = boxes.pop(int(np.argmax([np.prod(each.size / size) for each in boxes])))
+            inside = self._inside(box, size, left_s / (points - len(optima)))
+            if inside is not None and np.all(inside.peaks < box.edges * (1.0 - _INSIDE)):
+                optima = _undominated([*optima, inside])
+                boxes += [_Box(box.left, inside), _Box(inside, box.right)]
+            else:
+                # nothing better is found; whether there is nothing tells the proof
+                undecided |= inside is None or not bool(np.all(inside.corner >= box.edges - self.gap * size))
+        if len(optima) >= points:
+            return optima, None
+        return optima, "time" if boxes or undecided else "complete"
+
+    def _inside(self, box: _Box, size: Real, seconds: float) -> _Optimum | None:
+        """The optimum of the larger peak, each as a share of its edge; None where no search keeps the ceilings."""
+        edges = box.edges
+        # gaps are relative to the larger share without counterweights, and are asked for of either peak
+        yardstick = float(np.max(self.at_rest / edges)) or 1.0
+        gap = self.gap * float(np.min(size / edges)) / yardstick
+        weights = 1.0 / edges
+        inside = self._optimum(_larger(weights), min(max(gap, _LEAST_GAP), 1.0), seconds)
+        return None if isinstance(inside, OptimizeAnswer) else inside
+
+    def _optimum(self, of: "_Goal", gap: float, seconds: float) -> _Optimum | OptimizeAnswer:
+        """The best choice for a goal; the answer where none is shown."""
+        request = self.request
+        single = OptimizeRequest(
+            machine=self.machine,
+            objective=of(request.objective),
+            accuracy=Accuracy(relative_gap=gap, time_limit_s=min(max(seconds, _LEAST_TIME), self.seconds)),
+            fidelity=request.fidelity,
+        )
+        answer = optimize(single)
+        if answer.certificate is None:
+            return answer
+        u = np.array([complex(each.x_kg_m, each.y_kg_m) * (not each.fixed) for each in answer.counterweights])
+        bound, goal = answer.certificate.lower_bound, single.objective
+        weights = np.array([goal.force_weight, goal.moment_weight])
+        peaks = self._peaks(u)
+        corner = np.full(2, np.nan)
+        if bound is not None:
+            # a peak that does not count is not below what it comes to here
+            corner = np.where(weights > 0, bound / np.where(weights > 0, weights, 1.0), peaks)
+        return _Optimum(answer, peaks, corner)
+
+    def _peaks(self, u: Complex) -> Real:
+        """Weighted peak force and moment (2,) with unbalances (K,)."""
+        across = self.request.objective.direction_weights
+        vectors = (each.to(u) for each in self.scene.responses)
+        return np.array([float(weighted(each, across.x, across.y).peak) for each in vectors]) * self.scene.omega_squared
+
+    def _point(self, optimum: _Optimum, size: Real) -> ParetoPoint:
+        answer, proven = optimum.answer, bool(np.all(np.isfinite(optimum.corner)))
+        assert answer.certificate is not None
+        assert answer.residual.after is not None
+        assert answer.total_mass_kg is not None
+        # of the peak that the optimum leaves room in nothing is claimed
+        gap = float(np.max((optimum.peaks - optimum.corner) / size))
+        return ParetoPoint(
+            status="optimal" if answer.status == "optimal" else "inaccurate",
+            status_reason=answer.status_reason,
+            force_peak_N=answer.residual.after.force.peak_N,
+            moment_peak_Nm=answer.residual.after.moment.peak_Nm,
+            weighted_force_peak_N=float(optimum.peaks[0]),
+            weighted_moment_peak_Nm=float(optimum.peaks[1]),
+            total_mass_kg=answer.total_mass_kg,
+            counterweights=answer.counterweights,
+            active_limits=answer.active_limits,
+            certificate=CornerCertificate(
+                force_N=float(optimum.corner[0]) if proven else None,
+                moment_Nm=float(optimum.corner[1]) if proven else None,
+                relative_gap=max(gap, 0.0) if proven else None,
+                yardstick=Scale(force_N=float(size[0]), moment_Nm=float(size[1])),
+                mass_lower_bound_kg=None,
+                mass_relative_gap=None,
+                mass_yardstick_kg=None,
+                mass_force_limit_N=None,
+                mass_moment_limit_Nm=None,
+                implied_max_mass_kg=answer.certificate.implied_max_mass_kg,
+                method=answer.certificate.method,
+            ),
+        )
+
+
+_Goal = Callable[[Objective], Objective]
+
+
+def _only(axis: int, ceilings: Mapping[str, float] | None = None) -> _Goal:
+    """One of both peaks alone, the force (0) or the moment (1), under ceilings that are given by field."""
+    update = {"force_weight": float(axis == 0), "moment_weight": float(axis == 1), "combine": "sum", **(ceilings or {})}
+    return lambda objective: objective.model_copy(update=update)
+
+
+def _larger(weights: Real) -> _Goal:
+    """The larger of both peaks, weighed (2,) in 1/N and 1/(N m)."""
+    force, moment = weights.tolist()
+    update = {"force_weight": force, "moment_weight": moment, "combine": "max"}
+    return lambda objective: objective.model_copy(update=update)
+
+
+def _undominated(optima: Sequence[_Optimum]) -> list[_Optimum]:
+    """Those that no other equals or beats in both peaks, in the order of rising force."""
+    kept: list[_Optimum] = []
+    for each in sorted(optima, key=lambda one: (float(one.peaks[0]), float(one.peaks[1]))):
+        if not kept or each.peaks[1] < kept[-1].peaks[1]:
+            kept.append(each)
+    return kept

@@ -1,0 +1,205 @@
+"""Fronts of force and moment where counterweights are chosen, heavy enough or cut from plates; all sets by hand."""
+
+from typing import Any
+
+import numpy as np
+import pytest
+from pydantic import ValidationError
+
+from optimizer.studies.pareto.pareto import pareto
+from schemas.front.pareto import ParetoFront, ParetoRequest
+from tests.hard.cases.case import Body
+from tests.studies.pareto.test_counts import Sets, body, every_set
+from tests.verification.checking import optimized
+
+STEP_DEG, MASSES = 45.0, (7.5, 16.0)
+
+
+def front(request: Body) -> ParetoFront:
+    (made,) = pareto(ParetoRequest.model_validate(request)).fronts
+    return made
+
+
+def plain(**fields: Any) -> Body:
+    """Two cranks and four webs without a catalogue."""
+    request = body(STEP_DEG, MASSES, **fields)
+    del request["machine"]["catalogue"]
+    request["accuracy"] = {"time_limit_s": 30}
+    return request
+
+
+def undominated(force: np.ndarray, moment: np.ndarray) -> np.ndarray:
+    """(n, 2) what none equals or beats in both by more than rounding, in the order of rising force."""
+    kept: list[tuple[float, float]] = []
+    for pair in sorted(zip((force * (1 - 1e-12)).tolist(), moment.tolist(), strict=True)):
+        if not kept or pair[1] < kept[-1][1] * (1 - 1e-9):
+            if kept and pair[0] <= kept[-1][0] * (1 + 1e-9):
+                kept.pop()
+            kept.append(pair)
+    return np.array(kept)
+
+
+def shown(made: ParetoFront) -> np.ndarray:
+    return np.array([(point.weighted_force_peak_N, point.weighted_moment_peak_Nm) for point in made.points])
+
+
+def nothing_is_below(made: ParetoFront, sets: Sets, among: np.ndarray | None = None) -> None:
+    """No set is below a corner in both peaks, and every point is within the asked gap of its own."""
+    some = np.ones(sets.force.size, bool) if among is None else among
+    for point in made.points:
+        proof = point.certificate
+        assert proof.force_N is not None
+        assert proof.moment_Nm is not None
+        below = (sets.force < proof.force_N * (1 - 1e-9)) & (sets.moment < proof.moment_Nm * (1 - 1e-9))
+        assert not np.any(below & some)
+        over = (point.force_peak_N - proof.force_N) / proof.yardstick.force_N
+        assert proof.relative_gap == pytest.approx(
+            max(over, (point.moment_peak_Nm - proof.moment_Nm) / proof.yardstick.moment_Nm, 0.0), abs=1e-12
+        )
+
+
+def test_the_whole_front_of_a_catalogue() -> None:
+    """Independent: 83,521 sets, of which no other beats six."""
+    made, sets = front(body(STEP_DEG, MASSES, points=40)), every_set(STEP_DEG, MASSES)
+    assert (made.status, made.reason) == ("optimal", "complete")
+    assert shown(made) == pytest.approx(undominated(sets.force, sets.moment), rel=1e-9)
+    nothing_is_below(made, sets)
+    assert made.ends is not None
+    assert made.ends.smallest_force_lower_bound_N == pytest.approx(np.min(sets.force), rel=1e-9)
+    assert made.ends.smallest_moment_lower_bound_Nm == pytest.approx(np.min(sets.moment), rel=1e-9)
+    for point in made.points:
+        assert all(each.mass_kg in (0.0, *MASSES) for each in point.counterweights)
+
+
+def test_fewer_points_than_there_are_are_some_of_them() -> None:
+    """Independent: the ends, and the point in the largest box between them."""
+    made, sets = front(body(STEP_DEG, MASSES, points=3)), every_set(STEP_DEG, MASSES)
+    whole = undominated(sets.force, sets.moment)
+    assert made.reason is None
+    points = shown(made)
+    assert len(points) == 3
+    assert points[[0, -1]] == pytest.approx(whole[[0, -1]], rel=1e-9)
+    assert np.min(np.max(np.abs(whole / points[1] - 1.0), axis=-1)) < 1e-9
+
+
+def test_under_a_budget_and_with_so_many_counterweights() -> None:
+    """Independent: the sets that keep the limits."""
+    sets = every_set(STEP_DEG, MASSES)
+    request = body(STEP_DEG, MASSES, points=40, total_mass_budgets_kg=[24.0, 40.0])
+    request["machine"]["max_counterweights"] = 2
+    fronts = pareto(ParetoRequest.model_validate(request)).fronts
+    for made, budget in zip(fronts, (24.0, 40.0), strict=True):
+        kept = (sets.mass <= budget) & (sets.weights <= 2)
+        assert made.max_total_mass_kg == budget
+        assert (made.status, made.reason) in {("optimal", "complete"), ("optimal", "reached_together")}
+        assert shown(made) == pytest.approx(undominated(sets.force[kept], sets.moment[kept]), rel=1e-9)
+        nothing_is_below(made, sets, kept)
+
+
+def test_ceilings_cut_the_front() -> None:
+    """Independent: what is above a ceiling is no point."""
+    sets = every_set(STEP_DEG, MASSES)
+    request = body(STEP_DEG, MASSES, points=40, objective={"force_ceiling_N": 5000.0})
+    made, kept = front(request), sets.force <= 5000.0
+    assert shown(made) == pytest.approx(undominated(sets.force[kept], sets.moment[kept]), rel=1e-9)
+    nothing_is_below(made, sets, kept)
+    request["objective"] = {"force_ceiling_N": 100.0}
+    none = front(request)
+    assert (none.status, none.points) == ("infeasible", ())
+    assert none.infeasibility is not None
+
+
+def test_direction_weights_are_of_what_is_traded() -> None:
+    """Property: weights of 1/2 halve both peaks, and leave the front; others have no more of either peak."""
+    half = front(body(STEP_DEG, MASSES, points=40, objective={"direction_weights": {"x": 0.5, "y": 0.5}}))
+    whole = front(body(STEP_DEG, MASSES, points=40))
+    assert shown(half) == pytest.approx(0.5 * shown(whole), rel=1e-9)
+    across = front(body(STEP_DEG, MASSES, points=40, objective={"direction_weights": {"x": 1.0, "y": 0.3}}))
+    assert (across.status, across.reason) == ("optimal", "complete")
+    assert np.all(np.diff(shown(across), axis=0) * [1, -1] > 0)
+    assert across.points[0].weighted_force_peak_N < across.points[0].force_peak_N
+
+
+def _leasts() -> Body:
+    request = plain(points=6)
+    for web in request["machine"]["webs"]:
+        web |= {"min_fitted_mass_kg": 12.0, "max_mass_kg": 30.0}
+    request["machine"]["max_total_mass_kg"] = 28.0
+    return request
+
+
+def _plates() -> Body:
+    request = plain(points=6)
+    for web in request["machine"]["webs"]:
+        for field in ("counterweight_radius_m", "max_mass_kg"):
+            del web[field]
+        web["envelope"] = {
+            "shape": "segment", "inner_radius_m": 0.05, "outer_radius_m": 0.14, "thickness_m": 0.03,
+            "max_half_angle_deg": 80,
+        }  # fmt: skip
+    return request
+
+
+@pytest.mark.parametrize("request_of", [_leasts, _plates])
+def test_every_point_is_the_optimum_under_its_own_force(request_of: Any) -> None:
+    """Independent: the least moment of all with no more force, as a single answer has it."""
+    request = request_of()
+    made = front(request)
+    assert made.status == "optimal"
+    assert len(made.points) == 6
+    assert np.all(np.diff(shown(made), axis=0) * [1, -1] > 0)
+    for point in made.points[1:-1]:
+        objective = {"force_weight": 0, "moment_weight": 1, "force_ceiling_N": point.force_peak_N}
+        least = optimized({"machine": request["machine"], "objective": objective}).certificate
+        proof = point.certificate
+        assert least is not None
+        assert least.lower_bound is not None
+        assert proof.moment_Nm is not None
+        # the point keeps this ceiling, and nothing of less force is below its corner
+        assert least.lower_bound <= point.moment_peak_Nm * (1 + 1e-9)
+        assert point.moment_peak_Nm <= least.objective + 2e-3 * least.yardstick
+    for point in made.points:
+        for each in point.counterweights:
+            assert each.mass_kg == 0.0 or request_of is _plates or each.mass_kg >= 12.0
+
+
+def test_equal_castings_and_fixed_weights_go_with_it() -> None:
+    """Independent: the sets of two pairs of equal castings, one of them where it is."""
+    request = body(STEP_DEG, MASSES, points=40)
+    request["machine"]["web_groups"] = [{"name": "pair", "webs": ["a", "b"]}]
+    made = front(request)
+    assert (made.status, made.reason) == ("optimal", "complete")
+    for point in made.points:
+        a, b, *_ = point.counterweights
+        assert (a.mass_kg, a.angle_deg if a.mass_kg else None) == (b.mass_kg, b.angle_deg if b.mass_kg else None)
+    free = every_set(STEP_DEG, MASSES)
+    # of fewer sets nothing is below what is proven of all
+    nothing_is_below(made, free, np.zeros(free.force.size, bool))
+    del request["machine"]["web_groups"]
+    request["machine"]["webs"][0]["fixed"] = {"mass_kg": 16.0, "angle_deg": 180.0}
+    fixed = front(request)
+    assert (fixed.status, fixed.reason) == ("optimal", "complete")
+    # one of the catalogue, where it is: of the whole front nothing is above it
+    whole = shown(front(body(STEP_DEG, MASSES, points=40)))
+    for force, moment in shown(fixed):
+        assert np.any((whole[:, 0] <= force * (1 + 1e-9)) & (whole[:, 1] <= moment * (1 + 1e-9)))
+        assert fixed.points[0].counterweights[0].fixed
+
+
+def test_a_search_without_time_says_so() -> None:
+    request = body(5.0, (3.0, 7.5, 16.0, 22.0), points=30)
+    request["accuracy"] = {"time_limit_s": 0.05, "relative_gap": 1e-9}
+    made = front(request)
+    assert made.reason == "time"
+    assert made.status == "inaccurate" or all(point.status == "optimal" for point in made.points)
+
+
+@pytest.mark.parametrize(
+    ("more", "place"),
+    [({"multipliers": True}, "multipliers"), ({"responses": ["force", "moment"]}, "catalogue")],
+)
+def test_what_does_not_go_with_it_is_named(more: Body, place: str) -> None:
+    with pytest.raises(ValidationError) as refusal:
+        ParetoRequest.model_validate(body(STEP_DEG, MASSES, **more))
+    problems = [problem.path for error in refusal.value.errors() for problem in error["ctx"]["problems"]]
+    assert any(place in path for path in problems)
