@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared quick bytecode chromium freecad lint bench hard validate nightly lock settings image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared quick bytecode chromium freecad lint bench hard validate nightly lock settings map image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -94,6 +94,11 @@ lock: .venv/development
 # the table of docs/operation.md and deploy/.env.example, from service/settings.py
 settings: .venv/runtime
 	PYTHONPATH=. $(bin)/python docs/settings.py
+
+# the pictures and the table of docs/architecture.md, from the code
+map: .venv/runtime
+	$(bin)/python docs/room_map.py
+	$(bin)/python docs/sequences.py
 
 image:
 	docker build --file deploy/Dockerfile --tag counterweight:latest .

@@ -1,1 +1,1 @@
-"""What a machine answers to unbalance: with a peak in closed form, or over the whole turn with a certified one."""
+"""What a machine answers to unbalance: with a peak in closed form, or over a revolution with a certified one."""
