@@ -35,7 +35,7 @@ class Answer(Model):
     """An answer of a computation, which says who computed it."""
 
     version: str = Field(
-        default_factory=package_version, description="version of the package that answered", examples=["0.1.0"]
+        default_factory=package_version, description="version of the package that answered", examples=["0.2.0"]
     )
 
     def _repr_html_(self) -> str:

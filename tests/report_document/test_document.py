@@ -12,6 +12,7 @@ from rich.console import Console
 
 from optimizer.optimize import optimize
 from schemas.answer.outputs import OutputName
+from schemas.base.version import package_version
 from service.report.blocks import Cell, Chapter, Document, Figure, Number, Paragraph, Samples, Table
 from service.report.chapters.answers import CHAPTERS
 from service.report.chapters.reproduction import request_json
@@ -174,7 +175,7 @@ def test_the_digest_is_that_of_the_attached_request(made: Make) -> None:
     said = dict(values(found.head))
     assert said["digest of the request"] == hashlib.sha256(content.encode()).hexdigest()
     assert said["date"] == "2026-02-03T04:05:06Z"
-    assert "counterweight 0.1.0" in str(said["computed with"])
+    assert f"counterweight {package_version()}" in str(said["computed with"])
 
 
 @pytest.mark.parametrize(
