@@ -14,6 +14,7 @@ import numpy as np  # noqa: E402
 
 from optimizer.optimize import optimize  # noqa: E402
 from schemas.request.requests import OptimizeRequest  # noqa: E402
+from service.report import pictures  # noqa: E402
 
 DOCS = Path(__file__).parent
 BEFORE, AFTER, FLOOR = "#d55e00", "#0072b2", "#7f7f7f"  # distinct for the colour-blind as well
@@ -50,5 +51,13 @@ def hodographs(name: str) -> None:
     figure.savefig(DOCS / f"{name}-hodograph.svg", metadata={"Date": None, "Creator": None})
 
 
+def side(name: str) -> None:
+    """An example from the side with its best counterweights, as in its report."""
+    request = OptimizeRequest.model_validate_json((DOCS.parent / "examples" / f"{name}.json").read_bytes())
+    (DOCS / f"{name}-side.svg").write_bytes(pictures.svg(pictures.side(request)))
+
+
 if __name__ == "__main__":
     hodographs("2d12")
+    for example in ("2d12", "inline-four-engine", "scroll-three-pins"):
+        side(example)

@@ -7,7 +7,6 @@ from tests.docs.sentences import DISCOURAGED, discouraged, lengths, prose, sente
 
 #: these may be longer or use other words, until somebody mends them; no name is ever added
 NOT_YET_HELD = {
-    "README.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",
     "docs/accuracy.md",
