@@ -168,6 +168,16 @@ def test_the_worst_of_all_counterweights_off_together(webs: int) -> None:
         assert np.all((about >= worst_by_angle(norms, u, angle) * (1 - 1e-12)) | (webs == 0))
 
 
+@pytest.mark.parametrize("towards", [(0.0, np.pi), (np.pi, 0.0), (-0.0, -np.pi), (0.0, 0.0), (-np.pi, np.pi)])
+def test_counterweights_along_the_axis_are_turned_like_all_others(towards: tuple[float, float]) -> None:
+    """Analytic: what two opposite vectors and a third that cancels them come to, whichever way their angles round."""
+    vectors = np.array([3.0, 1.0]) * np.exp(1j * np.array(towards))
+    vectors.imag = [np.copysign(0.0, np.sin(one)) for one in towards]
+    norms = Norms(np.array([-np.sum(vectors)]), np.ones((1, 2)))
+    # both are turned across the axis, either way
+    assert worst_by_angle(norms, vectors, 0.01) == pytest.approx(4.0 * 2 * np.sin(0.005), rel=1e-3)
+
+
 @pytest.mark.parametrize("turning", [False, True])
 @pytest.mark.parametrize("seed", range(3))
 def test_loads_over_the_turn_are_no_worse_than_is_said(seed: int, turning: bool) -> None:

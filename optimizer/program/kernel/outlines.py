@@ -32,13 +32,13 @@ def worst_turned(vectors, fixed, angle):  # type: ignore[no-untyped-def]
             start[k], turned[k], level[k] = towards - angle, -behind, size
             start[webs + k], turned[webs + k], level[webs + k] = towards + angle, ahead, -size
             start[2 * webs + k], turned[2 * webs + k], level[2 * webs + k] = towards + np.pi, behind - ahead, 0.0
-            off = (-towards) % turn - np.pi
-            if abs(off) <= angle:
+            for event in range(k, 3 * webs, webs):
+                start[event] = (start[event] + np.pi) % turn - np.pi
+            # what comes first tells what was before, whichever way a vector along the axis rounds
+            if start[webs + k] < start[k] and start[webs + k] < start[2 * webs + k]:
                 flat += size
             else:
-                vector += ahead if off > 0.0 else behind
-        for event in range(3 * webs):
-            start[event] = (start[event] + np.pi) % turn - np.pi
+                vector += behind if start[k] < start[2 * webs + k] else ahead
         for event in range(3 * webs):
             # few, and a sort of numpy's takes longer to compile than all else
             at = event
