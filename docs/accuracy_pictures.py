@@ -10,8 +10,8 @@ from optimizer.mechanics.layout import layout
 from optimizer.studies.accuracy.measure import accuracy
 from optimizer.studies.accuracy.peaks import peaks_ladder
 from schemas.request.accuracy import AccuracyAnswer, AccuracyRequest
-from service.accuracy_picture import draw
 from service.documents.examples import load
+from service.report.accuracy_picture import draw
 from service.report.chapters.accuracy import method_name
 
 DOCS = Path(__file__).parent

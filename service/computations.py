@@ -209,7 +209,7 @@ COMPUTATIONS: dict[str, Computation] = {
             help="Show what accuracy costs in time on a machine.",
             chapters="service.report.chapters.accuracy:measured",
             options=("repeats",),
-            picture="service.accuracy_picture:artist",
+            picture="service.report.accuracy_picture:artist",
             long=True,
             later=True,
         ),

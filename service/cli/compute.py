@@ -99,7 +99,7 @@ def _seldom_collected() -> Iterator[None]:
 
 
 def _artist(one: Computation) -> Callable[[str, Any], str]:
-    from service.accuracy_picture import NoMatplotlib
+    from service.report.accuracy_picture import NoMatplotlib
 
     try:
         found: Callable[[str, Any], str] = resolve_name(one.picture or "")()

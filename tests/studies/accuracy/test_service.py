@@ -13,8 +13,8 @@ from click.testing import Result
 from typer.testing import CliRunner
 
 from schemas.request.accuracy import AccuracyAnswer
-from service.accuracy_picture import draw
 from service.cli import app
+from service.report.accuracy_picture import draw
 from tests.studies.accuracy.problems import body
 
 Post = Callable[..., Any]
