@@ -16,14 +16,15 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from schemas.base.version import package_version
 from service.common import validation
 from service.documents import faults as document_faults
+from service.fairness.quotas import Shares
+from service.fairness.scheduler import Rounds
+from service.fairness.single_flight import Looks
+from service.fairness.threads import Threads
 from service.guard import faults as guard_faults
 from service.guard.access import Access
 from service.guard.hosts import Hosts
 from service.guard.keys import keys
-from service.guard.looks import Looks
 from service.guard.rates import RateLimits
-from service.guard.shares import Shares
-from service.guard.threads import Threads
 from service.guard.users import Users
 from service.http import faults as http_faults
 from service.http.computing import Computing
@@ -48,7 +49,6 @@ from service.watch.tracing import tracing
 from service.wire import leaving
 from service.wire.cors import Cors
 from service.wire.pacing import Pacing
-from service.wire.rounds import Rounds
 from service.wire.security_headers import SecurityHeaders
 from service.workers import faults as worker_faults
 from service.workers.pool import Pool

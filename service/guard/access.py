@@ -8,13 +8,13 @@ from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from service.guard.addresses import client_network
+from service.common.addresses import client_network
+from service.fairness.quotas import Holding, Shares
 from service.guard.hosts import Hosts
 from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
 from service.guard.keys import Scope as KeyScope
 from service.guard.rates import RateLimits, TooManyRequests
 from service.guard.refusals import BadHeader, Forbidden, ForeignHost, Unauthorized
-from service.guard.shares import Holding, Shares
 from service.guard.users import user_of
 
 #: the answer to a request for a path that is refused for a reason

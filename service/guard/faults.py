@@ -1,9 +1,9 @@
 """What is said to whom the guard refuses."""
 
 from service.common.problems import Fault, FaultTable, fixed, later, later_by_error
+from service.fairness.quotas import OverShare
 from service.guard.rates import TooManyRequests
 from service.guard.refusals import BadHeader, Forbidden, ForeignHost, TooManyConnections, Unauthorized
-from service.guard.shares import OverShare
 
 
 def _unauthorized(error: Unauthorized) -> Fault:

@@ -9,8 +9,8 @@ from collections.abc import Iterable
 
 from starlette.types import Scope
 
+from service.common.addresses import is_loopback
 from service.common.headers import header
-from service.guard.addresses import is_loopback
 from service.guard.refusals import ForeignHost
 
 _HOST = re.compile(r"(?:\[([0-9A-Fa-f:.]+)\]|([^:\[\]/@]+))(?::[0-9]*)?")

@@ -22,8 +22,8 @@ from pydantic import Field, StringConstraints, TypeAdapter, ValidationError
 from starlette.requests import Request
 
 from schemas.base.model import Model
+from service.common.addresses import is_loopback
 from service.common.replacing import replaced
-from service.guard.addresses import is_loopback
 from service.settings import Settings
 
 #: compute: the computing routes; sweeps: start, resume and delete jobs; read: see the jobs of the same owner;

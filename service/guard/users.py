@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from service.guard.addresses import Networks
+from service.common.addresses import Networks
 from service.guard.refusals import BadHeader
 
 #: what portals know their users by: names, addresses, digests

@@ -14,9 +14,9 @@ from starlette.responses import Response, StreamingResponse
 from schemas.base.model import Model
 from service.common.validation import check, read_json
 from service.computations import XLSX, Computation, Form
-from service.guard.shares import holding
+from service.fairness.quotas import holding
+from service.fairness.threads import threads_of
 from service.guard.sizes import SizeLimits
-from service.guard.threads import threads_of
 from service.http.accept import NotAcceptable, coding_of, liked
 from service.http.file_names import file_name
 from service.http.request_body import announced, read_body

@@ -7,7 +7,7 @@ from contextlib import nullcontext
 from starlette.requests import ClientDisconnect, Request
 
 from service.common.headers import header
-from service.guard.shares import Holding
+from service.fairness.quotas import Holding
 from service.wire.leaving import client_of
 
 _TOKEN = r"[!#$%&'*+.^_`|~0-9A-Za-z-]+"

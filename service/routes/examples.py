@@ -11,7 +11,7 @@ from schemas.request.requests import OptimizeRequest
 from service.computations import XLSX
 from service.documents.examples import Examples, catalogue, load
 from service.documents.template import template
-from service.guard.threads import in_threads
+from service.fairness.threads import in_threads
 from service.http.kept import Kept
 from service.http.openapi import BINARY, example_body, problems
 

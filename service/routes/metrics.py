@@ -5,9 +5,9 @@ from prometheus_client import CONTENT_TYPE_LATEST
 from starlette.requests import Request
 from starlette.responses import Response
 
+from service.fairness.quotas import holding
+from service.fairness.threads import threads_of
 from service.guard.access import needs
-from service.guard.shares import holding
-from service.guard.threads import threads_of
 from service.http.openapi import problems
 
 router = APIRouter(tags=["health"])

@@ -12,11 +12,11 @@ from starlette.responses import JSONResponse, Response, StreamingResponse
 from optimizer.studies.sweep.plan import plan
 from schemas.sweep.answers import SweepEstimate, SweepState
 from schemas.sweep.request import SweepRequest
+from service.fairness.quotas import holding
+from service.fairness.single_flight import looked
+from service.fairness.threads import in_threads, threads_of
 from service.guard.access import needs
 from service.guard.keys import still_admitted
-from service.guard.looks import looked
-from service.guard.shares import holding
-from service.guard.threads import in_threads, threads_of
 from service.http.accept import liked
 from service.http.computing import Computes
 from service.http.openapi import COMPUTE_PROBLEMS, problems, request_body

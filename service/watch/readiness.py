@@ -10,7 +10,7 @@ from typing import Literal
 
 from anyio import fail_after, sleep, to_thread
 
-from service.guard.threads import Threads
+from service.fairness.threads import Threads
 
 State = Literal["warming", "ready", "failed"]
 _LOOK_S = 3.0

@@ -11,8 +11,9 @@ import h11
 from uvicorn.protocols.http.flow_control import HIGH_WATER_LIMIT
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
+from service.common.addresses import client_network
 from service.common.problems import Fault
-from service.guard.addresses import client_network
+from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.framing import Framing, TwoLengths
 from service.wire.idleness import Idleness
@@ -20,7 +21,6 @@ from service.wire.joined import Joined
 from service.wire.leaving import CLIENT, Client
 from service.wire.plain_requests import Head, Heads, PlainCycle
 from service.wire.refusal import last_answer, no_room
-from service.wire.rounds import Rounds
 
 #: what may wait to be read by a client, and what is read of it at a time [bytes]
 _UNREAD_BYTES = 32_768

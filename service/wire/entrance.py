@@ -12,13 +12,13 @@ from typing import Any
 
 from starlette.types import Message, Receive, Scope, Send
 
+from service.common.addresses import client_network
+from service.fairness.connection_limits import Doors
+from service.fairness.scheduler import Rounds
 from service.guard.access import own_path
-from service.guard.addresses import client_network
-from service.guard.doors import Doors
 from service.guard.keys import PROBES
 from service.wire.connections import Connection
 from service.wire.refusal import no_room, response, too_many_connections
-from service.wire.rounds import Rounds
 from service.wire.spares import Spares
 
 _LOG = logging.getLogger(__name__)

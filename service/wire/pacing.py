@@ -4,10 +4,10 @@ from collections.abc import Iterator
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.fairness.quotas import Holding, OverShare
+from service.fairness.scheduler import Rounds
 from service.guard.faults import FAULTS
-from service.guard.shares import Holding, OverShare
 from service.wire.refusal import response
-from service.wire.rounds import Rounds
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
 PIECE_BYTES = 16_384

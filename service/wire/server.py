@@ -12,7 +12,7 @@ from types import FrameType
 import uvicorn
 from fastapi import FastAPI
 
-from service.guard.doors import Doors
+from service.fairness.connection_limits import Doors
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.entrance import Entrance

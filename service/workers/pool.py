@@ -10,10 +10,10 @@ from typing import TypeVar
 
 from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
+from service.fairness.queue import ABOVE, Full, Turn, Turns
 from service.workers import length
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
 from service.workers.task import Priority, Task
-from service.workers.turns import ABOVE, Full, Turn, Turns
 from service.workers.worker import Answer, Crashed, Long, Outcome
 
 _LOG = logging.getLogger(__name__)

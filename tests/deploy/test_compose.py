@@ -6,9 +6,9 @@ from typing import Any
 
 import pytest
 
+from service.fairness.queue import ABOVE
 from service.jobs.engines import engine
 from service.settings import Settings
-from service.workers.turns import ABOVE
 from tests.deploy.files import compose, dockerfile_environment, settings_variables
 
 SERVICES: Mapping[str, Any] = compose()["services"]

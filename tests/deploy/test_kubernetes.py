@@ -6,8 +6,8 @@ from typing import Any
 import pytest
 
 from service.app import create_app
+from service.fairness.queue import ABOVE
 from service.settings import Settings
-from service.workers.turns import ABOVE
 from tests.deploy.files import instructions, manifests, settings_variables
 from tests.docs.reading import ROOT
 

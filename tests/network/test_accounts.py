@@ -2,7 +2,7 @@
 
 import pytest
 
-from service.workers.accounts import Accounts
+from service.fairness.accounts import Accounts
 
 
 class Played:

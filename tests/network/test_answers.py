@@ -11,10 +11,10 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
+from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.joined import Joined
-from service.wire.rounds import Rounds
 from service.wire.server import listen
 from tests.network.serving import Service, read, request
 

@@ -2,7 +2,7 @@
 
 from functools import partial
 
-from service.guard.doors import _PROBING, _PROBING_EACH, Doors
+from service.fairness.connection_limits import _PROBING, _PROBING_EACH, Doors
 
 
 def test_an_address_has_its_share() -> None:

@@ -11,11 +11,11 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
-from service.guard.doors import _PROBING_EACH, Doors
+from service.fairness.connection_limits import _PROBING_EACH, Doors
+from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.entrance import Entrance
-from service.wire.rounds import Rounds
 from service.wire.server import listen
 from tests.network.serving import Reply, read, request
 

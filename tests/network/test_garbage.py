@@ -12,10 +12,10 @@ from uvicorn.protocols.http.h11_impl import RequestResponseCycle
 from uvicorn.server import ServerState
 
 from service.app import create_app
-from service.guard.shares import Holding
+from service.fairness.quotas import Holding
+from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.connections import Connection, connections
-from service.wire.rounds import Rounds
 
 #: of the connection, of a request, and of the framework
 OURS = (_SelectorSocketTransport, Connection, RequestResponseCycle, Holding, AsyncExitStack)

@@ -7,8 +7,8 @@ import pytest
 from starlette.requests import Request
 
 from service.computations import COMPUTATIONS
-from service.guard.shares import Holding, Shares
-from service.guard.threads import Threads
+from service.fairness.quotas import Holding, Shares
+from service.fairness.threads import Threads
 from service.http.computing import Computing
 from service.settings import Settings
 from service.watch.metrics import Metrics

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from service.workers.loads import LATELY_S, Loads
+from service.fairness.loads import LATELY_S, Loads
 
 
 class Played(Loads):

@@ -5,8 +5,8 @@ import threading
 from collections.abc import Callable, Coroutine
 from typing import Any
 
-from service.guard.looks import Looks
-from service.wire.rounds import Rounds
+from service.fairness.scheduler import Rounds
+from service.fairness.single_flight import Looks
 
 
 class Slow:

@@ -10,10 +10,10 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
+from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.connections import connections
 from service.wire.plain_requests import Heads, plain_head
-from service.wire.rounds import Rounds
 
 _LINES = (
     b"Host: localhost", b"host:a", b"Host: b", b"Content-Length: 2", b"content-length:0", b"Content-Length: 3, 3",

@@ -11,9 +11,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from uvicorn.server import ServerState
 
+from service.fairness.scheduler import _APART, Rounds
 from service.settings import Settings
 from service.wire.connections import Connection, connections
-from service.wire.rounds import _APART, Rounds
 from tests.network.serving import read, request
 
 

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from schemas.answer.problem import Problem
-from service.guard.shares import Holding, OverShare, Shares
+from service.fairness.quotas import Holding, OverShare, Shares
+from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.pacing import PIECE_BYTES, Pacing
-from service.wire.rounds import Rounds
 from tests.network.load import start_sweep
 from tests.network.serving import request, service
 

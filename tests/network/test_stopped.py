@@ -6,7 +6,7 @@ import signal
 
 import psutil
 
-from service.workers.turns import ABOVE
+from service.fairness.queue import ABOVE
 from tests.network.serving import Reply, Service, service
 
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.workers.turns import ABOVE, Full
-from service.workers.turns import Turns as _Turns
+from service.fairness.queue import ABOVE, Full
+from service.fairness.queue import Turns as _Turns
 
 
 class Clock:

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 from anyio import CapacityLimiter, to_thread
 from starlette.requests import Request
 
-from service.guard.shares import holding
+from service.fairness.quotas import holding
 
 Result = TypeVar("Result")
 #: at a time, of all clients: they compute one at a time, and the event loop waits for each of them

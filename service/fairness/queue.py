@@ -6,8 +6,8 @@ from collections import Counter, OrderedDict, deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from service.workers.accounts import Accounts
-from service.workers.loads import Loads
+from service.fairness.accounts import Accounts
+from service.fairness.loads import Loads
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0

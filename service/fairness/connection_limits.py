@@ -3,7 +3,7 @@
 from collections import Counter
 from collections.abc import Callable, Iterable
 
-from service.guard.addresses import Networks, client_network
+from service.common.addresses import Networks, client_network
 
 #: every so many-th connection is kept for those who have fewer than these
 _KEPT, _FEW = 10, 8

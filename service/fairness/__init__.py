@@ -1,0 +1,1 @@
+"""What clients share, and how much of it each may have, so that the legal traffic of one harms nobody else."""
