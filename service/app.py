@@ -16,9 +16,11 @@ from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
 from schemas.base.version import package_version
 from service.common import validation
 from service.documents import faults as document_faults
+from service.fairness import faults as fairness_faults
 from service.fairness.quotas import Shares
 from service.fairness.scheduler import Rounds
 from service.fairness.single_flight import Looks
+from service.fairness.table import shares
 from service.fairness.threads import Threads
 from service.guard import faults as guard_faults
 from service.guard.access import Access
@@ -59,6 +61,7 @@ _RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, p
 FAULTS = joined(
     validation.FAULTS,
     document_faults.FAULTS,
+    fairness_faults.FAULTS,
     guard_faults.FAULTS,
     job_faults.FAULTS,
     worker_faults.FAULTS,
@@ -121,15 +124,14 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     """
     chosen = settings or Settings()
     desk = jobs or Desk(chosen)
+    table = shares(chosen)
     pool = Pool(
-        chosen.concurrent_solves,
-        chosen.queue_length,
-        chosen.queue_length_each,
+        table,
         chosen.request_timeout_s,
         chosen.solve_memory_mb,
         chosen.data_dir,
     )
-    threads, rounds, errors = Threads(), Rounds(), ErrorAnswers(FAULTS)
+    threads, rounds, errors = Threads(table["threads"]), Rounds(), ErrorAnswers(FAULTS)
     readiness = Readiness(
         {
             "database": partial(database, desk.counts),
@@ -185,7 +187,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
                 keys(chosen),
                 Hosts(chosen.allowed_hosts),
                 RateLimits(chosen),
-                Shares(chosen),
+                Shares(table),
                 errors.answer,
             ),
             Middleware(Direct, computations.endpoints(), errors),

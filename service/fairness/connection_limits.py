@@ -1,15 +1,10 @@
 """Which connections are let in: some for each address, some altogether, and a few more for those who ask for health."""
 
-from collections import Counter
 from collections.abc import Callable, Iterable
 
 from service.common.addresses import Networks, client_network
-
-#: every so many-th connection is kept for those who have fewer than these
-_KEPT, _FEW = 10, 8
-#: further connections of an address, and altogether, that may ask for health and nothing else
-_PROBING_EACH = 4
-_PROBING = 32
+from service.fairness.quotas import Quota
+from service.fairness.table import PROBES, Share
 
 
 class Doors:
@@ -17,36 +12,22 @@ class Doors:
 
     Parameters
     ----------
-    altogether, each : open ones, and those of one address.
+    share : open ones, the clients of which are addresses.
     proxies : addresses and networks behind which there are many clients.
     """
 
-    def __init__(self, altogether: int, each: int, proxies: Iterable[str]) -> None:
-        self._altogether = altogether
-        self._each = each
+    def __init__(self, share: Share, proxies: Iterable[str]) -> None:
         self._proxies = Networks(proxies)
-        self._open: Counter[str] = Counter()
-        self._all = 0
+        self._open = Quota(share)
         self._probing: dict[str, list[Callable[[], None]]] = {}
 
     def enter(self, address: str) -> bool:
         """Whether there is room for a connection from an address; it is counted then."""
-        client = client_network(address)
-        kept = 0 if self._open[client] < _FEW else self._altogether // _KEPT
-        room = self._all < self._altogether - kept
-        if not (room and (self._open[client] < self._each or address in self._proxies)):
-            return False
-        self._open[client] += 1
-        self._all += 1
-        return True
+        return self._open.take(client_network(address), many=address in self._proxies)
 
     def leave(self, address: str) -> None:
         """A connection that was let in has ended."""
-        client = client_network(address)
-        self._all -= 1
-        self._open[client] -= 1
-        if not self._open[client]:
-            del self._open[client]
+        self._open.give(client_network(address))
 
     def probe(self, address: str, give_up: Callable[[], None]) -> None:
         """Let in a connection that may ask for health, in place of the one that does so for longest if there are many.
@@ -57,9 +38,9 @@ class Doors:
         """
         own = self._probing.setdefault(client_network(address), [])
         own.append(give_up)
-        if len(own) > _PROBING_EACH:
+        if len(own) > PROBES.each:
             own.pop(0)()
-        elif sum(map(len, self._probing.values())) > _PROBING:
+        elif sum(map(len, self._probing.values())) > PROBES.altogether:
             max(self._probing.values(), key=len).pop(0)()
 
     def probed(self, address: str, give_up: Callable[[], None]) -> None:

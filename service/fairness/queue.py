@@ -8,11 +8,10 @@ from dataclasses import dataclass, field
 
 from service.fairness.accounts import Accounts
 from service.fairness.loads import Loads
+from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
-#: turns above the size, for who had little lately
-ABOVE = 2
 
 
 class Full(Exception):
@@ -74,20 +73,15 @@ class Turns:
 
     Parameters
     ----------
-    size : turns at a time.
-    waiting : who may wait altogether.
-    each : who may wait of one owner.
-    above : turns above the size.
+    processes : turns at a time, of which some are kept for owners who have none.
+    places : who may wait.
     clock : seconds that only go forward.
     """
 
-    def __init__(
-        self, size: int, waiting: int, each: int, above: int = ABOVE, clock: Callable[[], float] = time.monotonic
-    ) -> None:
-        self.size = size
-        self._most = waiting
-        self._each = each
-        self._most_above = above
+    def __init__(self, processes: Share, places: Share, clock: Callable[[], float] = time.monotonic) -> None:
+        self.size = processes.altogether
+        self._most_above = processes.kept
+        self._places = places
         self._clock = clock
         self._accounts, self._loads = Accounts(clock), Loads(clock)
         self._running: Counter[str] = Counter()
@@ -142,9 +136,9 @@ class Turns:
             self._begin(turn)
             return
         own = len(self._waiting.get(turn.owner, ()))
-        if own >= self._each:
+        if own >= self._places.each:
             raise Full
-        if self.waiting >= self._most:
+        if self.waiting >= self._places.altogether:
             longest = max(self._waiting.values(), key=len, default=None)
             if longest is None or len(longest) <= own + 1:
                 raise Full

@@ -3,68 +3,73 @@
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
 
 from starlette.requests import Request
 
-from service.settings import Settings
-
-Kind = Literal["events", "rows", "bodies", "answers", "files"]
-_MB = 1_000_000
+from service.fairness.faults import OverShare
+from service.fairness.table import OVER_SHARE, Resource, Share
 
 
-class OverShare(Exception):
-    """The client holds as much as it may; a retry helps when it has let go of something."""
+class Quota:
+    """What clients hold of one resource."""
 
+    def __init__(self, share: Share) -> None:
+        self._share = share
+        self._held: Counter[str] = Counter()
+        self._total = 0
 
-@dataclass(frozen=True)
-class Share:
-    """So much for each client, so much altogether, and so much that each has even then."""
+    def take(self, client: str, amount: int = 1, many: bool = False) -> bool:
+        """Whether a client may hold more; it does then.
 
-    each: int
-    altogether: int
-    assured: int
-    refusal: str
+        Parameters
+        ----------
+        many : it stands for many clients, who have more than what is there for each.
+        """
+        share, then = self._share, self._held[client] + amount
+        kept = share.kept if then <= share.assured else 0
+        if self._total + amount > share.altogether + kept or not (many or then <= max(share.each, share.assured)):
+            return False
+        self._held[client] = then
+        self._total += amount
+        return True
+
+    def give(self, client: str, amount: int = 1) -> None:
+        """Have a client hold less."""
+        self._total -= amount
+        self._held[client] -= amount
+        if not self._held[client]:
+            del self._held[client]
+
+    def held(self, client: str) -> int:
+        """What a client holds."""
+        return self._held[client]
 
 
 class Shares:
-    """What is held, by kind and by client."""
+    """What is held, by resource and by client."""
 
-    def __init__(self, settings: Settings) -> None:
-        megabytes = settings.held_mb_each * _MB, settings.held_mb * _MB
-        self._shares: Mapping[Kind, Share] = {
-            "events": Share(settings.event_streams_each, settings.event_streams, 1, "Too many streams of events"),
-            "rows": Share(settings.row_streams_each, settings.row_streams, 1, "Too many streams of rows"),
-            # a body is as good as computed, an answer is: one of each is always taken
-            "bodies": Share(*megabytes, settings.max_body_bytes, "Too many bytes of requests"),
-            "answers": Share(*megabytes, _MB, "Too many bytes of answers"),
-            "files": Share(8 * megabytes[0], 8 * megabytes[1], 8 * _MB, "Too many bytes of large answers"),
-        }
-        self._held: Mapping[Kind, Counter[str]] = {kind: Counter() for kind in self._shares}
+    def __init__(self, shares: Mapping[Resource, Share]) -> None:
+        self._shares = shares
+        self._quotas = {name: Quota(share) for name, share in shares.items() if share.answer is OVER_SHARE}
 
-    def take(self, kind: Kind, who: str, amount: int) -> None:
+    def take(self, resource: Resource, who: str, amount: int) -> None:
         """Have a client hold more.
 
         Raises
         ------
         OverShare
         """
-        share, held = self._shares[kind], self._held[kind]
-        then = held[who] + amount
-        if then > share.assured and (then > share.each or held.total() + amount > share.altogether):
-            raise OverShare(f"{share.refusal} are open for this client; try again when some of them have ended.")
-        held[who] = then
+        if not self._quotas[resource].take(who, amount):
+            units = self._shares[resource].unit
+            raise OverShare(f"Too many {units} are open for this client; try again when some of them have ended.")
 
-    def give(self, kind: Kind, who: str, amount: int) -> None:
+    def give(self, resource: Resource, who: str, amount: int) -> None:
         """Have a client hold less."""
-        held = self._held[kind]
-        held[who] -= amount
-        if not held[who]:
-            del held[who]
+        self._quotas[resource].give(who, amount)
 
-    def held(self, kind: Kind, who: str) -> int:
+    def held(self, resource: Resource, who: str) -> int:
         """What a client holds."""
-        return self._held[kind][who]
+        return self._quotas[resource].held(who)
 
 
 @dataclass
@@ -73,27 +78,27 @@ class Holding:
 
     shares: Shares
     who: str
-    _held: Counter[Kind] = field(default_factory=Counter)
+    _held: Counter[Resource] = field(default_factory=Counter)
 
-    def take(self, kind: Kind, amount: int = 1) -> None:
+    def take(self, resource: Resource, amount: int = 1) -> None:
         """Hold more.
 
         Raises
         ------
         OverShare
         """
-        self.shares.take(kind, self.who, amount)
-        self._held[kind] += amount
+        self.shares.take(resource, self.who, amount)
+        self._held[resource] += amount
 
-    def give(self, kind: Kind, amount: int) -> None:
+    def give(self, resource: Resource, amount: int) -> None:
         """Hold less."""
-        self.shares.give(kind, self.who, amount)
-        self._held[kind] -= amount
+        self.shares.give(resource, self.who, amount)
+        self._held[resource] -= amount
 
     def end(self) -> None:
         """Hold nothing any more."""
-        for kind, amount in self._held.items():
-            self.shares.give(kind, self.who, amount)
+        for resource, amount in self._held.items():
+            self.shares.give(resource, self.who, amount)
         self._held.clear()
 
 

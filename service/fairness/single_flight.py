@@ -9,10 +9,9 @@ from anyio import CapacityLimiter, to_thread
 from starlette.requests import Request
 
 from service.fairness.quotas import holding
+from service.fairness.table import LOOKS
 
 Result = TypeVar("Result")
-#: at a time, of all clients: they compute one at a time, and the event loop waits for each of them
-_AT_A_TIME = 2
 #: after a look its client takes none for so many times what it computed
 _REST = 3.0
 
@@ -36,7 +35,7 @@ class Looks:
         loop = asyncio.get_running_loop()
         if loop is not self._loop:
             # what was asked for in a loop that has ended is gone with it
-            self._loop, self._threads = loop, CapacityLimiter(_AT_A_TIME)
+            self._loop, self._threads = loop, CapacityLimiter(LOOKS.altogether)
             self._asked: dict[tuple[str, Hashable], asyncio.Task[Any]] = {}
             self._own: dict[str, asyncio.Semaphore] = {}
         return loop
@@ -75,7 +74,7 @@ class Looks:
             finally:
                 computed_s = time.thread_time() - begun
 
-        own = self._own.setdefault(who, asyncio.Semaphore())
+        own = self._own.setdefault(who, asyncio.Semaphore(int(LOOKS.each)))
         await own.acquire()
         try:
             return await to_thread.run_sync(work, limiter=self._threads)

@@ -9,20 +9,18 @@ from anyio import CapacityLimiter, to_thread
 from starlette.requests import Request
 
 from service.fairness.quotas import holding
+from service.fairness.table import THREADS, Share
 
 Result = TypeVar("Result")
-_ALTOGETHER = 24
-#: more would do no more: they compute one at a time, and the event loop waits for each of them
-_EACH = 2
 
 
 class Threads:
     """Threads for all that clients ask, none of them those that libraries share; who uses as many as it may waits for
     its own to end."""
 
-    def __init__(self, altogether: int = _ALTOGETHER, each: int = _EACH) -> None:
-        self._each = each
-        self._all = CapacityLimiter(altogether)
+    def __init__(self, share: Share = THREADS) -> None:
+        self._each = share.each
+        self._all = CapacityLimiter(share.altogether)
         self._own: dict[str, CapacityLimiter] = {}
         self._using: Counter[str] = Counter()
 

@@ -1,9 +1,8 @@
 """What is said to whom the guard refuses."""
 
-from service.common.problems import Fault, FaultTable, fixed, later, later_by_error
-from service.fairness.quotas import OverShare
+from service.common.problems import Fault, FaultTable, fixed, later_by_error
 from service.guard.rates import TooManyRequests
-from service.guard.refusals import BadHeader, Forbidden, ForeignHost, TooManyConnections, Unauthorized
+from service.guard.refusals import BadHeader, Forbidden, ForeignHost, Unauthorized
 
 
 def _unauthorized(error: Unauthorized) -> Fault:
@@ -17,7 +16,5 @@ FAULTS: FaultTable = {
     Forbidden: fixed(403, "Forbidden"),
     ForeignHost: fixed(421, "Misdirected request"),
     TooManyRequests: later_by_error(429, "Too many requests"),
-    TooManyConnections: later(503, "Too many connections", 1),
-    OverShare: later(429, "Over share", 1),
     BadHeader: fixed(422, "Invalid header"),
 }

@@ -32,10 +32,3 @@ class ForeignHost(Exception):
 
 class BadHeader(ValueError):
     """A header holds what it must not."""
-
-
-class TooManyConnections(Exception):
-    """As many connections as are allowed are open; a retry may help."""
-
-    def __init__(self) -> None:
-        super().__init__("No more connections may be open, of this address or altogether; try again later.")

@@ -4,9 +4,9 @@ from collections.abc import Iterator
 
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
-from service.fairness.quotas import Holding, OverShare
+from service.fairness.faults import FAULTS, OverShare
+from service.fairness.quotas import Holding
 from service.fairness.scheduler import Rounds
-from service.guard.faults import FAULTS
 from service.wire.refusal import response
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]

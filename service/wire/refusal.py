@@ -6,8 +6,7 @@ import h11
 from starlette.responses import Response
 
 from service.common.problems import PROBLEM_JSON, Fault, problem
-from service.guard.faults import FAULTS
-from service.guard.refusals import TooManyConnections
+from service.fairness.faults import FAULTS, TooManyConnections
 
 
 def response(fault: Fault, path: str) -> Response:

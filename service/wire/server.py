@@ -13,6 +13,7 @@ import uvicorn
 from fastapi import FastAPI
 
 from service.fairness.connection_limits import Doors
+from service.fairness.table import connections as connections_share
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.entrance import Entrance
@@ -75,7 +76,8 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
         timeout_keep_alive=settings.keep_alive_s,
         timeout_graceful_shutdown=settings.graceful_shutdown_s,
     )
-    doors = Doors(min(most, settings.max_connections), settings.max_connections_each, settings.trusted_proxies)
+    share = connections_share(min(most, settings.max_connections), settings.max_connections_each)
+    doors = Doors(share, settings.trusted_proxies)
     with suppress(KeyboardInterrupt):
         _Server(config, app, protocol, doors).run(sockets=[listening])
 

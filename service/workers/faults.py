@@ -1,12 +1,11 @@
 """What is said where no worker answers."""
 
-from service.common.problems import FaultTable, fixed, later, later_by_error
-from service.workers.pool import Busy, TooSlow, WorkerDied
+from service.common.problems import FaultTable, fixed, later
+from service.workers.pool import TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
 from service.workers.worker import NoRoom, OutOfMemory
 
 FAULTS: FaultTable = {
-    Busy: later_by_error(429, "Busy"),
     TooSlow: later(503, "Too slow", 5),
     WorkerDied: later(503, "Worker died", 1),
     WorkersFailed: later(503, "Workers failed", 5),

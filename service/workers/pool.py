@@ -2,7 +2,7 @@
 
 import logging
 from asyncio import FIRST_COMPLETED, ensure_future, gather, timeout, wait
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -10,7 +10,9 @@ from typing import TypeVar
 
 from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
-from service.fairness.queue import ABOVE, Full, Turn, Turns
+from service.fairness.faults import Busy
+from service.fairness.queue import Full, Turn, Turns
+from service.fairness.table import Resource, Share
 from service.workers import length
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
 from service.workers.task import Priority, Task
@@ -42,14 +44,6 @@ class TooSlow(Exception):
         )
 
 
-class Busy(Exception):
-    """As many requests as are allowed are waiting; a retry helps after ``retry_after_s``."""
-
-    def __init__(self, waiting: int, retry_after_s: int) -> None:
-        self.retry_after_s = retry_after_s
-        super().__init__(f"{waiting} requests are waiting already; try again later.")
-
-
 @dataclass
 class PoolCounts:
     """What happened so far."""
@@ -73,28 +67,23 @@ class Pool:
 
     Parameters
     ----------
-    size : short computations at a time; two above them for owners who had little lately.
-    waiting : requests that may wait for one, and as many for a long one.
-    each : requests of one owner that may wait.
+    shares : processes for short computations and for long ones, and requests that may wait for each.
     timeout_s : for waiting and computing [s].
     memory_mb : of one worker [MB].
     folder : for large answers while they are read; that of the system for such files if not given.
     """
 
-    size: int
-    waiting: int
-    each: int
+    shares: Mapping[Resource, Share]
     timeout_s: float
     memory_mb: int
     folder: Path | None = None
     counts: PoolCounts = field(default_factory=PoolCounts)
 
     def __post_init__(self) -> None:
-        most_long = max(1, self.size // 2)
-        self._short = Turns(self.size, self.waiting, self.each)
-        self._long = Turns(most_long, self.waiting, self.each, above=0)
+        short, long, waiting = (self.shares[name] for name in ("short", "long", "waiting"))
+        self._short, self._long = Turns(short, waiting), Turns(long, waiting)
         # who has no turn while all have one is not to wait for a start
-        self._kept = self.size + ABOVE + most_long
+        self._kept = int(short.altogether + short.kept + long.altogether)
         self._threads = CapacityLimiter(2 * self._kept)
         self._idle: list[Worker] = []
         self._busy: set[Worker] = set()

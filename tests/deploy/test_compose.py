@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from service.fairness.queue import ABOVE
+from service.fairness.table import shares
 from service.jobs.engines import engine
 from service.settings import Settings
 from tests.deploy.files import compose, dockerfile_environment, settings_variables
@@ -89,7 +89,7 @@ def test_memory_suffices_for_the_computations_that_it_allows() -> None:
         )
     )
     # two above them, for clients that had little lately
-    assert ((solves + ABOVE) * Settings().solve_memory_mb + 300) * 1_000_000 < limit * 2**30
+    assert ((solves + shares(Settings())["short"].kept) * Settings().solve_memory_mb + 300) * 1_000_000 < limit * 2**30
 
 
 def test_it_waits_longer_for_the_end_than_the_service_needs() -> None:

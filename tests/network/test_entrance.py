@@ -11,8 +11,10 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
-from service.fairness.connection_limits import _PROBING_EACH, Doors
+from service.fairness.connection_limits import Doors
 from service.fairness.scheduler import Rounds
+from service.fairness.table import PROBES
+from service.fairness.table import connections as share
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.entrance import Entrance
@@ -34,7 +36,7 @@ class House:
     def __init__(self, room: int, patience_s: float) -> None:
         self.made = 0
         self.state = ServerState()
-        self.doors = Doors(room, room, ())
+        self.doors = Doors(share(room, room), ())
         protocol = connections(SETTINGS, Rounds())
         config = Config(app, lifespan="off", log_config=None)
         config.load()
@@ -61,7 +63,7 @@ class House:
 
     async def empty(self) -> None:
         """Until it has seen that nobody is left."""
-        while self.doors._all or self.doors._probing or self.state.connections or self.entrance.refused:
+        while self.doors._open._total or self.doors._probing or self.state.connections or self.entrance.refused:
             await asyncio.sleep(0.01)
 
 
@@ -111,7 +113,7 @@ def test_with_room_there_is_an_answer_and_then_room_again() -> None:
 
 def test_of_those_without_room_who_came_first_makes_place() -> None:
     async def silent(house: House) -> None:
-        held = [await asyncio.open_connection(*house.listening.getsockname()[:2]) for _ in range(_PROBING_EACH + 2)]
+        held = [await asyncio.open_connection(*house.listening.getsockname()[:2]) for _ in range(int(PROBES.each) + 2)]
         # the first two are told, the others may still ask
         assert [(await read(reader)).status for reader, _ in held[:2]] == [503, 503]
         held[2][1].write(request("GET", "/readyz"))

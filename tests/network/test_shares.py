@@ -8,8 +8,10 @@ from typing import Any
 import pytest
 
 from schemas.answer.problem import Problem
-from service.fairness.quotas import Holding, OverShare, Shares
+from service.fairness.faults import OverShare
+from service.fairness.quotas import Holding, Shares
 from service.fairness.scheduler import Rounds
+from service.fairness.table import shares as table
 from service.settings import Settings
 from service.wire.pacing import PIECE_BYTES, Pacing
 from tests.network.load import start_sweep
@@ -19,7 +21,7 @@ MB = 1_000_000
 
 
 def shares(**given: int) -> Shares:
-    return Shares(Settings(**given))  # type: ignore[arg-type]
+    return Shares(table(Settings(**given)))  # type: ignore[arg-type]
 
 
 def test_a_client_has_its_share_and_all_have_theirs() -> None:

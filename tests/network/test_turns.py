@@ -9,8 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from service.fairness.queue import ABOVE, Full
+from service.fairness.queue import Full
 from service.fairness.queue import Turns as _Turns
+from service.fairness.table import Share, shares
+from service.settings import Settings
+
+ABOVE = int(shares(Settings())["short"].kept)
 
 
 class Clock:
@@ -28,7 +32,7 @@ class Turns(_Turns):
 
     def __init__(self, size: int, waiting: int, each: int, above: int = ABOVE) -> None:
         self.clock = Clock()
-        super().__init__(size, waiting, each, above, self.clock)
+        super().__init__(Share("turn", size, size, 1, above), Share("place", each, waiting), self.clock)
 
 
 async def settled() -> None:

@@ -13,7 +13,10 @@ from tempfile import TemporaryDirectory
 import anyio
 import pytest
 
-from service.workers.pool import Busy, Pool, TooSlow, WorkerDied
+from service.fairness.faults import Busy
+from service.fairness.table import shares
+from service.settings import Settings
+from service.workers.pool import Pool, TooSlow, WorkerDied
 from service.workers.process import WorkersFailed
 from service.workers.worker import Answer, Crashed, NoRoom, Outcome, OutOfMemory, Refused
 from tests.network import tasks
@@ -22,9 +25,15 @@ from tests.network.test_length import SAMPLED
 from tests.processes import children
 
 
+def pool_of(size: int, places: int) -> Pool:
+    """A pool of so many short computations at a time, for which so many may wait, all of them of one client."""
+    settings = Settings(concurrent_solves=size, queue_length=places, queue_length_each=places)
+    return Pool(shares(settings), timeout_s=180, memory_mb=2000)
+
+
 @pytest.fixture
 def pool() -> Iterator[Pool]:
-    made = Pool(size=2, waiting=2, each=2, timeout_s=180, memory_mb=2000)
+    made = pool_of(2, 2)
     yield made
     made.close()
 
@@ -97,7 +106,7 @@ def test_what_turns_out_to_be_long_gives_its_turn_back(pool: Pool, monkeypatch: 
 
 def test_what_is_long_is_begun_anew_where_others_wait(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
-    pool = Pool(size=1, waiting=8, each=8, timeout_s=180, memory_mb=2000)
+    pool = pool_of(1, 8)
 
     async def more_than_there_are_turns() -> None:
         async with anyio.create_task_group() as group:
@@ -119,7 +128,7 @@ def test_what_is_long_is_begun_anew_where_others_wait(monkeypatch: pytest.Monkey
 
 def test_no_number_of_long_ones_keeps_another_client_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
-    pool = Pool(size=2, waiting=64, each=64, timeout_s=180, memory_mb=2000)
+    pool = pool_of(2, 64)
 
     async def beside_six_clients() -> None:
         async with anyio.create_task_group() as group:
@@ -160,7 +169,7 @@ def test_what_a_worker_finds_to_be_long_waits_for_the_long_ones(pool: Pool) -> N
 def test_more_long_ones_than_may_wait_are_refused(waits: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     # those that turn out to be long too, whose computation ends with that
     monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
-    pool = Pool(size=1, waiting=0, each=0, timeout_s=180, memory_mb=2000)
+    pool = pool_of(1, 0)
     try:
         first, second = run(pool, task(tasks.slow, long=True), task(tasks.slow, long=not waits))
         assert isinstance(first, Answer)
