@@ -2,12 +2,16 @@
 
 import os
 import shutil
+import subprocess
+import sys
 from pathlib import Path
+from zipfile import ZipFile
 
 from tests.debian import install, say_missing
 
 ROOT = Path(__file__).parents[2]
 WORKBENCH = ROOT / "examples" / "freecad" / "Counterweight"
+CLIENT = ROOT / "examples" / "client" / "counterweight.py"
 MISSING = (
     "FreeCAD is missing: the workbench of examples/freecad was NOT TESTED. "
     "Install it (Debian: apt-get install freecad xvfb)."
@@ -24,12 +28,21 @@ def find() -> str | None:
     return os.environ.get("FREECADCMD") or next(filter(None, map(shutil.which, _NAMES)), None)
 
 
-def environment_for(home: Path, **settings: str) -> dict[str, str]:
+def packed(folder: Path) -> Path:
+    """The workbench as it is packed, unpacked in a folder."""
+    archive = folder / "Counterweight.zip"
+    subprocess.run([sys.executable, WORKBENCH.parent / "pack.py", archive], check=True, timeout=60)
+    with ZipFile(archive) as files:
+        files.extractall(folder)
+    return folder / "Counterweight"
+
+
+def environment_for(home: Path, workbench: Path = WORKBENCH, **settings: str) -> dict[str, str]:
     """An environment with a home of its own, where the workbench is installed and nobody's settings are."""
     mods = home / ".local" / "share" / "FreeCAD" / "Mod"
     mods.mkdir(parents=True, exist_ok=True)
     if not (mods / "Counterweight").exists():
-        (mods / "Counterweight").symlink_to(WORKBENCH)
+        (mods / "Counterweight").symlink_to(workbench)
     kept = {name: value for name, value in os.environ.items() if name not in _FOREIGN and not name.startswith("XDG_")}
     # what it compiles stays out of the repository
     return {**kept, "HOME": str(home), "PYTHONDONTWRITEBYTECODE": "1", **settings}

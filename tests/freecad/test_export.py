@@ -3,6 +3,7 @@
 import csv
 import json
 import subprocess
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -10,7 +11,7 @@ import ezdxf
 import pytest
 
 from tests.freecad.conftest import Run
-from tests.freecad.freecad import WORKBENCH, environment_for
+from tests.freecad.freecad import WORKBENCH, environment_for, packed
 
 
 def test_what_is_exported_is_what_was_drawn(run: Run, tmp_path: Path) -> None:
@@ -52,10 +53,10 @@ DESCRIBED: dict[str, Any] = {
 }
 
 
-def batch(freecadcmd: str, folder: Path, **settings: str) -> "subprocess.CompletedProcess[str]":
+def batch(freecadcmd: str, workbench: Path, folder: Path, **settings: str) -> "subprocess.CompletedProcess[str]":
     return subprocess.run(
-        [freecadcmd, str(WORKBENCH / "balance.py")],
-        env=environment_for(folder / "home", **settings),
+        [freecadcmd, str(workbench / "balance.py")],
+        env=environment_for(folder / "home", workbench, **settings),
         cwd=folder,
         stdin=subprocess.DEVNULL,
         capture_output=True,
@@ -65,7 +66,11 @@ def batch(freecadcmd: str, folder: Path, **settings: str) -> "subprocess.Complet
     )
 
 
-def test_a_shaft_in_and_a_balanced_shaft_out(run: Run, freecadcmd: str, url: str, tmp_path: Path) -> None:
+@pytest.mark.parametrize("made", [lambda _: WORKBENCH, packed], ids=["of a checkout", "packed"])
+def test_a_shaft_in_and_a_balanced_shaft_out(
+    run: Run, freecadcmd: str, url: str, tmp_path: Path, made: Callable[[Path], Path]
+) -> None:
+    workbench = made(tmp_path)
     run("step")
     described = tmp_path / "machine.json"
     described.write_text(json.dumps(DESCRIBED))
@@ -75,13 +80,13 @@ def test_a_shaft_in_and_a_balanced_shaft_out(run: Run, freecadcmd: str, url: str
         "COUNTERWEIGHT_FOLDER": str(tmp_path / "out"),
         "COUNTERWEIGHT_URL": url,
     }
-    done = batch(freecadcmd, tmp_path, **settings)
+    done = batch(freecadcmd, workbench, tmp_path, **settings)
     assert done.returncode == 0, done.stdout[-3000:]
     assert "The solids leave what the service says, to " in done.stdout
     assert "nothing of the shaft is in the way" in done.stdout
     assert {"balanced.step", "balanced.FCStd"} <= {path.name for path in (tmp_path / "out").iterdir()}
 
     described.write_text(json.dumps({**DESCRIBED, "machine": {**DESCRIBED["machine"], "throws": [{}]}}))
-    done = batch(freecadcmd, tmp_path, **settings)
+    done = batch(freecadcmd, workbench, tmp_path, **settings)
     assert (done.returncode, "throws: the faces show 2, 1 are described" in done.stdout) == (1, True)
     assert "Traceback" not in done.stdout
