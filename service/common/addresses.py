@@ -1,13 +1,9 @@
-"""What an address says: whether other machines reach it, and which client it is."""
+"""What an address says: whether other machines reach it, and on which lists it is."""
 
 import ipaddress
 from collections.abc import Iterable
-from functools import lru_cache
 
-#: one client has as many addresses of IPv6 as it likes, below one prefix of this length
-_PREFIX = 64
-#: whose addresses are not read anew with every request
-_CLIENTS = 4096
+from starlette.types import Scope
 
 
 def is_loopback(host: str) -> bool:
@@ -20,16 +16,9 @@ def is_loopback(host: str) -> bool:
         return False
 
 
-@lru_cache(_CLIENTS)
-def client_network(address: str) -> str:
-    """Which client an address belongs to: itself, or its network of IPv6; what is no address is itself."""
-    try:
-        found = ipaddress.ip_address(address)
-    except ValueError:
-        return address
-    if found.version == 4 or found.is_loopback:
-        return str(found)
-    return str(found.ipv4_mapped or ipaddress.ip_network((int(found), _PREFIX), strict=False))
+def address_of(scope: Scope) -> str:
+    """The address from which a request comes; empty where the server does not know."""
+    return str((scope.get("client") or ("",))[0])
 
 
 class Networks:

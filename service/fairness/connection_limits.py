@@ -2,7 +2,8 @@
 
 from collections.abc import Callable, Iterable
 
-from service.common.addresses import Networks, client_network
+from service.common.addresses import Networks
+from service.fairness.client import client_network
 from service.fairness.quotas import Quota
 from service.fairness.table import PROBES, Share
 

@@ -8,7 +8,7 @@ from starlette.datastructures import Headers
 from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from service.common.addresses import client_network
+from service.fairness.client import client_of_request
 from service.fairness.quotas import Holding, Shares
 from service.guard.hosts import Hosts
 from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
@@ -68,7 +68,7 @@ class Access:
         except (Unauthorized, ForeignHost, TooManyRequests, BadHeader) as error:
             await self._refused(error, scope["path"])(scope, receive, send)
             return
-        holding = Holding(self._shares, _who(scope, caller))
+        holding = Holding(self._shares, client_of_request(scope, caller.owner))
         state = scope.setdefault("state", {})
         state.update(caller=caller, holding=holding, still_admitted=lambda: self._still_admitted(scope, caller))
         try:
@@ -97,14 +97,10 @@ class Access:
         caller = None if given is None else keys.caller(given)
         if caller is None:
             if given is not None:
-                await self._limits.refused((scope.get("client") or ("",))[0])
+                await self._limits.refused(client_of_request(scope, None))
             raise Unauthorized(given is not None)
         await self._limits.asked(caller.key or "", caller.rate_limit)
         return caller
-
-
-def _who(scope: Scope, caller: Caller) -> str:
-    return f"owner {caller.owner}" if caller.owner is not None else client_network((scope.get("client") or ("",))[0])
 
 
 def own_path(scope: Scope) -> str:

@@ -41,14 +41,14 @@ class RateLimits:
         """
         await self._count("key", key, self._usual if rate is None else parsed(rate))
 
-    async def refused(self, address: str) -> None:
-        """Count a wrong key from an address.
+    async def refused(self, client: str) -> None:
+        """Count a wrong key of a client.
 
         Raises
         ------
         TooManyRequests
         """
-        await self._count("address", address, self._refusals)
+        await self._count("address", client, self._refusals)
 
     async def _count(self, kind: str, name: str, limit: RateLimitItem | None) -> None:
         if limit is None or await self._limiter.hit(limit, kind, name):

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Receive, Scope, Send
 
-from service.common.addresses import Networks
+from service.common.addresses import Networks, address_of
 from service.guard.refusals import BadHeader
 
 #: what portals know their users by: names, addresses, digests
@@ -30,7 +30,7 @@ class Users:
         self._proxies = Networks(proxies)
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if self._header and scope["type"] == "http" and (scope.get("client") or ("",))[0] in self._proxies:
+        if self._header and scope["type"] == "http" and address_of(scope) in self._proxies:
             scope.setdefault("state", {})["users"] = (self._header, Headers(scope=scope).getlist(self._header))
         await self._app(scope, receive, send)
 

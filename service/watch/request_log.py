@@ -9,6 +9,7 @@ from typing import Any
 from starlette.datastructures import Headers
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
+from service.common.addresses import address_of
 from service.common.headers import header
 from service.watch.logs import REQUEST
 from service.watch.metrics import Metrics
@@ -90,7 +91,7 @@ class RequestLog:
             "path": scope["path"][:_LONGEST_PATH],
             "status": status,
             "duration_ms": round(1e3 * seconds, 2),
-            "client": (scope.get("client") or ("",))[0],
+            "client": address_of(scope),
         }
         if caller is not None and caller.key is not None:
             about |= {"key": caller.key, "owner": caller.owner}

@@ -11,8 +11,8 @@ import h11
 from uvicorn.protocols.http.flow_control import HIGH_WATER_LIMIT
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from service.common.addresses import client_network
 from service.common.problems import Fault
+from service.fairness.client import client_network
 from service.fairness.scheduler import Rounds
 from service.settings import Settings
 from service.wire.framing import Framing, TwoLengths

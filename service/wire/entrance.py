@@ -12,7 +12,7 @@ from typing import Any
 
 from starlette.types import Message, Receive, Scope, Send
 
-from service.common.addresses import client_network
+from service.fairness.client import client_network
 from service.fairness.connection_limits import Doors
 from service.fairness.scheduler import Rounds
 from service.guard.access import own_path
