@@ -107,6 +107,10 @@ class Computation:
         """The name in addresses and on the command line."""
         return self.name.replace("_", "-")
 
+    def long_by_kind(self, form: Form, workbook: bool) -> bool:
+        """Whether it is long whatever it is about; reading and writing workbooks is."""
+        return self.long or workbook or form.media_type == XLSX
+
     @property
     def asks(self) -> "type[Model]":
         """Model of the request."""

@@ -26,7 +26,6 @@ from service.watch.metrics import Metrics
 from service.watch.readiness import Readiness
 from service.watch.tracing import Tracing
 from service.wire.leaving import Waited
-from service.workers.length import long_by_kind
 from service.workers.pool import Pool
 from service.workers.task import Task
 from service.workers.worker import Answer, Crashed, Outcome, Refused
@@ -109,7 +108,7 @@ class Computing:
         if asked_for.later and prefers_later(request) and not workbook and form is asked_for.forms[0]:
             return await threads_of(request).run(holding(request).who, accept)
 
-        long = long_by_kind(asked_for, form, workbook)
+        long = asked_for.long_by_kind(form, workbook)
         task = Task(asked_for, form, body, self.limits, coding_of(request), workbook, long)
         with self._tracing.span(asked_for.name), Waited(request):
             outcome = await self._pool.run(task, holding(request).who)

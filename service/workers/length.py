@@ -1,8 +1,8 @@
 """Which computations are long: those that may take more than two seconds of a core.
 
 Long ones have turns of their own, behind all others, so that no number of them keeps a short one waiting. What is long
-is decided here, in three steps: by its kind, before it has any turn; by its size, in the worker that has read it; and
-whatever computes for longer than that is long, however it looked before.
+is decided in three steps. A kind may be long, as its entry says, before it has any turn. A size may be, in the worker
+that has read the request. And whatever computes for longer than that is long, however it looked before.
 """
 
 from schemas.base.model import Model
@@ -10,7 +10,6 @@ from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.report import ReportRequest
 from schemas.request.scene import Scene
-from service.computations import XLSX, Computation, Form
 
 #: what computes for longer is long [s]
 BRIEF_S = 2.0
@@ -20,16 +19,11 @@ _DOCUMENT = 50
 _VALUES = 40_000
 
 
-def long_by_kind(computation: Computation, form: Form, workbook: bool) -> bool:
-    """Whether a computation is long whatever it is about; reading and writing workbooks is."""
-    return computation.long or workbook or form.media_type == XLSX
-
-
-def long_by_size(computation: Computation, request: Model) -> bool:
-    """Whether the request is too large to be answered soon."""
+def long_by_size(request: Model, document: bool) -> bool:
+    """Whether a request is too large to be answered soon; what is asked for may be a document."""
     if not isinstance(request, Scene):
         return False
-    if computation.answer is None:
+    if document:
         return _parts(request) > _DOCUMENT
     sampled = any(output != "residual" for output in request.outputs)
     return sampled and _rows_or_bearings(request.machine) * request.angles.count > _VALUES

@@ -174,7 +174,7 @@ def perform(task: Task) -> Outcome | Long:
         with said:
             asked = check(task.computation.asks, body)
             task.limits.require(asked)
-            if not task.long and long_by_size(task.computation, asked):
+            if not task.long and long_by_size(asked, task.computation.answer is None):
                 return Long()
             with kept() as faults:
                 found = task.computation.function(asked)

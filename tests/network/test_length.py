@@ -8,7 +8,7 @@ import pytest
 from service.common.validation import check
 from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
-from service.workers.length import long_by_kind, long_by_size
+from service.workers.length import long_by_size
 from tests.network.bystander import TORQUE, largest
 
 #: legal, and long: megabytes of torque
@@ -30,10 +30,10 @@ SAMPLED = json.dumps(
 )
 def test_some_kinds_are_long(name: str, long: bool) -> None:
     computation = COMPUTATIONS[name]
-    assert long_by_kind(computation, computation.forms[0], workbook=False) is long
-    assert long_by_kind(computation, computation.forms[0], workbook=True)
+    assert computation.long_by_kind(computation.forms[0], workbook=False) is long
+    assert computation.long_by_kind(computation.forms[0], workbook=True)
     for form in computation.forms:
-        assert long_by_kind(computation, form, workbook=False) is (long or form.media_type == XLSX)
+        assert computation.long_by_kind(form, workbook=False) is (long or form.media_type == XLSX)
 
 
 def report(throws: int, versions: int = 0) -> dict[str, Any]:
@@ -59,4 +59,4 @@ def report(throws: int, versions: int = 0) -> dict[str, Any]:
 )
 def test_large_ones_are_long(name: str, body: dict[str, Any], long: bool) -> None:
     computation = COMPUTATIONS[name]
-    assert long_by_size(computation, check(computation.asks, body)) is long
+    assert long_by_size(check(computation.asks, body), computation.answer is None) is long
