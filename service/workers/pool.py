@@ -10,10 +10,10 @@ from typing import TypeVar
 
 from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on_after, to_thread
 
+from service.fairness import length
 from service.fairness.faults import Busy
 from service.fairness.queue import Full, Turn, Turns
 from service.fairness.table import Resource, Share
-from service.workers import length
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
 from service.workers.task import Priority, Task
 from service.workers.worker import Answer, Crashed, Long, Outcome
@@ -61,7 +61,7 @@ class PoolCounts:
 class Pool:
     """So many computations at a time, each in a process.
 
-    Long ones (:mod:`service.workers.length`) have turns of their own, half as many and one at least, and so they have
+    Long ones (:mod:`service.fairness.length`) have turns of their own, half as many and one at least, and so they have
     processes of their own. What turns out to be long goes on in a turn of the long ones if there is one; else it goes
     on in its own until somebody waits for that, and is then begun anew when it has one.
 

@@ -25,7 +25,7 @@ from service.common.coding import SMALL_BYTES, Coding, coded
 from service.common.faults import kept
 from service.common.private import make_folder
 from service.common.validation import InvalidRequest, UnreadableBody, check, read_json
-from service.workers.length import long_by_size
+from service.fairness.length import long_by_size
 from service.workers.messages import say
 from service.workers.task import Priority, Task
 

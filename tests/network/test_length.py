@@ -8,7 +8,7 @@ import pytest
 from service.common.validation import check
 from service.computations import COMPUTATIONS, XLSX
 from service.documents.examples import bodies
-from service.workers.length import long_by_size
+from service.fairness.length import long_by_size
 from tests.network.bystander import TORQUE, largest
 
 #: legal, and long: megabytes of torque

@@ -92,7 +92,7 @@ def test_long_tasks_are_computed_behind_all_others(pool: Pool) -> None:
 
 
 def test_what_turns_out_to_be_long_gives_its_turn_back(pool: Pool, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    monkeypatch.setattr("service.fairness.length.BRIEF_S", 0.1)
     run(pool, task(tasks.quick))
     before = pool.pids
     # it goes on where it is, as nobody else is long
@@ -105,7 +105,7 @@ def test_what_turns_out_to_be_long_gives_its_turn_back(pool: Pool, monkeypatch: 
 
 
 def test_what_is_long_is_begun_anew_where_others_wait(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    monkeypatch.setattr("service.fairness.length.BRIEF_S", 0.1)
     pool = pool_of(1, 8)
 
     async def more_than_there_are_turns() -> None:
@@ -127,7 +127,7 @@ def test_what_is_long_is_begun_anew_where_others_wait(monkeypatch: pytest.Monkey
 
 
 def test_no_number_of_long_ones_keeps_another_client_waiting(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    monkeypatch.setattr("service.fairness.length.BRIEF_S", 0.1)
     pool = pool_of(2, 64)
 
     async def beside_six_clients() -> None:
@@ -168,7 +168,7 @@ def test_what_a_worker_finds_to_be_long_waits_for_the_long_ones(pool: Pool) -> N
 @pytest.mark.parametrize("waits", [False, True])
 def test_more_long_ones_than_may_wait_are_refused(waits: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     # those that turn out to be long too, whose computation ends with that
-    monkeypatch.setattr("service.workers.length.BRIEF_S", 0.1)
+    monkeypatch.setattr("service.fairness.length.BRIEF_S", 0.1)
     pool = pool_of(1, 0)
     try:
         first, second = run(pool, task(tasks.slow, long=True), task(tasks.slow, long=not waits))
