@@ -25,7 +25,7 @@ class Turn:
     above : it is one above the size.
     """
 
-    turns: "Turns"
+    turns: "FairQueue"
     owner: str
     decided: asyncio.Event = field(default_factory=asyncio.Event)
     wanted: bool = False
@@ -61,7 +61,7 @@ class Turn:
         self.end()
 
 
-class Turns:
+class FairQueue:
     """So many turns at a time, and some above them for owners who have none, and had little lately.
 
     Next is the owner who has had turns for the least time, each in the order in which it asked; but nobody waits for

@@ -12,7 +12,7 @@ from anyio import CancelScope, CapacityLimiter, get_cancelled_exc_class, move_on
 
 from service.fairness import length
 from service.fairness.faults import Busy
-from service.fairness.queue import Full, Turn, Turns
+from service.fairness.queue import FairQueue, Full, Turn
 from service.fairness.table import Resource, Share
 from service.workers.process import Dead, Start, Worker, WorkersFailed, forked
 from service.workers.task import Priority, Task
@@ -81,7 +81,7 @@ class Pool:
 
     def __post_init__(self) -> None:
         short, long, waiting = (self.shares[name] for name in ("short", "long", "waiting"))
-        self._short, self._long = Turns(short, waiting), Turns(long, waiting)
+        self._short, self._long = FairQueue(short, waiting), FairQueue(long, waiting)
         # who has no turn while all have one is not to wait for a start
         self._kept = int(short.altogether + short.kept + long.altogether)
         self._threads = CapacityLimiter(2 * self._kept)

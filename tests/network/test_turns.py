@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from service.fairness.queue import FairQueue as _Turns
 from service.fairness.queue import Full
-from service.fairness.queue import Turns as _Turns
 from service.fairness.table import Share, shares
 from service.settings import Settings
 
@@ -27,7 +27,7 @@ class Clock:
         return self.seconds
 
 
-class Turns(_Turns):
+class FairQueue(_Turns):
     """With a clock of its own, which stands."""
 
     def __init__(self, size: int, waiting: int, each: int, above: int = ABOVE) -> None:
@@ -44,7 +44,7 @@ async def settled() -> None:
 class Asked:
     """Turns that are asked for in order, each ended by hand."""
 
-    def __init__(self, turns: Turns, group: anyio.abc.TaskGroup) -> None:
+    def __init__(self, turns: FairQueue, group: anyio.abc.TaskGroup) -> None:
         self.turns = turns
         self.begun: list[str] = []
         self.refused: list[str] = []
@@ -74,7 +74,7 @@ class Asked:
             await settled()
 
 
-def play(turns: Turns, story: object) -> Asked:
+def play(turns: FairQueue, story: object) -> Asked:
     found: list[Asked] = []
 
     async def tell() -> None:
@@ -97,7 +97,7 @@ def test_owners_take_turns() -> None:
         await asked.end("a1", "b1", "a2", "b2", "a3", "b3")
         assert asked.begun[2:] == ["a2", "b2", "a3", "b3", "a4"]
 
-    play(Turns(1, 10, 10), story)
+    play(FairQueue(1, 10, 10), story)
 
 
 def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> None:
@@ -115,7 +115,7 @@ def test_who_has_nothing_begins_at_once_though_another_one_has_everything() -> N
         await asked.end("a1", after_s=1.0)
         assert asked.begun[4:] == ["a2"]
 
-    play(Turns(2, 20, 20), story)
+    play(FairQueue(2, 20, 20), story)
 
 
 def test_owners_who_ask_without_end_leave_two_to_who_asks_now_and_then() -> None:
@@ -139,7 +139,7 @@ def test_owners_who_ask_without_end_leave_two_to_who_asks_now_and_then() -> None
         # a has none now, and had none for a moment
         assert asked.begun[7:] == []
 
-    play(Turns(2, 20, 20), story)
+    play(FairQueue(2, 20, 20), story)
 
 
 def test_who_has_had_least_is_next() -> None:
@@ -156,7 +156,7 @@ def test_who_has_had_least_is_next() -> None:
         await asked.end("a2", after_s=0.5)
         assert asked.begun[5:] == ["b2"]
 
-    play(Turns(1, 10, 10), story)
+    play(FairQueue(1, 10, 10), story)
 
 
 def test_nobody_waits_for_ever_however_many_come() -> None:
@@ -170,7 +170,7 @@ def test_nobody_waits_for_ever_however_many_come() -> None:
         # after two seconds without any a is before h
         assert asked.begun == ["a0", "b0", "c0", "d0", "e0", "f0", "g0", "a1"]
 
-    play(Turns(1, 20, 20), story)
+    play(FairQueue(1, 20, 20), story)
 
 
 def test_a_place_that_was_given_up_leaves_nothing_behind() -> None:
@@ -181,7 +181,7 @@ def test_a_place_that_was_given_up_leaves_nothing_behind() -> None:
             if name in asked.begun:
                 await asked.end(name, after_s=1.0)
 
-    turns = Turns(1, 2, 2)
+    turns = FairQueue(1, 2, 2)
     play(turns, story)
     assert not [owner for owner in "abc" if owner in turns._accounts]
 
@@ -196,7 +196,7 @@ def test_an_owner_has_its_share_of_the_places_and_gives_up_the_last_to_others() 
         # b0 and c0 begin, as b and c have none; b1 and c1 take the places that a has last; c2 would be as many as a has
         assert asked.refused == ["a5", "a4", "a3", "c2"]
 
-    play(Turns(1, 4, 4), story)
+    play(FairQueue(1, 4, 4), story)
 
 
 def test_none_above_the_size_where_there_are_none() -> None:
@@ -207,10 +207,10 @@ def test_none_above_the_size_where_there_are_none() -> None:
         await asked.end("a0", "b0", after_s=1.0)
         assert asked.begun[1:] == ["b0", "c0"]
 
-    play(Turns(1, 4, 4, above=0), story)
+    play(FairQueue(1, 4, 4, above=0), story)
 
 
-async def _step_by_step(turns: Turns) -> None:
+async def _step_by_step(turns: FairQueue) -> None:
     first, second = turns.turn("a"), turns.turn("b")
     await first.granted()
     assert not turns.crowded.is_set()
@@ -230,7 +230,7 @@ async def _step_by_step(turns: Turns) -> None:
 
 
 def test_a_turn_is_had_step_by_step() -> None:
-    anyio.run(_step_by_step, Turns(1, 4, 4, above=0))
+    anyio.run(_step_by_step, FairQueue(1, 4, 4, above=0))
 
 
 def test_nobody_waits_where_nobody_may() -> None:
@@ -239,10 +239,10 @@ def test_nobody_waits_where_nobody_may() -> None:
         await asked.ask("a1")
         assert asked.refused == ["a1"]
 
-    play(Turns(1, 0, 0), story)
+    play(FairQueue(1, 0, 0), story)
 
 
-async def _leave(turns: Turns) -> None:
+async def _leave(turns: FairQueue) -> None:
     async with turns.turn("a"):
         with anyio.move_on_after(0.01):
             async with turns.turn("a"):
@@ -253,12 +253,12 @@ async def _leave(turns: Turns) -> None:
 
 
 def test_who_goes_away_leaves_no_place_taken() -> None:
-    anyio.run(_leave, Turns(1, 4, 4))
+    anyio.run(_leave, FairQueue(1, 4, 4))
 
 
 @given(st.lists(st.tuples(st.sampled_from("abc"), st.booleans()), max_size=40), st.integers(1, 3))
 def test_everybody_is_served_or_refused_and_never_more_than_there_are(steps: list[tuple[str, bool]], size: int) -> None:
-    turns = Turns(size, 6, 4)
+    turns = FairQueue(size, 6, 4)
 
     async def story(asked: Asked) -> None:
         open_turns: list[str] = []
@@ -314,4 +314,4 @@ def test_a_bystander_never_waits_for_owners_who_ask_without_end(each: int) -> No
         assert sum(begun[owner] for owner in "abcd") == pytest.approx(2 * 4.0 / 0.025, rel=0.05)
         assert max(begun[owner] for owner in "abcd") - min(begun[owner] for owner in "abcd") <= 2
 
-    play(Turns(2, 100, 64), story)
+    play(FairQueue(2, 100, 64), story)
