@@ -18,7 +18,7 @@ from service.common import validation
 from service.documents import faults as document_faults
 from service.fairness import faults as fairness_faults
 from service.fairness.quotas import Shares
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.fairness.single_flight import Looks
 from service.fairness.table import shares
 from service.fairness.threads import Threads
@@ -131,7 +131,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         chosen.solve_memory_mb,
         chosen.data_dir,
     )
-    threads, rounds, errors = Threads(table["threads"]), Rounds(), ErrorAnswers(FAULTS)
+    threads, rounds, errors = Threads(table["threads"]), FairScheduler(), ErrorAnswers(FAULTS)
     readiness = Readiness(
         {
             "database": partial(database, desk.counts),

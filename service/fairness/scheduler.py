@@ -9,7 +9,7 @@ Work = Callable[[], None]
 _APART = 4
 
 
-class Rounds:
+class FairScheduler:
     """At most one piece of work in each turn of an event loop.
 
     What is alone is done at once, so that it costs nothing where there is no haste. A client of whom one piece waits

@@ -13,7 +13,7 @@ from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from service.common.problems import Fault
 from service.fairness.client import client_network
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
 from service.wire.framing import Framing, TwoLengths
 from service.wire.idleness import Idleness
@@ -28,7 +28,7 @@ _READ_BYTES = 32_768
 _TOO_LARGE = 431
 
 
-def connections(settings: Settings, shared: Rounds) -> "type[Connection]":
+def connections(settings: Settings, shared: FairScheduler) -> "type[Connection]":
     """The protocol of a server with these settings, whose connections share rounds with whatever else goes by turns."""
 
     class Limited(Connection):
@@ -43,7 +43,7 @@ class Connection(H11Protocol):
     """Closed when its client sends no whole header, goes on with a body that was answered, or reads nothing, for too
     long."""
 
-    rounds: Rounds
+    rounds: FairScheduler
     headers_timeout_s: float
     write_timeout_s: float
 

@@ -14,7 +14,7 @@ from starlette.types import Message, Receive, Scope, Send
 
 from service.fairness.client import client_network
 from service.fairness.connection_limits import Doors
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.guard.access import own_path
 from service.guard.keys import PROBES
 from service.wire.connections import Connection
@@ -55,7 +55,7 @@ class Entrance:
         self,
         listening: socket.socket,
         doors: Doors,
-        rounds: Rounds,
+        rounds: FairScheduler,
         made: Callable[[], Connection],
         patience_s: float,
     ) -> None:

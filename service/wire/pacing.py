@@ -6,7 +6,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from service.fairness.faults import FAULTS, OverShare
 from service.fairness.quotas import Holding
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.wire.refusal import response
 
 #: what is handed over at a time; the connection takes the next when its buffer is nearly empty [bytes]
@@ -20,7 +20,7 @@ class Pacing:
     is handed over in a turn of the event loop, of one client after the other.
     """
 
-    def __init__(self, app: ASGIApp, rounds: Rounds) -> None:
+    def __init__(self, app: ASGIApp, rounds: FairScheduler) -> None:
         self._app = app
         self._rounds = rounds
 

@@ -21,7 +21,7 @@ import uvicorn
 from starlette.types import Receive, Scope, Send
 from uvicorn.protocols.http.h11_impl import H11Protocol
 
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.plain_requests import Head
@@ -54,7 +54,7 @@ def protocol(name: str) -> type[asyncio.Protocol]:
     if name == "uvicorn, httptools":
         found: type[asyncio.Protocol] = import_module("uvicorn.protocols.http.httptools_impl").HttpToolsProtocol
         return found
-    ours = connections(Settings(), Rounds())
+    ours = connections(Settings(), FairScheduler())
     if name == "ours":
         return ours
     parser = None if name == "ours, h11 alone" else import_module("httptools").HttpRequestParser

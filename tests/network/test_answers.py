@@ -11,7 +11,7 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from service.wire.joined import Joined
@@ -41,7 +41,7 @@ def test_a_kept_connection_waits_for_no_acknowledgement(monkeypatch: pytest.Monk
     async def ask() -> tuple[int, list[bytes]]:
         loop, state = asyncio.get_running_loop(), ServerState()
         config = Config(app, lifespan="off", log_config=None)
-        protocol: type[Any] = connections(SETTINGS, Rounds())
+        protocol: type[Any] = connections(SETTINGS, FairScheduler())
         listening = listen(SETTINGS)
         async with await loop.create_server(lambda: protocol(config, state, {}), sock=listening):
             reader, writer = await asyncio.open_connection(*listening.getsockname()[:2])

@@ -12,7 +12,7 @@ from uvicorn import Config
 from uvicorn.server import ServerState
 
 from service.fairness.connection_limits import Doors
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.fairness.table import PROBES
 from service.fairness.table import connections as share
 from service.settings import Settings
@@ -37,7 +37,7 @@ class House:
         self.made = 0
         self.state = ServerState()
         self.doors = Doors(share(room, room), ())
-        protocol = connections(SETTINGS, Rounds())
+        protocol = connections(SETTINGS, FairScheduler())
         config = Config(app, lifespan="off", log_config=None)
         config.load()
 

@@ -13,7 +13,7 @@ from uvicorn.server import ServerState
 
 from service.app import create_app
 from service.fairness.quotas import Holding
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 
@@ -32,7 +32,7 @@ def ask(port: int) -> int:
 
 def test_what_was_answered_is_gone_with_its_last_reference(tmp_path: Path) -> None:
     settings, state = Settings(data_dir=tmp_path), ServerState()
-    protocol = connections(settings, Rounds())
+    protocol = connections(settings, FairScheduler())
     config = uvicorn.Config(create_app(settings, warm=False), http=protocol, log_config=None, lifespan="off")
     config.load()
 

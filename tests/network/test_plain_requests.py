@@ -10,7 +10,7 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.settings import Settings
 from service.wire.connections import connections
 from service.wire.plain_requests import Heads, plain_head
@@ -109,7 +109,7 @@ def heard(*pieces: bytes, headers_timeout_s: float = 300) -> bytes:
     async def run() -> bytes:
         config = Config(app, lifespan="off", log_config=None, date_header=False, server_header=False)
         config.load()
-        protocol = connections(Settings(port=0, headers_timeout_s=headers_timeout_s), Rounds())
+        protocol = connections(Settings(port=0, headers_timeout_s=headers_timeout_s), FairScheduler())
         server = await asyncio.get_running_loop().create_server(
             lambda: protocol(config, ServerState(), {}), "127.0.0.1", 0
         )

@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from uvicorn.server import ServerState
 
-from service.fairness.scheduler import _APART, Rounds
+from service.fairness.scheduler import _APART, FairScheduler
 from service.settings import Settings
 from service.wire.connections import Connection, connections
 from tests.network.serving import read, request
@@ -30,7 +30,7 @@ class Loop:
 
 def test_what_is_alone_is_done_at_once_and_one_piece_in_a_turn() -> None:
     loop, done = Loop(), list[int]()
-    rounds = Rounds(loop.soon.append)
+    rounds = FairScheduler(loop.soon.append)
     assert rounds.ask("a", lambda: done.append(1))
     assert not rounds.ask("a", lambda: done.append(2))
     assert done == [1]
@@ -42,7 +42,7 @@ def test_what_is_alone_is_done_at_once_and_one_piece_in_a_turn() -> None:
 
 def test_one_of_many_connections_delays_nobody() -> None:
     loop, done = Loop(), list[str]()
-    rounds = Rounds(loop.soon.append)
+    rounds = FairScheduler(loop.soon.append)
     for k in range(300):
         rounds.ask("many", lambda k=k: done.append(f"many {k}"))  # type: ignore[misc]
     for _ in range(3):
@@ -54,7 +54,7 @@ def test_one_of_many_connections_delays_nobody() -> None:
 
 def test_of_whom_much_waits_something_is_done_however_much_others_ask() -> None:
     loop, done = Loop(), list[str]()
-    rounds = Rounds(loop.soon.append)
+    rounds = FairScheduler(loop.soon.append)
     for k in range(300):
         rounds.ask(f"client {k % 3}", lambda k=k: done.append(f"client {k % 3}"))  # type: ignore[misc]
     asked = 0
@@ -69,7 +69,7 @@ def test_of_whom_much_waits_something_is_done_however_much_others_ask() -> None:
 
 
 def test_what_waited_in_a_loop_that_has_ended_is_gone_with_it() -> None:
-    rounds, done = Rounds(), list[int]()
+    rounds, done = FairScheduler(), list[int]()
 
     async def ask() -> None:
         for k in range(3):
@@ -83,7 +83,7 @@ def test_what_waited_in_a_loop_that_has_ended_is_gone_with_it() -> None:
 @given(st.lists(st.sampled_from("abc"), max_size=30), st.lists(st.integers(0, 3), max_size=30))
 def test_all_is_done_once_and_in_the_order_of_its_client(clients: list[str], turns: list[int]) -> None:
     loop, done = Loop(), list[tuple[str, int]]()
-    rounds = Rounds(loop.soon.append)
+    rounds = FairScheduler(loop.soon.append)
     for number, client in enumerate(clients):
         rounds.ask(client, lambda client=client, number=number: done.append((client, number)))  # type: ignore[misc]
         for _ in range(turns[number] if number < len(turns) else 0):
@@ -105,7 +105,7 @@ async def waiting() -> AsyncIterator[tuple[Connection, asyncio.StreamReader, Loo
     """A connection whose first bytes wait for their round, its client, and what gives them their round."""
     loop, made = Loop(), list[Connection]()
 
-    protocol = connections(Settings(), Rounds(loop.soon.append))
+    protocol = connections(Settings(), FairScheduler(loop.soon.append))
 
     def accepted() -> Connection:
         made.append(protocol(config, ServerState(), {}))
@@ -157,7 +157,7 @@ def test_a_connection_whose_bytes_wait_is_not_idle() -> None:
 
 def test_who_waits_for_a_turn_has_it_in_the_order_of_the_clients() -> None:
     async def told() -> list[str]:
-        rounds, done = Rounds(), list[str]()
+        rounds, done = FairScheduler(), list[str]()
 
         async def pieces(client: str) -> None:
             for _ in range(3):

@@ -10,7 +10,7 @@ import pytest
 from schemas.answer.problem import Problem
 from service.fairness.faults import OverShare
 from service.fairness.quotas import Holding, Shares
-from service.fairness.scheduler import Rounds
+from service.fairness.scheduler import FairScheduler
 from service.fairness.table import shares as table
 from service.settings import Settings
 from service.wire.pacing import PIECE_BYTES, Pacing
@@ -68,7 +68,7 @@ def answered(held: Holding, parts: Sequence[bytes]) -> list[dict[str, Any]]:
     async def receive() -> Any:
         raise AssertionError("nobody reads")
 
-    asyncio.run(Pacing(app, Rounds())({"type": "http", "path": "/x", "state": {"holding": held}}, receive, send))
+    asyncio.run(Pacing(app, FairScheduler())({"type": "http", "path": "/x", "state": {"holding": held}}, receive, send))
     return sent
 
 
