@@ -19,7 +19,7 @@ from service.documents import faults as document_faults
 from service.fairness import faults as fairness_faults
 from service.fairness.quotas import Shares
 from service.fairness.scheduler import FairScheduler
-from service.fairness.single_flight import Looks
+from service.fairness.single_flight import SingleFlight
 from service.fairness.table import shares
 from service.fairness.threads import Threads
 from service.guard import faults as guard_faults
@@ -207,7 +207,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
     app.state.pool = pool
     app.state.threads = threads
     app.state.rounds = rounds
-    app.state.looks = Looks(rounds.turn)
+    app.state.looks = SingleFlight(rounds.turn)
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)

@@ -16,7 +16,7 @@ Result = TypeVar("Result")
 _REST = 3.0
 
 
-class Looks:
+class SingleFlight:
     """One look at a time for each client, whatever it looks at.
 
     A look begins after it was asked for, so that nobody is told what was before; who asks while it is taken waits for
@@ -90,5 +90,5 @@ class Looks:
 
 async def looked(request: Request, what: Hashable, look: Callable[[], Result]) -> Result:
     """What a look for a request finds, by the looks of the application."""
-    looks: Looks = request.app.state.looks
+    looks: SingleFlight = request.app.state.looks
     return await looks.at(holding(request).who, what, look)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Coroutine
 from typing import Any
 
 from service.fairness.scheduler import FairScheduler
-from service.fairness.single_flight import Looks
+from service.fairness.single_flight import SingleFlight
 
 
 class Slow:
@@ -32,7 +32,7 @@ def run(work: Callable[[], Coroutine[Any, Any, Any]]) -> Any:
     return asyncio.run(timed())
 
 
-async def waiting(looks: Looks, look: Slow, count: int) -> list[asyncio.Task[int]]:
+async def waiting(looks: SingleFlight, look: Slow, count: int) -> list[asyncio.Task[int]]:
     """So many who ask for the same, all of them waiting."""
     asking = [asyncio.create_task(looks.at("me", "state", look)) for _ in range(count)]
     await asyncio.sleep(0)
@@ -41,7 +41,7 @@ async def waiting(looks: Looks, look: Slow, count: int) -> list[asyncio.Task[int
 
 def test_those_who_ask_while_one_is_taken_share_the_next() -> None:
     async def found() -> list[int]:
-        looks, look = Looks(FairScheduler().turn), Slow()
+        looks, look = SingleFlight(FairScheduler().turn), Slow()
         first = await waiting(looks, look, 1)
         await asyncio.to_thread(look.begun.wait, 180)
         later = await waiting(looks, look, 300)
@@ -54,7 +54,7 @@ def test_those_who_ask_while_one_is_taken_share_the_next() -> None:
 
 def test_a_client_looks_at_one_thing_at_a_time_and_keeps_nobody_else_waiting() -> None:
     async def found() -> tuple[int, str, bool]:
-        looks, look = Looks(FairScheduler().turn), Slow()
+        looks, look = SingleFlight(FairScheduler().turn), Slow()
         many = [asyncio.create_task(looks.at("many", k, look)) for k in range(100)]
         await asyncio.to_thread(look.begun.wait, 180)
         other = await looks.at("other", 0, lambda: "seen")
@@ -68,7 +68,7 @@ def test_a_client_looks_at_one_thing_at_a_time_and_keeps_nobody_else_waiting() -
 
 def test_who_leaves_takes_nothing_from_the_others() -> None:
     async def found() -> int:
-        looks, look = Looks(FairScheduler().turn), Slow()
+        looks, look = SingleFlight(FairScheduler().turn), Slow()
         gone, stays = await waiting(looks, look, 2)
         gone.cancel()
         look.go.set()
@@ -82,7 +82,7 @@ def test_what_goes_wrong_is_told_to_all_and_the_next_look_is_another() -> None:
         raise KeyError("gone")
 
     async def found() -> list[object]:
-        looks = Looks(FairScheduler().turn)
+        looks = SingleFlight(FairScheduler().turn)
         told: list[object] = list(
             await asyncio.gather(*(looks.at("me", "state", fails) for _ in range(3)), return_exceptions=True)
         )
@@ -93,7 +93,7 @@ def test_what_goes_wrong_is_told_to_all_and_the_next_look_is_another() -> None:
 
 def test_after_its_looks_a_client_is_forgotten() -> None:
     async def left() -> tuple[int, int]:
-        looks = Looks(FairScheduler().turn)
+        looks = SingleFlight(FairScheduler().turn)
         for k in range(5):
             await asyncio.gather(*(looks.at(f"client {k}", 0, lambda: None) for _ in range(3)))
         while looks._own:
@@ -104,7 +104,7 @@ def test_after_its_looks_a_client_is_forgotten() -> None:
 
 
 def test_the_looks_of_a_loop_that_has_ended_are_gone_with_it() -> None:
-    looks = Looks(FairScheduler().turn)
+    looks = SingleFlight(FairScheduler().turn)
     assert [run(lambda: looks.at("me", "state", lambda: 1)) for _ in range(3)] == [1, 1, 1]
 
 
@@ -117,7 +117,7 @@ def test_those_who_shared_a_look_go_on_one_after_the_other() -> None:
         async def turn(_: str) -> None:
             await turns.get()
 
-        looks = Looks(turn)
+        looks = SingleFlight(turn)
         asking = [asyncio.create_task(looks.at("me", "state", lambda: 1)) for _ in range(300)]
         turns.put_nowait(None)
         await asyncio.wait(asking, return_when=asyncio.FIRST_COMPLETED)
