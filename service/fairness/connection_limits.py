@@ -8,7 +8,7 @@ from service.fairness.quotas import Quota
 from service.fairness.table import PROBES, Share
 
 
-class Doors:
+class ConnectionLimits:
     """Counts the connections of a service.
 
     Parameters

@@ -13,7 +13,7 @@ from typing import Any
 from starlette.types import Message, Receive, Scope, Send
 
 from service.fairness.client import client_network
-from service.fairness.connection_limits import Doors
+from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.scheduler import FairScheduler
 from service.guard.access import own_path
 from service.guard.keys import PROBES
@@ -54,7 +54,7 @@ class Entrance:
     def __init__(
         self,
         listening: socket.socket,
-        doors: Doors,
+        doors: ConnectionLimits,
         rounds: FairScheduler,
         made: Callable[[], Connection],
         patience_s: float,

@@ -12,7 +12,7 @@ from types import FrameType
 import uvicorn
 from fastapi import FastAPI
 
-from service.fairness.connection_limits import Doors
+from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.table import connections as connections_share
 from service.settings import Settings
 from service.wire.connections import Connection, connections
@@ -77,7 +77,7 @@ def run(app: FastAPI, settings: Settings, listening: socket.socket) -> None:
         timeout_graceful_shutdown=settings.graceful_shutdown_s,
     )
     share = connections_share(min(most, settings.max_connections), settings.max_connections_each)
-    doors = Doors(share, settings.trusted_proxies)
+    doors = ConnectionLimits(share, settings.trusted_proxies)
     with suppress(KeyboardInterrupt):
         _Server(config, app, protocol, doors).run(sockets=[listening])
 
@@ -95,7 +95,9 @@ class _Server(uvicorn.Server):
     Has the streams of events end first: they would be waited for, and the lifespan ends after them.
     """
 
-    def __init__(self, config: uvicorn.Config, app: FastAPI, protocol: type[Connection], doors: Doors) -> None:
+    def __init__(
+        self, config: uvicorn.Config, app: FastAPI, protocol: type[Connection], doors: ConnectionLimits
+    ) -> None:
         super().__init__(config)
         self._app = app
         self._protocol = protocol

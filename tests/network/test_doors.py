@@ -2,14 +2,14 @@
 
 from functools import partial
 
-from service.fairness.connection_limits import Doors
+from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.table import PROBES, connections
 
 _PROBING_EACH, _PROBING = int(PROBES.each), int(PROBES.altogether)
 
 
 def test_an_address_has_its_share() -> None:
-    doors = Doors(connections(5, 3), ())
+    doors = ConnectionLimits(connections(5, 3), ())
     assert [doors.enter("10.0.0.1") for _ in range(4)] == [True, True, True, False]
     assert [doors.enter("10.0.0.2") for _ in range(3)] == [True, True, False]
     doors.leave("10.0.0.1")
@@ -17,7 +17,7 @@ def test_an_address_has_its_share() -> None:
 
 
 def test_a_proxy_stands_for_many_and_a_network_of_ipv6_for_one() -> None:
-    doors = Doors(connections(100, 2), ("10.0.0.0/8",))
+    doors = ConnectionLimits(connections(100, 2), ("10.0.0.0/8",))
     assert all(doors.enter("10.0.0.1") for _ in range(5))
     assert [doors.enter(f"2001:db8::{k}") for k in range(3)] == [True, True, False]
     assert doors.enter("2001:db8:0:1::1")
@@ -25,7 +25,7 @@ def test_a_proxy_stands_for_many_and_a_network_of_ipv6_for_one() -> None:
 
 
 def test_who_asks_for_health_takes_the_place_of_who_held_it_longest() -> None:
-    doors = Doors(connections(0, 0), ())
+    doors = ConnectionLimits(connections(0, 0), ())
     gone: list[str] = []
     for k in range(_PROBING_EACH + 2):
         doors.probe("10.0.0.1", partial(gone.append, f"a{k}"))
@@ -37,7 +37,7 @@ def test_who_asks_for_health_takes_the_place_of_who_held_it_longest() -> None:
 
 
 def test_what_has_ended_is_forgotten() -> None:
-    doors = Doors(connections(1, 1), ())
+    doors = ConnectionLimits(connections(1, 1), ())
 
     def give_up() -> None:
         raise AssertionError("it is gone")
@@ -50,7 +50,7 @@ def test_what_has_ended_is_forgotten() -> None:
 
 
 def test_some_are_kept_for_those_who_have_few() -> None:
-    doors = Doors(connections(100, 50), ())
+    doors = ConnectionLimits(connections(100, 50), ())
     many = [doors.enter(f"10.0.0.{k % 4}") for k in range(120)]
     assert many == [True] * 90 + [False] * 30
     assert [doors.enter("10.0.0.9") for _ in range(12)] == [True] * 8 + [False] * 4

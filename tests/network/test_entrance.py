@@ -11,7 +11,7 @@ from starlette.types import Receive, Scope, Send
 from uvicorn import Config
 from uvicorn.server import ServerState
 
-from service.fairness.connection_limits import Doors
+from service.fairness.connection_limits import ConnectionLimits
 from service.fairness.scheduler import FairScheduler
 from service.fairness.table import PROBES
 from service.fairness.table import connections as share
@@ -36,7 +36,7 @@ class House:
     def __init__(self, room: int, patience_s: float) -> None:
         self.made = 0
         self.state = ServerState()
-        self.doors = Doors(share(room, room), ())
+        self.doors = ConnectionLimits(share(room, room), ())
         protocol = connections(SETTINGS, FairScheduler())
         config = Config(app, lifespan="off", log_config=None)
         config.load()
