@@ -45,7 +45,7 @@ class Quota:
         return self._held[client]
 
 
-class Shares:
+class Quotas:
     """What is held, by resource and by client."""
 
     def __init__(self, shares: Mapping[Resource, Share]) -> None:
@@ -76,7 +76,7 @@ class Shares:
 class Holding:
     """What one request holds until it has been answered."""
 
-    shares: Shares
+    shares: Quotas
     who: str
     _held: Counter[Resource] = field(default_factory=Counter)
 

@@ -9,7 +9,7 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.fairness.client import client_of_request
-from service.fairness.quotas import Holding, Shares
+from service.fairness.quotas import Holding, Quotas
 from service.guard.hosts import Hosts
 from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
 from service.guard.keys import Scope as KeyScope
@@ -50,7 +50,7 @@ class Access:
     """
 
     def __init__(
-        self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits, shares: Shares, refused: Refused
+        self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits, shares: Quotas, refused: Refused
     ) -> None:
         self._app = app
         self._keys = keys

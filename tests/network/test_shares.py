@@ -9,7 +9,7 @@ import pytest
 
 from schemas.answer.problem import Problem
 from service.fairness.faults import OverShare
-from service.fairness.quotas import Holding, Shares
+from service.fairness.quotas import Holding, Quotas
 from service.fairness.scheduler import FairScheduler
 from service.fairness.table import shares as table
 from service.settings import Settings
@@ -20,8 +20,8 @@ from tests.network.serving import request, service
 MB = 1_000_000
 
 
-def shares(**given: int) -> Shares:
-    return Shares(table(Settings(**given)))  # type: ignore[arg-type]
+def shares(**given: int) -> Quotas:
+    return Quotas(table(Settings(**given)))  # type: ignore[arg-type]
 
 
 def test_a_client_has_its_share_and_all_have_theirs() -> None:
