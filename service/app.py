@@ -17,7 +17,7 @@ from schemas.base.version import package_version
 from service.common import validation
 from service.documents import faults as document_faults
 from service.fairness import faults as fairness_faults
-from service.fairness.quotas import Quotas
+from service.fairness.quotas import quotas
 from service.fairness.scheduler import FairScheduler
 from service.fairness.single_flight import SingleFlight
 from service.fairness.table import shares
@@ -187,7 +187,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
                 keys(chosen),
                 Hosts(chosen.allowed_hosts),
                 RateLimits(chosen),
-                Quotas(table),
+                quotas(table),
                 errors.answer,
             ),
             Middleware(Direct, computations.endpoints(), errors),

@@ -14,7 +14,7 @@ class Quota:
     """What clients hold of one resource."""
 
     def __init__(self, share: Share) -> None:
-        self._share = share
+        self.share = share
         self._held: Counter[str] = Counter()
         self._total = 0
 
@@ -25,7 +25,7 @@ class Quota:
         ----------
         many : it stands for many clients, who have more than what is there for each.
         """
-        share, then = self._share, self._held[client] + amount
+        share, then = self.share, self._held[client] + amount
         kept = share.kept if then <= share.assured else 0
         if self._total + amount > share.altogether + kept or not (many or then <= max(share.each, share.assured)):
             return False
@@ -45,38 +45,16 @@ class Quota:
         return self._held[client]
 
 
-class Quotas:
-    """What is held, by resource and by client."""
-
-    def __init__(self, shares: Mapping[Resource, Share]) -> None:
-        self._shares = shares
-        self._quotas = {name: Quota(share) for name, share in shares.items() if share.answer is OVER_SHARE}
-
-    def take(self, resource: Resource, who: str, amount: int) -> None:
-        """Have a client hold more.
-
-        Raises
-        ------
-        OverShare
-        """
-        if not self._quotas[resource].take(who, amount):
-            units = self._shares[resource].unit
-            raise OverShare(f"Too many {units} are open for this client; try again when some of them have ended.")
-
-    def give(self, resource: Resource, who: str, amount: int) -> None:
-        """Have a client hold less."""
-        self._quotas[resource].give(who, amount)
-
-    def held(self, resource: Resource, who: str) -> int:
-        """What a client holds."""
-        return self._quotas[resource].held(who)
+def quotas(shares: Mapping[Resource, Share]) -> Mapping[Resource, Quota]:
+    """Of all that requests hold until they have been answered."""
+    return {resource: Quota(share) for resource, share in shares.items() if share.answer is OVER_SHARE}
 
 
 @dataclass
 class Holding:
     """What one request holds until it has been answered."""
 
-    shares: Quotas
+    quotas: Mapping[Resource, Quota]
     who: str
     _held: Counter[Resource] = field(default_factory=Counter)
 
@@ -87,18 +65,21 @@ class Holding:
         ------
         OverShare
         """
-        self.shares.take(resource, self.who, amount)
+        quota = self.quotas[resource]
+        if not quota.take(self.who, amount):
+            units = quota.share.unit
+            raise OverShare(f"Too many {units} are open for this client; try again when some of them have ended.")
         self._held[resource] += amount
 
     def give(self, resource: Resource, amount: int) -> None:
         """Hold less."""
-        self.shares.give(resource, self.who, amount)
+        self.quotas[resource].give(self.who, amount)
         self._held[resource] -= amount
 
     def end(self) -> None:
         """Hold nothing any more."""
         for resource, amount in self._held.items():
-            self.shares.give(resource, self.who, amount)
+            self.quotas[resource].give(self.who, amount)
         self._held.clear()
 
 

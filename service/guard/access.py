@@ -1,6 +1,6 @@
 """Who asks, before a path is even looked at; and, at each route, whether they may."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from fastapi import Depends
@@ -9,7 +9,8 @@ from starlette.requests import Request
 from starlette.types import ASGIApp, Receive, Scope, Send
 
 from service.fairness.client import client_of_request
-from service.fairness.quotas import Holding, Quotas
+from service.fairness.quotas import Holding, Quota
+from service.fairness.table import Resource
 from service.guard.hosts import Hosts
 from service.guard.keys import ANYONE, NOBODY, PROBES, PUBLIC, PUBLIC_FOLDERS, Caller, Keys, caller_of
 from service.guard.keys import Scope as KeyScope
@@ -50,13 +51,19 @@ class Access:
     """
 
     def __init__(
-        self, app: ASGIApp, keys: Keys | None, hosts: Hosts, limits: RateLimits, shares: Quotas, refused: Refused
+        self,
+        app: ASGIApp,
+        keys: Keys | None,
+        hosts: Hosts,
+        limits: RateLimits,
+        quotas: Mapping[Resource, Quota],
+        refused: Refused,
     ) -> None:
         self._app = app
         self._keys = keys
         self._hosts = hosts
         self._limits = limits
-        self._shares = shares
+        self._quotas = quotas
         self._refused = refused
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
@@ -68,7 +75,7 @@ class Access:
         except (Unauthorized, ForeignHost, TooManyRequests, BadHeader) as error:
             await self._refused(error, scope["path"])(scope, receive, send)
             return
-        holding = Holding(self._shares, client_of_request(scope, caller.owner))
+        holding = Holding(self._quotas, client_of_request(scope, caller.owner))
         state = scope.setdefault("state", {})
         state.update(caller=caller, holding=holding, still_admitted=lambda: self._still_admitted(scope, caller))
         try:

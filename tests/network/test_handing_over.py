@@ -7,7 +7,7 @@ import pytest
 from starlette.requests import Request
 
 from service.computations import COMPUTATIONS
-from service.fairness.quotas import Holding, Quotas
+from service.fairness.quotas import Holding, quotas
 from service.fairness.table import shares
 from service.fairness.threads import Threads
 from service.http.computing import Computing
@@ -40,7 +40,7 @@ def test_who_waits_is_asked_before_the_answer_is_written(queued: int, done: list
     metrics = Metrics(cast(Pool, pool), lambda: None, lambda: 0)
     computing = Computing(settings, Readiness({}, Threads(), "ready"), cast(Pool, pool), metrics, Tracing())
     headers = [(b"content-type", b"application/json")]
-    state = {"holding": Holding(Quotas(shares(settings)), "somebody")}
+    state = {"holding": Holding(quotas(shares(settings)), "somebody")}
     scope = {"type": "http", "method": "POST", "path": "/v1/optimize", "headers": headers, "state": state}
     sent = iter([{"type": "http.request", "body": b"{}", "more_body": False}])
 

@@ -2,15 +2,16 @@
 
 import asyncio
 import json
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pytest
 
 from schemas.answer.problem import Problem
 from service.fairness.faults import OverShare
-from service.fairness.quotas import Holding, Quotas
+from service.fairness.quotas import Holding, Quota, quotas
 from service.fairness.scheduler import FairScheduler
+from service.fairness.table import Resource
 from service.fairness.table import shares as table
 from service.settings import Settings
 from service.wire.pacing import PIECE_BYTES, Pacing
@@ -20,25 +21,23 @@ from tests.network.serving import request, service
 MB = 1_000_000
 
 
-def shares(**given: int) -> Quotas:
-    return Quotas(table(Settings(**given)))  # type: ignore[arg-type]
+def shares(**given: int) -> Mapping[Resource, Quota]:
+    return quotas(table(Settings(**given)))  # type: ignore[arg-type]
 
 
 def test_a_client_has_its_share_and_all_have_theirs() -> None:
     found = shares(row_streams=3, row_streams_each=2)
-    found.take("rows", "a", 2)
-    with pytest.raises(OverShare, match="Too many streams of rows"):
-        found.take("rows", "a", 1)
-    found.take("rows", "b", 1)
+    rows = found["rows"]
+    assert [rows.take("a", 2), rows.take("a"), rows.take("b")] == [True, False, True]
     # one is assured to everybody, though all are taken
-    found.take("rows", "c", 1)
-    with pytest.raises(OverShare):
-        found.take("rows", "b", 1)
-    assert [found.held("rows", who) for who in "abc"] == [2, 1, 1]
+    assert [rows.take("c"), rows.take("b")] == [True, False]
+    assert [rows.held(who) for who in "abc"] == [2, 1, 1]
+    with pytest.raises(OverShare, match="Too many streams of rows"):
+        Holding(found, "a").take("rows")
     # of another kind there is as much as before
-    found.take("events", "a", 5)
-    found.give("rows", "a", 2)
-    found.take("rows", "b", 1)
+    assert found["events"].take("a", 5)
+    rows.give("a", 2)
+    assert rows.take("b")
 
 
 def test_what_a_request_holds_ends_with_it() -> None:
@@ -50,7 +49,7 @@ def test_what_a_request_holds_ends_with_it() -> None:
     one.give("answers", MB)
     one.take("rows")
     one.end()
-    assert (found.held("answers", "a"), found.held("rows", "a")) == (0, 0)
+    assert (found["answers"].held("a"), found["rows"].held("a")) == (0, 0)
 
 
 def answered(held: Holding, parts: Sequence[bytes]) -> list[dict[str, Any]]:
@@ -81,7 +80,7 @@ def test_an_answer_is_whole_whatever_its_pieces(size: int) -> None:
     assert b"".join(piece["body"] for piece in pieces) == body
     assert max(len(piece["body"]) for piece in pieces) <= PIECE_BYTES
     assert [piece.get("more_body", False) for piece in pieces] == [True] * (len(pieces) - 1) + [False]
-    assert found.held("answers", "a") == 0
+    assert found["answers"].held("a") == 0
 
 
 def test_an_answer_over_the_share_is_answered_429_in_its_place() -> None:
@@ -92,7 +91,7 @@ def test_an_answer_over_the_share_is_answered_429_in_its_place() -> None:
     said = Problem.model_validate_json(body["body"])
     assert (start["status"], said.title, said.instance) == (429, "Over share", "/x")
     assert (b"retry-after", b"1") in start["headers"]
-    assert found.held("answers", "a") == 2 * MB
+    assert found["answers"].held("a") == 2 * MB
     # a small one is not counted, and one that has begun is not broken off
     for parts in ([bytes(PIECE_BYTES)], [b"begun", bytes(MB)]):
         start, *pieces = answered(Holding(found, "a"), parts)
