@@ -25,7 +25,7 @@ from service.jobs.job import Chunk
 from service.jobs.kinds import KINDS
 from service.jobs.leases import Leases
 from service.jobs.pace import Pace
-from service.jobs.piece import Piece, Run, Stopped, Unanswerable
+from service.jobs.piece import ChunkResult, Run, Stopped, Unanswerable
 from service.jobs.rows import UnknownJob
 from service.jobs.schema import WrongSchema
 from service.jobs.store import Store
@@ -194,13 +194,13 @@ class Coordinator:
             gone = set(its)
             self._flights = [flight for flight in self._flights if flight not in gone]
 
-    def _keep_rows(self, job: str, came: Sequence[tuple[Chunk, Piece]]) -> None:
+    def _keep_rows(self, job: str, came: Sequence[tuple[Chunk, ChunkResult]]) -> None:
         try:
             self._intake.keep_rows(job, came)
         except CannotWrite as error:
             self._fail(job, str(error))
 
-    def _keep_selection(self, chunk: Chunk, piece: Piece, covers: int) -> None:
+    def _keep_selection(self, chunk: Chunk, piece: ChunkResult, covers: int) -> None:
         try:
             self._intake.keep_selection(chunk, piece, covers)
         except CannotWrite as error:
@@ -326,7 +326,7 @@ class Coordinator:
         self._flights.append(Flight(chunk, future, covers))
         future.add_done_callback(lambda _: self._wake.set())
 
-    def _begin(self, chunk: Chunk) -> "tuple[Future[Piece], int]":
+    def _begin(self, chunk: Chunk) -> "tuple[Future[ChunkResult], int]":
         flag = str(self._files.flag(chunk.job))
         if chunk.rows:
             return self._engine.submit(self._run, chunk.kind, chunk.request, chunk.start, chunk.stop, flag), 0

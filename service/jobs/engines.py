@@ -8,7 +8,7 @@ from multiprocessing.context import SpawnContext
 from multiprocessing.process import BaseProcess
 from typing import Any, Protocol
 
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 from service.jobs.spool import Spool
 from service.jobs.worker import prepare
 
@@ -24,7 +24,7 @@ class EngineUnavailable(Exception):
 class Running(Protocol):
     """An executor that runs."""
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         """As :meth:`concurrent.futures.Executor.submit`."""
 
     def window(self) -> int:
@@ -46,7 +46,7 @@ class Engine:
         self._start = start
         self._running: Running | None = None
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         """
         Raises
         ------
@@ -111,7 +111,7 @@ class Processes:
         )
         self._spool = Spool(self.executor)
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         return self._spool.submit(task, *arguments)
 
     def window(self) -> int:
@@ -150,7 +150,7 @@ class Dask:
         # a chunk whose worker died comes back as an exception, and is counted like any other
         self._executor: Executor = self._client.get_executor(pure=False)
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         return self._executor.submit(task, *arguments)
 
     def window(self) -> int:

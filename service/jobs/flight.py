@@ -4,7 +4,7 @@ from concurrent.futures import Future
 from dataclasses import dataclass, field
 
 from service.jobs.job import Chunk
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 
 
 @dataclass(eq=False)
@@ -16,7 +16,7 @@ class Flight:
     """
 
     chunk: Chunk
-    future: "Future[Piece]"
+    future: "Future[ChunkResult]"
     covers: int = 0
     dropped: bool = field(default=False)
 

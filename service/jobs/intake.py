@@ -8,7 +8,7 @@ from service.jobs.files import JobFiles
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.job import Chunk, Computed, Record
 from service.jobs.leases import Leases
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 
 _LOG = logging.getLogger(__name__)
 #: files that are written at the same time: most of the time of one is waiting for the disk
@@ -27,7 +27,7 @@ class Intake:
         #: what the service found wrong with its own answers, so far
         self.faults = 0
 
-    def keep_rows(self, job: str, came: Sequence[tuple[Chunk, Piece]]) -> None:
+    def keep_rows(self, job: str, came: Sequence[tuple[Chunk, ChunkResult]]) -> None:
         """Keep the rows of some chunks of one job, in one transaction.
 
         Raises
@@ -49,7 +49,7 @@ class Intake:
         if error is not None:
             raise error
 
-    def keep_selection(self, chunk: Chunk, piece: Piece, covers: int) -> None:
+    def keep_selection(self, chunk: Chunk, piece: ChunkResult, covers: int) -> None:
         """Keep the rows that were selected of so many.
 
         Raises
@@ -60,12 +60,12 @@ class Intake:
         if needless is not None:
             self._housekeeping.remove(chunk.job, needless)
 
-    def _tell_faults(self, chunk: Chunk, piece: Piece) -> None:
+    def _tell_faults(self, chunk: Chunk, piece: ChunkResult) -> None:
         for fault in piece.faults:
             _LOG.error("job %s: rows %d to %d: %s", chunk.job, chunk.start, chunk.stop - 1, fault)
         self.faults += len(piece.faults)
 
-    def _written(self, came: Sequence[tuple[Chunk, Piece]]) -> tuple[list[Record], CannotWrite | None]:
+    def _written(self, came: Sequence[tuple[Chunk, ChunkResult]]) -> tuple[list[Record], CannotWrite | None]:
         """The files up to the first that cannot be written, and why it cannot; those after it are removed."""
         if len(came) == 1:
             outcomes = [self._outcome(came[0])]
@@ -83,13 +83,13 @@ class Intake:
                 self._housekeeping.remove(chunk.job, outcome)
         return records, error
 
-    def _outcome(self, one: tuple[Chunk, Piece]) -> Record | CannotWrite:
+    def _outcome(self, one: tuple[Chunk, ChunkResult]) -> Record | CannotWrite:
         try:
             return self._write(*one)
         except CannotWrite as error:
             return error
 
-    def _write(self, chunk: Chunk, piece: Piece) -> Record:
+    def _write(self, chunk: Chunk, piece: ChunkResult) -> Record:
         try:
             return self._files.keep(chunk.job, chunk.start, chunk.stop, piece.content)
         except OSError as error:

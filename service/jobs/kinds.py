@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from service.computations import COMPUTATIONS, Computation, json_bytes
-from service.jobs.piece import Piece, Unanswerable
+from service.jobs.piece import ChunkResult, Unanswerable
 
 if TYPE_CHECKING:
     import pyarrow as pa
@@ -26,11 +26,11 @@ class Kind:
     failed : request, start and stop, and the reason -> piece; None if such a job fails as a whole.
     """
 
-    compute: Callable[[bytes, int, int, Proceed], Piece]
-    failed: Callable[[bytes, int, int, str], Piece] | None = None
+    compute: Callable[[bytes, int, int, Proceed], ChunkResult]
+    failed: Callable[[bytes, int, int, str], ChunkResult] | None = None
 
 
-def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
+def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> ChunkResult:
     import pyarrow as pa
 
     from optimizer.studies.sweep.chunk import blocks, run_chunk
@@ -42,7 +42,7 @@ def _sweep(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
     return _piece(pa.concat_tables(tables))
 
 
-def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> Piece:
+def _failed_rows(request: bytes, start: int, stop: int, reason: str) -> ChunkResult:
     import pyarrow as pa
 
     from optimizer.studies.sweep.designs import axis_values
@@ -83,7 +83,7 @@ def table_bytes(table: "pa.Table") -> bytes:
     return bytes(out.getvalue().to_pybytes())
 
 
-def _piece(table: "pa.Table") -> Piece:
+def _piece(table: "pa.Table") -> ChunkResult:
     import pyarrow as pa
     import pyarrow.compute as pc
 
@@ -91,11 +91,11 @@ def _piece(table: "pa.Table") -> Piece:
         return int(pc.sum(pc.is_in(table["status"], value_set=pa.array(statuses))).as_py() or 0)
 
     invalid = count(_INVALID)
-    return Piece(table_bytes(table), table.num_rows - count(_ANSWERED) - invalid, invalid=invalid)
+    return ChunkResult(table_bytes(table), table.num_rows - count(_ANSWERED) - invalid, invalid=invalid)
 
 
-def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Piece]:
-    def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> Piece:
+def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], ChunkResult]:
+    def answer(request: bytes, start: int, stop: int, proceed: Proceed) -> ChunkResult:
         from optimizer.errors import NotComputable
         from service.common.validation import check, pointer, read_json
 
@@ -103,7 +103,7 @@ def _answer(asked_for: Computation) -> Callable[[bytes, int, int, Proceed], Piec
             found = asked_for.function(check(asked_for.asks, read_json(request)))
         except NotComputable as error:
             raise Unanswerable("; ".join(f"{pointer(path)}: {message}" for path, message in error.problems)) from None
-        return Piece(json_bytes(found), 0)
+        return ChunkResult(json_bytes(found), 0)
 
     return answer
 

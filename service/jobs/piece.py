@@ -13,7 +13,7 @@ class Unanswerable(Exception):
 
 
 @dataclass(frozen=True)
-class Piece:
+class ChunkResult:
     """What a chunk comes to: the content of its file, and how many of its rows failed; of a selection, its rows.
 
     invalid : rows of designs that break a rule; they did not fail.
@@ -28,4 +28,4 @@ class Piece:
 
 
 #: kind, request, start, stop, path of the flag -> piece
-Run = Callable[[str, bytes, int, int, str], Piece]
+Run = Callable[[str, bytes, int, int, str], ChunkResult]

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from service.jobs.files import verified
 from service.jobs.job import Record
-from service.jobs.piece import Piece, Stopped, Unanswerable
+from service.jobs.piece import ChunkResult, Stopped, Unanswerable
 
 if TYPE_CHECKING:
     import numpy as np
@@ -22,7 +22,7 @@ _LONGEST_S = 60.0
 
 def select(
     request: bytes, columns: bytes, pieces: Sequence[tuple[Path, Record]], flag: str, longest_s: float = _LONGEST_S
-) -> Piece:
+) -> ChunkResult:
     """Select rows of a sweep: first by the columns that are compared, then the rows that stay are read whole.
 
     Parameters
@@ -76,7 +76,7 @@ def select(
     rows = pa.concat_tables(found)
     # in the order of the selection
     rows = rows.take(pc.index_in(index, value_set=rows["index"].combine_chunks()))
-    return Piece(table_bytes(rows), 0, rows.num_rows)
+    return ChunkResult(table_bytes(rows), 0, rows.num_rows)
 
 
 def _holding(pieces: Sequence[tuple[Path, Record]], index: "NDArray[np.int64]") -> list[tuple[Path, Record]]:

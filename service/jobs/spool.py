@@ -16,7 +16,7 @@ from concurrent.futures import Executor, Future, InvalidStateError
 from contextlib import suppress
 from pathlib import Path
 
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 
 #: bytes; a pipe takes less than this in one step
 _SHORT = 8000
@@ -41,7 +41,7 @@ class Spool:
         self._lock = os.open(Path(self._folder, _LOCK), os.O_CREAT | os.O_RDWR | os.O_CLOEXEC, 0o600)
         fcntl.flock(self._lock, fcntl.LOCK_EX)
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         """As :meth:`concurrent.futures.Executor.submit`."""
         message = _put(self._folder, pickle.dumps((task, arguments)))
         return _Unpacked(self._executor.submit(_work, self._folder, message))
@@ -86,7 +86,7 @@ def _remove_if_left(folder: Path) -> bool:
         os.close(lock)
 
 
-class _Unpacked(Future[Piece]):
+class _Unpacked(Future[ChunkResult]):
     """The result of a message."""
 
     def __init__(self, packed: "Future[bytes | Path]") -> None:

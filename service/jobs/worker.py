@@ -8,13 +8,13 @@ from multiprocessing import parent_process
 
 from service.common.faults import kept
 from service.jobs.kinds import KINDS
-from service.jobs.piece import Piece, Stopped
+from service.jobs.piece import ChunkResult, Stopped
 
 #: one thread each: as many workers as cores share the work already
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")
 
 
-def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
+def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:
     """Compute rows [start, stop) of a job.
 
     Raises

@@ -22,7 +22,7 @@ from rich.table import Table
 
 from service.jobs.engines import Dask, Engine
 from service.jobs.pace import Pace
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 from tests.jobs.house import House
 
 #: rows of a chunk of the sweep of `sweep_case`, and bytes of one in Parquet
@@ -31,10 +31,10 @@ ROWS, ROW_BYTES = 16_000, 150
 _MOST_PIECES = 10_000
 
 
-def asleep(seconds: float, size: int, *_: object) -> Piece:
+def asleep(seconds: float, size: int, *_: object) -> ChunkResult:
     """Stands for a chunk: so many seconds, then so many bytes."""
     time.sleep(seconds)
-    return Piece(os.urandom(size), 0)
+    return ChunkResult(os.urandom(size), 0)
 
 
 class Threads:
@@ -44,7 +44,7 @@ class Threads:
         self._workers = workers
         self._executor: Executor = ThreadPoolExecutor(workers)
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         return self._executor.submit(task, *arguments)
 
     def window(self) -> int:

@@ -25,7 +25,7 @@ from service.jobs.housekeeping import Housekeeping
 from service.jobs.job import Computed
 from service.jobs.leases import Leases
 from service.jobs.pace import Pace
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 from service.jobs.rows import UnknownJob
 from tests.jobs import synthetic
 from tests.jobs.house import House
@@ -56,8 +56,8 @@ class Told:
 class Here:
     """Computes chunks at once, in this process."""
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
-        done: Future[Piece] = Future()
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
+        done: Future[ChunkResult] = Future()
         done.set_result(task(*arguments))
         return done
 

@@ -8,10 +8,10 @@ from functools import partial
 from pathlib import Path
 
 from service.jobs import worker
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 
 
-def held(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
+def held(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:
     while start > 0 and not Path(flag).exists():
         threading.Event().wait(0.05)
     return worker.run(kind, request, start, stop, flag)

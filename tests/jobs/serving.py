@@ -9,7 +9,7 @@ from typing import Any
 
 import schemas.base.version
 from service.jobs import worker
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 
 #: seconds that a chunk takes on top of its work
 DELAY = "TESTS_DELAY_S"
@@ -19,7 +19,7 @@ TIDY = "TESTS_TIDY_S"
 VERSION = "TESTS_VERSION"
 
 
-def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
+def slow(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:
     # libfaketime knows no sleep until a monotonic time, which is how Python sleeps
     threading.Event().wait(float(os.environ.get(DELAY, "0")))
     return worker.run(kind, request, start, stop, flag)

@@ -11,7 +11,7 @@ from typing import Any
 import pyarrow as pa
 
 from service.jobs.kinds import KINDS, Kind, table_bytes
-from service.jobs.piece import Piece, Stopped
+from service.jobs.piece import ChunkResult, Stopped
 
 SCHEMA = pa.schema(
     [pa.field("index", pa.int64(), False), pa.field("value", pa.float64()), pa.field("status", pa.string())],
@@ -27,7 +27,7 @@ def rows(start: int, stop: int, failed: tuple[int, ...] = ()) -> pa.Table:
     return pa.table([pa.array(index, pa.int64()), pa.array(value, pa.float64()), status], schema=SCHEMA)
 
 
-def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
+def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> ChunkResult:
     """What a request may ask for: sleep_s, kill_at and raise_at a row, kill_once and raise_once (paths); held_from a
     row on, until there is a file at held_until."""
     asked: dict[str, Any] = json.loads(request)
@@ -43,7 +43,7 @@ def run(kind: str, request: bytes, start: int, stop: int, flag: str) -> Piece:
             if once is not None:
                 Path(once).touch()
             happen()
-    return Piece(table_bytes(rows(start, stop)), 0)
+    return ChunkResult(table_bytes(rows(start, stop)), 0)
 
 
 def _die() -> None:
@@ -54,11 +54,11 @@ def _raise() -> None:
     raise ArithmeticError("asked for")
 
 
-def _failed(request: bytes, start: int, stop: int, reason: str) -> Piece:
-    return Piece(table_bytes(rows(start, stop, tuple(range(start, stop)))), stop - start)
+def _failed(request: bytes, start: int, stop: int, reason: str) -> ChunkResult:
+    return ChunkResult(table_bytes(rows(start, stop, tuple(range(start, stop)))), stop - start)
 
 
-def _never(request: bytes, start: int, stop: int, proceed: Callable[[], None]) -> Piece:
+def _never(request: bytes, start: int, stop: int, proceed: Callable[[], None]) -> ChunkResult:
     raise AssertionError("chunks are computed by run")
 
 

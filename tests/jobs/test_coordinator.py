@@ -19,7 +19,7 @@ from service.jobs.engines import Engine, engine
 from service.jobs.files import JobFiles
 from service.jobs.job import Record
 from service.jobs.pace import Pace
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 from service.jobs.rows import Limits
 from tests.jobs import synthetic
 from tests.jobs.house import QUICK, House
@@ -32,7 +32,7 @@ class Threads:
         self.executor = ThreadPoolExecutor(workers)
         self._workers = workers
 
-    def submit(self, task: Callable[..., Piece], *arguments: object) -> "Future[Piece]":
+    def submit(self, task: Callable[..., ChunkResult], *arguments: object) -> "Future[ChunkResult]":
         return self.executor.submit(task, *arguments)
 
     def window(self) -> int:
@@ -102,7 +102,7 @@ def test_a_row_that_raises_is_the_only_one_that_fails(house: House, tmp_path: Pa
 
 
 def test_what_workers_find_wrong_is_logged_and_counted(house: House, caplog: pytest.LogCaptureFixture) -> None:
-    def run(*chunk: Any) -> Piece:
+    def run(*chunk: Any) -> ChunkResult:
         return replace(synthetic.run(*chunk), faults=("a bound is wrong",))
 
     job = house.submit(total=60, chunk_rows=20)

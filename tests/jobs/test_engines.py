@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from service.jobs.engines import Processes, engine
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 
 
 @pytest.mark.parametrize("name", ["threads", "dask", "dask:", "processes:2", ""])
@@ -18,19 +18,19 @@ def test_engines_that_there_are_not(name: str) -> None:
         engine(name, 1)
 
 
-def content_of(size: int) -> Piece:
-    return Piece(b"x" * size, 0)
+def content_of(size: int) -> ChunkResult:
+    return ChunkResult(b"x" * size, 0)
 
 
-def hand_back(content: bytes) -> Piece:
-    return Piece(content, len(content))
+def hand_back(content: bytes) -> ChunkResult:
+    return ChunkResult(content, len(content))
 
 
 @pytest.mark.parametrize("size", [0, 10, 10_000_000])
 def test_long_messages_to_and_from_workers(size: int) -> None:
     running = Processes(1)
     try:
-        assert running.submit(hand_back, b"y" * size).result(180) == Piece(b"y" * size, size)
+        assert running.submit(hand_back, b"y" * size).result(180) == ChunkResult(b"y" * size, size)
         assert [path.name for path in Path(running._spool._folder).iterdir()] == ["lock"]
     finally:
         running.end()

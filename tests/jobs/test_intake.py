@@ -12,7 +12,7 @@ from service.jobs.housekeeping import Housekeeping
 from service.jobs.intake import CannotWrite, Intake
 from service.jobs.job import Chunk, Record
 from service.jobs.pace import Pace
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 from tests.jobs import synthetic
 from tests.jobs.house import House
 
@@ -23,7 +23,7 @@ def intake(house: House) -> Intake:
     return Intake(house.leases, house.files, Housekeeping(house.store, house.retention, house.files))
 
 
-def computed(chunk: Chunk) -> tuple[Chunk, Piece]:
+def computed(chunk: Chunk) -> tuple[Chunk, ChunkResult]:
     return chunk, synthetic.run(chunk.kind, chunk.request, chunk.start, chunk.stop, "")
 
 
@@ -65,12 +65,12 @@ class Large:
     def __init__(self) -> None:
         self.held: list[int] = []
 
-    def submit(self, task: object, *arguments: object) -> "Future[Piece]":
+    def submit(self, task: object, *arguments: object) -> "Future[ChunkResult]":
         _, _, start, stop, _ = arguments
         assert isinstance(start, int)
         assert isinstance(stop, int)
         self.held.append(stop - start)
-        done: Future[Piece] = Future()
+        done: Future[ChunkResult] = Future()
         done.set_result(synthetic.run("synthetic", b"{}", start, stop, ""))
         return done
 

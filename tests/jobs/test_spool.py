@@ -9,15 +9,15 @@ from pathlib import Path
 
 import pytest
 
-from service.jobs.piece import Piece
+from service.jobs.piece import ChunkResult
 from service.jobs.spool import Spool
 
 
-def piece(size: int) -> Piece:
-    return Piece(content=bytes(size), failed=0)
+def piece(size: int) -> ChunkResult:
+    return ChunkResult(content=bytes(size), failed=0)
 
 
-def broken() -> Piece:
+def broken() -> ChunkResult:
     raise ArithmeticError("broken")
 
 
