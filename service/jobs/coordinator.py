@@ -18,7 +18,7 @@ from service.jobs import selection, worker
 from service.jobs.database import DatabaseUnavailable
 from service.jobs.engines import Engine, EngineUnavailable
 from service.jobs.files import Damaged, JobFiles
-from service.jobs.flight import Flight
+from service.jobs.flight import RunningChunk
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.intake import CannotWrite, Intake
 from service.jobs.job import Chunk
@@ -71,7 +71,7 @@ class Coordinator:
         self._engine, self._selector, self._run, self._clock = engine, selector or engine, run, clock
         self._pace, self._begun = pace or Pace(), begun
         self._name = uuid.uuid4().hex
-        self._flights: list[Flight] = []
+        self._flights: list[RunningChunk] = []
         self._active: set[str] = set()
         # chunks that were in a pool when it broke are tried alone, so that the one at fault is found
         self._suspects = True
@@ -206,7 +206,7 @@ class Coordinator:
         except CannotWrite as error:
             self._fail(chunk.job, str(error))
 
-    def _take(self, flight: Flight) -> None:
+    def _take(self, flight: RunningChunk) -> None:
         chunk = flight.chunk
         try:
             piece = flight.future.result()
@@ -323,7 +323,7 @@ class Coordinator:
         except BaseException:
             self._leases.give_back(chunk, chunk.attempts)
             raise
-        self._flights.append(Flight(chunk, future, covers))
+        self._flights.append(RunningChunk(chunk, future, covers))
         future.add_done_callback(lambda _: self._wake.set())
 
     def _begin(self, chunk: Chunk) -> "tuple[Future[ChunkResult], int]":

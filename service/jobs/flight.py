@@ -8,7 +8,7 @@ from service.jobs.piece import ChunkResult
 
 
 @dataclass(eq=False)
-class Flight:
+class RunningChunk:
     """A chunk on its way.
 
     covers : rows that a selection looks at.
