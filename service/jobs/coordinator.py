@@ -20,7 +20,7 @@ from service.jobs.engines import Engine, EngineUnavailable
 from service.jobs.files import Damaged, JobFiles
 from service.jobs.flight import RunningChunk
 from service.jobs.housekeeping import Housekeeping
-from service.jobs.intake import CannotWrite, Intake
+from service.jobs.intake import CannotWrite, ResultWriter
 from service.jobs.job import Chunk
 from service.jobs.kinds import KINDS
 from service.jobs.leases import Leases
@@ -67,7 +67,7 @@ class Coordinator:
         clock: Callable[[], float] = time.monotonic,
     ) -> None:
         self._store, self._leases, self._files, self._housekeeping = store, leases, files, housekeeping
-        self._intake = Intake(leases, files, housekeeping)
+        self._intake = ResultWriter(leases, files, housekeeping)
         self._engine, self._selector, self._run, self._clock = engine, selector or engine, run, clock
         self._pace, self._begun = pace or Pace(), begun
         self._name = uuid.uuid4().hex

@@ -19,7 +19,7 @@ class CannotWrite(Exception):
     """There is no room for the rows of a job, or the disk is broken."""
 
 
-class Intake:
+class ResultWriter:
     """Takes pieces in; done twice it changes nothing, so that a crash costs work and no rows."""
 
     def __init__(self, leases: Leases, files: JobFiles, housekeeping: Housekeeping) -> None:

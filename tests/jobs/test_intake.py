@@ -9,7 +9,7 @@ import pytest
 from service.jobs.engines import Engine
 from service.jobs.files import JobFiles
 from service.jobs.housekeeping import Housekeeping
-from service.jobs.intake import CannotWrite, Intake
+from service.jobs.intake import CannotWrite, ResultWriter
 from service.jobs.job import Chunk, Record
 from service.jobs.pace import Pace
 from service.jobs.piece import ChunkResult
@@ -19,8 +19,8 @@ from tests.jobs.house import House
 LEASE_S = 60.0
 
 
-def intake(house: House) -> Intake:
-    return Intake(house.leases, house.files, Housekeeping(house.store, house.retention, house.files))
+def intake(house: House) -> ResultWriter:
+    return ResultWriter(house.leases, house.files, Housekeeping(house.store, house.retention, house.files))
 
 
 def computed(chunk: Chunk) -> tuple[Chunk, ChunkResult]:
