@@ -17,7 +17,7 @@ def warm_up() -> None:
     RuntimeError
         if either leaves it open: who cannot solve this solves nothing.
     """
-    from optimizer.formulation.formulate import formulate
+    from optimizer.formulation.goals import cone_program
     from optimizer.outputs.registry import prepare
     from optimizer.program.reference.solver import Solver
     from optimizer.program.solution import CONE_PROGRAM
@@ -27,7 +27,7 @@ def warm_up() -> None:
     follow_a_turn()
     # seldom asked: what the compiled method leaves open
     scene = prepare(request, ("residual",))
-    statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    statement = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
     # no gap is small enough, so that an attempt is made
     found = Solver().smallest_objective(statement, -1.0, stop=lambda best: best.method == CONE_PROGRAM)
     if found.method != CONE_PROGRAM or found.gap > _GAP * found.objective:

@@ -1,4 +1,4 @@
-"""From machine, objective and responses to the statement of the convex program.
+"""The responses that an objective can weigh and limit.
 
 The only place that translates the fields of the contract that name responses; everything after it goes by name.
 Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
@@ -163,25 +163,6 @@ def shape_facts(machine: Machine, objective: Objective) -> tuple[np.ndarray, ...
     across = objective.direction_weights
     weighed = (np.asarray(weight) > 0 for weight in weights(machine, objective).values())
     return (*weighed, np.asarray(across.x) == across.y)
-
-
-def formulate(machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: Reals) -> Statement:
-    """The program in mass-radius products: responses over omega^2, so that speed plays no part.
-
-    Parameters
-    ----------
-    omega_squared : (...) rad^2/s^2; one program, or one for each of many machines that have one shape.
-    """
-    leading = np.shape(omega_squared)
-    responses = [response.spread(leading) for response in responses]
-    wanted, across = weights(machine, objective), objective.direction_weights
-    peaks = [
-        weighted_peak(response, wanted[response.name], across.x, across.y)
-        for response in responses
-        if (np.asarray(wanted[response.name]) > 0).all()
-    ]
-    caps = [(response, allowed / omega_squared) for response, allowed in limited(responses, objective)]
-    return statement(combined(peaks, objective.combine), caps, limits(machine, leading))
 
 
 def smallest_peak(response: Response, machine: Machine) -> Statement:

@@ -1,7 +1,8 @@
-"""From machine and objective to the program over the turn: force and moment, bearing loads, bending moments.
+"""From machine and objective to the problem: force and moment, bearing loads, bending moments.
 
-What :mod:`optimizer.formulation.formulate` is to the first order: the only place that names the fields that ask for the
-whole turn.
+The first order of the machine as it is given is the case without quantities over the turn. This is the only place that
+names the fields that ask for the whole turn; those of the first order are in
+:mod:`optimizer.formulation.formulate`.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -20,37 +21,37 @@ from optimizer.mechanics.roll import mirrored, roll
 from optimizer.mechanics.shaft import INFLUENCES, bearing_places
 from optimizer.mechanics.shaft_curves import bearing_loads, bending_moments, shaking
 from optimizer.mechanics.whole_turn import WholeTurn
-from optimizer.numerics.arrays import Real
+from optimizer.numerics.arrays import Real, Reals
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.rows import Row, combined, weighted_peak
+from optimizer.program.statement import Statement
 from optimizer.responses.component import component
 from optimizer.responses.curve import TurnResponse
 from optimizer.responses.response import Response
 from schemas.answer.limits import CeilingField, MachineLimit
 from schemas.base.model import FieldProblem
+from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.objective import Objective
-from schemas.request.requests import OptimizeRequest
 from schemas.request.scene import Fidelity
+
+#: of responses that no shaft takes part in
+_USUAL = Fidelity()
 
 
 @dataclass(frozen=True)
 class Case:
     """A machine that the counterweights are to suit: the one that is given, or that of a scenario."""
 
-    request: OptimizeRequest  # with the machine of the case
-    layout: Layout
+    machine: Machine
+    omega_squared: Reals  # (...) rad^2/s^2; one, or one for each of many machines of one shape
     variants: tuple[tuple[Response, ...], ...]  # responses of the first order: as given, then with other masses
-    turn: WholeTurn | None = None  # where the objective looks at the whole turn
+    turn: tuple[WholeTurn, Layout] | None = None  # where the objective looks at the whole turn
     scenario: str | None = None
     weight: float = 1.0
     masses: float = 0.0  # share by which every reciprocating mass may be off, over the turn
-
-    @property
-    def omega_squared(self) -> float:
-        return float(self.layout.omega**2)
 
 
 @dataclass(frozen=True)
@@ -69,33 +70,35 @@ class Limited:
 class Goals:
     """What is asked of the whole turn, or of several cases."""
 
-    program: OverTurn  # over omega^2 of the machine as it is given
+    program: Problem  # over omega^2 of the machine as it is given
     allowances: tuple[float, ...]  # of all goals but the last
     limited: tuple[Limited, ...]  # as in the program
     cases: tuple[Case, ...]
 
 
 def bearing_responses(
-    machine: ReciprocatingMachine, fidelity: Fidelity, layout: Layout, turn: WholeTurn
+    machine: ReciprocatingMachine, fidelity: Fidelity, turn: WholeTurn, layout: Layout
 ) -> tuple[TurnResponse, ...]:
     """Loads of the main bearings of one machine."""
     names = [f"bearing:{bearing.name}" for bearing in machine.bearings]
     return bearing_loads(turn, layout, names, bearing_places(machine), INFLUENCES[fidelity.shaft])
 
 
-def goals(
-    request: OptimizeRequest,
+def formulate(
+    machine: Machine,
+    objective: Objective,
     cases: Sequence[Case],
-    omega_squared: float,
+    omega_squared: Reals,
+    fidelity: Fidelity = _USUAL,
     scatter: Scatter = EXACT,
     apart: bool = False,
 ) -> Goals:
-    """The program of one request, over the turn or over several cases.
+    """The problem of one request, or of many of the first order.
 
     Parameters
     ----------
     cases : machines that the counterweights are to suit, at least one; the largest weighted objective counts.
-    omega_squared : rad^2/s^2, what the program is divided by.
+    omega_squared : (...) rad^2/s^2, what the program is divided by.
     scatter : what the counterweights may be off by.
     apart : every peak of a sum is a group by itself, the largest of its variants.
 
@@ -104,10 +107,9 @@ def goals(
     MissingInput
         if specific loads are asked for and a bearing has no diameter or length.
     """
-    objective = request.objective
     quantities: list[Quantity] = []
-    wanted = {name: float(weight) for name, weight in weights(request.machine, objective).items()}
-    asked = [_Asked(case, wanted, case.omega_squared / omega_squared, quantities) for case in cases]
+    wanted = weights(machine, objective)
+    asked = [_Asked(case, objective, fidelity, wanted, omega_squared, quantities) for case in cases]
     groups: dict[str, list[tuple[Group, ...]]] = {"external": [each.external(apart) for each in asked]}
     if objective.bearing_weight > 0:
         groups["bearings"] = [(each.weighed_bearings(),) for each in asked]
@@ -123,37 +125,66 @@ def goals(
         for each, allowed in limited_responses(responses, objective)
     )
     capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
-    program = OverTurn(tuple(quantities), chosen, exact, capped, limits(request.machine), scatter)
+    program = Problem(tuple(quantities), chosen, exact, capped, limits(machine, np.shape(omega_squared)), scatter)
     return Goals(program, allowances, limited, tuple(cases))
+
+
+def cone_program(
+    machine: Machine, objective: Objective, responses: Sequence[Response], omega_squared: Reals
+) -> Statement:
+    """The program of the first order in mass-radius products: over omega^2, so that speed plays no part.
+
+    Fields may hold columns, as in :func:`optimizer.mechanics.layout.layout`.
+
+    Parameters
+    ----------
+    omega_squared : (...) rad^2/s^2; one program, or one for each of many machines that have one shape.
+    """
+    leading = np.shape(omega_squared)
+    case = Case(machine, omega_squared, (tuple(response.spread(leading) for response in responses),))
+    program = formulate(machine, objective, (case,), omega_squared).program.finite
+    assert program is not None  # nothing of it is over the turn
+    return program
 
 
 class _Asked:
     """The quantities that an objective asks of a case, each once."""
 
-    def __init__(self, case: Case, wanted: Mapping[str, float], speed: float, quantities: list[Quantity]) -> None:
+    def __init__(
+        self,
+        case: Case,
+        objective: Objective,
+        fidelity: Fidelity,
+        wanted: Mapping[str, Reals],
+        omega_squared: Reals,
+        quantities: list[Quantity],
+    ) -> None:
         """Prepare.
 
         Parameters
         ----------
         wanted : weights of the responses of the first order.
-        speed : square of the speed of the case, as a share of what the program is divided by.
+        omega_squared : what the program is divided by.
         quantities : of all cases, to which those of this one are added.
         """
-        self.objective, self.fidelity, self.case = case.request.objective, case.request.fidelity, case
-        self.layout, self.quantities = case.layout, quantities
-        self._wanted = {name: weight * speed * case.weight for name, weight in wanted.items()}
-        self._factor = speed * case.weight
+        self.objective, self.fidelity, self.case, self.quantities = objective, fidelity, case, quantities
+        self._speed = case.omega_squared / omega_squared
+        self._wanted = {name: weight * self._speed * case.weight for name, weight in wanted.items()}
         self._places: dict[str, range] = {}
 
     @property
     def machine(self) -> ReciprocatingMachine:
-        assert isinstance(self.case.request.machine, ReciprocatingMachine)  # no other has bearings
-        return self.case.request.machine
+        assert isinstance(self.case.machine, ReciprocatingMachine)  # no other has bearings
+        return self.case.machine
 
     @property
-    def turn(self) -> WholeTurn:
+    def turn(self) -> tuple[WholeTurn, Layout]:
         assert self.case.turn is not None  # it is there where the objective looks at it
         return self.case.turn
+
+    @property
+    def _factor(self) -> float:
+        return float(self._speed) * self.case.weight
 
     def external(self, apart: bool) -> tuple[Group, ...]:
         """Force and moment, as they are weighed and combined: of the first order in closed form, of all by cuts.
@@ -168,12 +199,14 @@ class _Asked:
 
     def _of_frame(self, apart: bool) -> tuple[Group, ...]:
         wanted, across = self._wanted, self.objective.direction_weights
+        # of many programs of one shape all weigh it, or none
+        weighs = [name for name, weight in wanted.items() if np.all(np.asarray(weight) > 0)]
         if self.objective.orders == "all":
             places = zip(RESPONSES, self._of_shaking(), strict=True)
-            weighed = [Weighed(q, wanted[name]) for name, q in places if wanted[name] > 0]
+            weighed = [Weighed(q, float(wanted[name])) for name, q in places if name in weighs]
             return tuple(Group(weighed=(each,)) for each in weighed)
         variants = [
-            [weighted_peak(each, wanted[each.name], across.x, across.y) for each in of if wanted[each.name] > 0]
+            [weighted_peak(each, wanted[each.name], across.x, across.y) for each in of if each.name in weighs]
             for of in self.case.variants
         ]
         if not variants[0]:
@@ -215,7 +248,7 @@ class _Asked:
 
     def _of_shaking(self) -> range:
         """Force and moment of all orders."""
-        return self._placed("shaking", lambda: [self._quantity(each) for each in shaking(self.turn, self.layout)])
+        return self._placed("shaking", lambda: [self._quantity(each) for each in shaking(*self.turn)])
 
     def _of_frame_under(self, ceiling: Ceiling) -> int:
         """What a ceiling limits of force or moment of all orders: all of it, or its component."""
@@ -223,12 +256,12 @@ class _Asked:
         whole = self._of_shaking()[list(RESPONSES).index(name)]
         if not axis:
             return whole
-        response, sense = self.quantities[whole].response, float(self.layout.sense)
+        response, sense = self.quantities[whole].response, float(self.turn[1].sense)
         return self._placed(ceiling.name, lambda: [self._quantity(component(response, axis, sense))])[0]
 
     def _of_roll(self) -> range:
         def moment() -> list[Quantity]:
-            response, shafts = roll(self.turn, self.layout), self.layout.balance
+            response, shafts = roll(*self.turn), self.turn[1].balance
             if shafts is not None and self.objective.orders == "first":
                 response = mirrored(response, shafts)
             return [self._quantity(response)]
@@ -237,7 +270,7 @@ class _Asked:
 
     def _of_bearings(self, measure: Literal["peak", "rms"]) -> range:
         def loads() -> list[Quantity]:
-            responses = bearing_responses(self.machine, self.fidelity, self.layout, self.turn)
+            responses = bearing_responses(self.machine, self.fidelity, *self.turn)
             return [self._quantity(response, measure) for response in responses]
 
         return self._placed(measure, loads)
@@ -245,7 +278,7 @@ class _Asked:
     def _of_bending(self) -> range:
         def moments() -> list[Quantity]:
             influence = INFLUENCES[self.fidelity.shaft]
-            responses = bending_moments(self.turn, self.layout, bearing_places(self.machine), influence)
+            responses = bending_moments(*self.turn, bearing_places(self.machine), influence)
             return [self._quantity(response) for response in responses]
 
         return self._placed("bending", moments)
@@ -254,7 +287,7 @@ class _Asked:
         return Quantity(response, measure, self.case.scenario, self.case.masses)
 
     def _limited(self, field: CeilingField, limit: MachineLimit, quantity: int, ceiling: float) -> Limited:
-        return Limited(field, limit, quantity, ceiling, self.case.omega_squared, self.case.scenario)
+        return Limited(field, limit, quantity, ceiling, float(self.case.omega_squared), self.case.scenario)
 
     def _placed(self, kind: str, found: Callable[[], list[Quantity]]) -> range:
         if kind not in self._places:

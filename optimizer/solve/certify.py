@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.methods.implied_bounds import within_reach
@@ -47,7 +47,7 @@ def certified(
     omega_squared : (N,) rad^2/s^2.
     """
     machine, goal = request.machine, request.objective
-    program = within_reach(formulate(machine, goal, responses, omega_squared), solver)
+    program = within_reach(cone_program(machine, goal, responses, omega_squared), solver)
     found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
     if goal.symmetric:
         found = replace(found, unbalance=symmetric(program, found.unbalance))

@@ -19,7 +19,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.optimum import Found, Reached, Unkept, next_goal, over_turn, semicontinuous_limits
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.limits import Limits
 from optimizer.program.reference.solver import Solver
 from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
@@ -124,7 +124,7 @@ class _Stage(NamedTuple):
     contradicted: bool  # the choice comes to less than any is proven to
 
 
-def _of_any_mass(program: OverTurn, gap: float, robust: Robust) -> Found | Unkept:
+def _of_any_mass(program: Problem, gap: float, robust: Robust) -> Found | Unkept:
     """The first goal by itself."""
     return over_turn(program.changed(goals=program.goals[:1]), gap, False, (), robust.left_s)
 
@@ -160,7 +160,7 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
 
 
 def _limits(
-    request: OptimizeRequest, program: OverTurn, best: Found, before: Sequence[Reached], known: Choice | None
+    request: OptimizeRequest, program: Problem, best: Found, before: Sequence[Reached], known: Choice | None
 ) -> Limits:
     """Limits that hold some best choice for the last goal.
 

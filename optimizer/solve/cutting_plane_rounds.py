@@ -18,7 +18,7 @@ from optimizer.program.cuts.cut import Cut, Pool
 from optimizer.program.cuts.exact_penalty import under_levels
 from optimizer.program.cuts.optimum import Found
 from optimizer.program.cuts.row_generation import FEW, MANY, single_group
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.methods.discs import in_discs
 
 #: width of the brackets by which choices are told apart, as a share of goals and ceilings
@@ -52,7 +52,7 @@ class Ended:
 
 
 def in_rounds(
-    program: OverTurn,
+    program: Problem,
     best: Found,
     choices: FeasibleSet,
     relative_gap: float,
@@ -89,7 +89,7 @@ def in_rounds(
 
     while True:
         rounds += 1
-        posed = replace(program.statement(pool.cuts), limits=best.limits)
+        posed = replace(program.outer(pool.cuts), limits=best.limits)
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
         loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
         below = single_group(loose, case_of, recent, FEW, kinds)
@@ -125,7 +125,7 @@ def in_rounds(
         stuck, points = not learnt, np.concatenate([points, last.unbalance[None]])
 
 
-def _known(program: OverTurn) -> list[list[Cut]]:
+def _known(program: Problem) -> list[list[Cut]]:
     """Cuts to begin with."""
     angle = np.linspace(0.0, 2.0 * np.pi, _ANGLES, endpoint=False)
     known = [list(cuts) for cuts in program.first]
@@ -136,7 +136,7 @@ def _known(program: OverTurn) -> list[list[Cut]]:
     return known
 
 
-def _learn(program: OverTurn, pool: Pool, u: Complex) -> bool:
+def _learn(program: Problem, pool: Pool, u: Complex) -> bool:
     """Take the cuts that tell what an unbalance (K,) comes to; whether any is new."""
     reached = program.values(u, _CLOSE).reached
     _, places = program.seen(u, _HIGH * np.array([each.lower for each in reached]))

@@ -13,7 +13,7 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.outputs.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.program.verdict import INFEASIBLE
@@ -134,7 +134,7 @@ def _alone(request: OptimizeRequest, asked: Goals, omega_squared: float) -> dict
     return {name: tuple(each) for name, each in rows.items()}
 
 
-def _scenarios(program: OverTurn, found: Unkept) -> tuple[str, ...]:
+def _scenarios(program: Problem, found: Unkept) -> tuple[str, ...]:
     """Scenarios whose ceilings are out of reach by themselves, or those whose ceilings conflict with one another."""
     statement, row = found.proof.statement, np.maximum(found.proof.multipliers.row, 0.0)
     leant = row[statement.row] > _TAKES_PART * np.sum(row)
@@ -145,7 +145,7 @@ def _scenarios(program: OverTurn, found: Unkept) -> tuple[str, ...]:
     return tuple(name for name in names if isinstance(_under(program, name), Unkept)) or names
 
 
-def _under(program: OverTurn, scenario: str) -> Found | Unkept:
+def _under(program: Problem, scenario: str) -> Found | Unkept:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
@@ -169,7 +169,7 @@ def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
     return list(dict.fromkeys((*(each.name for each, _ in given), *limited)))[:_MOST_AT_FAULT]
 
 
-def _least(program: OverTurn, group: Group) -> Found:
+def _least(program: Problem, group: Group) -> Found:
     """The smallest value of one group."""
     found = over_turn(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, ())
     assert isinstance(found, Found)  # without ceilings nothing is out of reach

@@ -7,7 +7,7 @@ import numpy as np
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.feasible_set import Subproblem
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.dominance import Group
@@ -57,7 +57,7 @@ def certified_light(
         where the options of a web cannot be told.
     """
     gap = request.accuracy.relative_gap
-    program = within_reach(formulate(request.machine, request.objective, responses, omega_squared), solver)
+    program = within_reach(cone_program(request.machine, request.objective, responses, omega_squared), solver)
     weighed = _weighed(program.chosen(0))
     choices = feasible_set(request, weighed.limits, solver)
     assert choices is not None  # else there would be nothing to search

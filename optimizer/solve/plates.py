@@ -18,7 +18,7 @@ import numpy as np
 from optimizer.choices.equal_plates import Cut, alike, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
 from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
 from optimizer.mechanics.shapes import fitted, plates
@@ -66,7 +66,7 @@ def certified_shapes(
         return request, certified(request, responses, omega_squared, solver)
     end = thread_time() + request.accuracy.time_limit_s
     closed = fitted(request.machine, np.zeros(cut.webs.size))
-    whole = within_reach(formulate(closed, request.objective, responses, omega_squared), solver)
+    whole = within_reach(cone_program(closed, request.objective, responses, omega_squared), solver)
     every = np.ones(len(request.machine.webs), bool)
     task = _Task(request, whole, cut, omega_squared, solver, request.accuracy.relative_gap, every)
     nodes, tried = task.guessed(first_nodes(cut)), []

@@ -7,7 +7,7 @@ import numpy as np
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.cut import EXACT
 from optimizer.program.cuts.misplacement import largest_last_goals
-from optimizer.program.cuts.semi_infinite import OverTurn, Values
+from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.misplacement import farthest_by_angle, farthest_by_mass
 from optimizer.program.statement import Statement
 from schemas.answer.robust import Sensitivity
@@ -33,7 +33,7 @@ def of_first_order(statement: Statement, u: Complex, omega_squared: float) -> Se
     return _rises(as_it_is, by_angle, by_mass, omega_squared)
 
 
-def over_turn(program: OverTurn, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
+def over_turn(program: Problem, u: Complex, values: Values, omega_squared: float) -> Sensitivity:
     """Of the last goal of a program over the turn.
 
     Parameters

@@ -45,18 +45,19 @@ def prices_over_turn(
     gap : certified gap, over omega^2.
     """
     (case,) = asked.cases
+    square = float(case.omega_squared)
     usable, _ = normalised(proof.statement, proof.multipliers)
     prices = sensitivity.shadow_prices(proof.statement, u, usable)
     # the ceilings of the first order come first, and cuts of what is limited over the turn behind them
     first_order = prices.ceiling[: len(asked.program.ceilings)]
-    exact = of_ceilings(request.objective, first_order, case.omega_squared) if first_order.size else ()
+    exact = of_ceilings(request.objective, first_order, square) if first_order.size else ()
     return shadow_prices(
         request.machine,
         _quantity(request),
         (*of_limits(request.machine, prices), *exact, *_of_limited(request.objective, asked, proof, prices)),
         counterweights,
         touched,
-        case.omega_squared,
+        square,
         gap,
         float(asked.program.at_rest.goals[-1]),
     )

@@ -15,7 +15,7 @@ import numpy as np
 
 from optimizer.errors import MissingInput
 from optimizer.formulation.formulate import RESPONSES, given_ceilings, responses, weights
-from optimizer.formulation.goals import Case, Goals, goals
+from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.scatter import changed, row_parts, weighted, worst_signs
 from optimizer.mechanics.whole_turn import WholeTurn
@@ -106,10 +106,10 @@ class Machine:
             )
             for signs in known
         )
-        turn = self.turn if self.request.objective.over_the_turn else None
+        turn = (self.turn, self.scene.laden) if self.request.objective.over_the_turn else None
         masses = self.share if self.scatters else 0.0
         named = self.scenario, self.weight, masses
-        return Case(self.request, self.scene.laden, variants or (self.nominal,), turn, *named)
+        return Case(self.request.machine, self.scene.omega_squared, variants or (self.nominal,), turn, *named)
 
 
 class Robust:
@@ -146,7 +146,8 @@ class Robust:
         """The program with the changes of masses that are known."""
         cases = [machine.case(known) for machine, known in zip(self.machines, self._known, strict=True)]
         apart = any(machine.scatters for machine in self.machines)
-        return goals(self.request, cases, self.scene.omega_squared, self.scatter, apart)
+        machine, objective, fidelity = self.request.machine, self.request.objective, self.request.fidelity
+        return formulate(machine, objective, cases, self.scene.omega_squared, fidelity, self.scatter, apart)
 
     def learnt(self, u: Complex) -> bool:
         """Whether counterweights (K,) have shown changes of masses that are worse than those known before."""

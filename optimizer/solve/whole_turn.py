@@ -7,7 +7,7 @@ import numpy as np
 from optimizer.formulation.balance_shafts import chosen, posed
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.formulate import given_ceilings
-from optimizer.formulation.goals import Case, Goals, goals
+from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.limits import TOUCHED
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import beside, fixed_masses
@@ -16,7 +16,7 @@ from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import ceiling_allowance
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
 from optimizer.program.cuts.proof import Proof
-from optimizer.program.cuts.semi_infinite import OverTurn, Values
+from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
 from optimizer.solve import sensitivity
 from optimizer.solve.infeasibility import out_of_reach
@@ -50,8 +50,9 @@ def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = Tr
     together, responses = posed(request), scene.responses
     if request.objective.orders == "all":
         responses = tuple(each.unmirrored() for each in responses)
-    case = Case(together, scene.laden, (responses,), whole_turn_of(scene))
-    asked = goals(together, [case], scene.omega_squared)
+    machine, square = together.machine, scene.omega_squared
+    case = Case(machine, square, (responses,), (whole_turn_of(scene), scene.laden))
+    asked = formulate(machine, together.objective, [case], square, request.fidelity)
     accuracy, least = request.accuracy, request.objective.least_mass
     found = over_turn(asked.program, accuracy.relative_gap, least, asked.allowances, accuracy.time_limit_s)
     if isinstance(found, Unkept):
@@ -133,7 +134,7 @@ def whole_turn_of(scene: Prepared) -> WholeTurn:
 
 def _judged(
     request: OptimizeRequest,
-    program: OverTurn,
+    program: Problem,
     found: Found,
     u: Complex,
     values: Values,

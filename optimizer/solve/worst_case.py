@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.formulation.formulate import RESPONSES
-from optimizer.formulation.goals import Goals, bearing_responses, goals
+from optimizer.formulation.goals import Goals, bearing_responses, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.shaft_curves import shaking
 from optimizer.numerics.arrays import Complex
@@ -130,7 +130,7 @@ def _peak(robust: Robust, machine: Machine, responses: Sequence[TurnResponse], u
 def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
     made, scene = machine.request.machine, machine.scene
     assert isinstance(made, ReciprocatingMachine)  # no other has bearings
-    yield from bearing_responses(made, machine.request.fidelity, scene.laden, machine.turn)
+    yield from bearing_responses(made, machine.request.fidelity, machine.turn, scene.laden)
 
 
 def _nominal_optimum(robust: Robust) -> tuple[Complex | None, bool]:
@@ -157,8 +157,9 @@ def _price(robust: Robust, u: Complex, best: Complex | None) -> PriceOfRobustnes
 
 def _nominal(robust: Robust) -> Goals:
     """The program of the machine as it is given, with nothing off."""
-    exact = robust.request.model_copy(update={"scenarios": (), "tolerances": None})
-    return goals(exact, [Machine(exact, robust.scene, None, 1.0, 0.0).case()], robust.scene.omega_squared)
+    request, scene = robust.request, robust.scene
+    case = Machine(request, scene, None, 1.0, 0.0).case()
+    return formulate(request.machine, request.objective, [case], scene.omega_squared, request.fidelity)
 
 
 def _objective(robust: Robust, u: Complex) -> float:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.outputs.registry import prepare
 from optimizer.program.statement import Statement
@@ -77,7 +77,7 @@ def programs(request: SweepRequest, numbers: Iterable[int]) -> list[Program]:
 
 def _program(request: OptimizeRequest) -> Program:
     scene = prepare(request, always=("residual",))
-    statement = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    statement = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
     constant, influence, limits = statement.norms.constant, statement.norms.influence, statement.limits
     unit, mass = float(np.sum(np.abs(constant))), limits.max_mass
     rest = float(statement.objective(np.zeros(limits.radius.shape, complex)))

@@ -17,7 +17,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
@@ -107,7 +107,7 @@ def ladders(rng: np.random.Generator, distances: Sequence[float] = DISTANCES) ->
     request = OptimizeRequest.model_validate(body)
     scene = prepare(request, ("residual",))
     limited = [response for response in scene.responses if rng.random() < 0.6] or [scene.responses[0]]
-    without = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    without = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
     size = float(yardstick(without)) * scene.omega_squared
     if size == 0.0:
         return

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 import optimizer
-from optimizer.formulation.formulate import RESPONSES, Weighable, formulate, given_ceilings, smallest_peak
+from optimizer.formulation.formulate import RESPONSES, Weighable, given_ceilings, smallest_peak
+from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.inertia import Wrench, reciprocating
 from optimizer.mechanics.layout import Layout
@@ -97,7 +98,7 @@ def _register(monkeypatch: pytest.MonkeyPatch, ceiling: float | None = None) -> 
 
 def _solved(request: OptimizeRequest) -> tuple[Prepared, Statement, Solution]:
     scene = prepare(request, ("residual",))
-    program = formulate(request.machine, request.objective, scene.responses, scene.omega_squared)
+    program = cone_program(request.machine, request.objective, scene.responses, scene.omega_squared)
     found = optimum(program, 1e-6, True)
     assert isinstance(found, Solution)
     return scene, program, found

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.outputs.registry import prepare
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import carrying_mass
@@ -79,7 +79,7 @@ def test_the_reach_holds_whatever_the_webs_are_for(seed: int) -> None:
     """Property: what some webs can carry, each at least its mass, is found again within the reach of all."""
     request = OptimizeRequest.model_validate(fitted(seed, None, sectors=0.0))
     scene = prepare(request)
-    program = formulate(request.machine, request.objective, scene.responses, np.array([1.0])).chosen(0)
+    program = cone_program(request.machine, request.objective, scene.responses, np.array([1.0])).chosen(0)
     least = np.array([web.min_fitted_mass_kg or 0.0 for web in request.machine.webs])
     bounded = within_semicontinuous_reach(program, least)
     assert np.all(np.isfinite(bounded.limits.max_mass))

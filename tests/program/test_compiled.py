@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optimizer.formulation.formulate import formulate
+from optimizer.formulation.goals import cone_program
 from optimizer.numerics.arrays import mapped
 from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
@@ -52,7 +52,7 @@ def formulated(case: Case) -> tuple[Statement, float]:
     """The program of a hard case, per omega^2, and omega^2."""
     request = OptimizeRequest.model_validate(case.body)
     scene = prepare(request, always=("residual",))
-    return formulate(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
+    return cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), scene.omega_squared
 
 
 def same(one: BothStages, n: int, other: BothStages, m: int) -> bool:

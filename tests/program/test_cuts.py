@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
 from optimizer.program.cuts.optimum import Found, Unkept, over_turn
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.responses.curve import floor
 from tests.program.cases import random_point
@@ -22,13 +22,13 @@ from tests.responses.fourier import FourierCurves
 ANGLES = np.deg2rad(np.arange(0.0, 360.0, 0.1))
 
 
-def found(program: OverTurn, gap: float = 1e-6, least_mass: bool = False, allowances: tuple[float, ...] = ()) -> Found:
+def found(program: Problem, gap: float = 1e-6, least_mass: bool = False, allowances: tuple[float, ...] = ()) -> Found:
     outcome = over_turn(program, gap, least_mass, allowances)
     assert isinstance(outcome, Found)
     return outcome
 
 
-def sampled(program: OverTurn, u: Complex) -> Real:
+def sampled(program: Problem, u: Complex) -> Real:
     """Peaks at 3,600 angles (quantities,)."""
     each = [quantity.response for quantity in program.quantities]
     return np.array([np.max(np.abs(response.at(ANGLES) + response.offset(u))) for response in each])
@@ -177,7 +177,7 @@ def test_root_mean_squares_agree_with_the_modelling_layer(seed: int) -> None:
     assert best.goals[-1].value == pytest.approx(expected, rel=1e-6)
 
 
-def limited(program: OverTurn, factor: float) -> OverTurn:
+def limited(program: Problem, factor: float) -> Problem:
     """Ceilings at a multiple of the smallest largest peak, and force and moment as the goal."""
     least = found(program).goals[-1].value
     rng = np.random.default_rng(1)
@@ -210,11 +210,11 @@ def test_ceilings_below_the_floors_are_out_of_reach() -> None:
     assert outcome.closest.values.excess >= outcome.proof.bound
 
 
-def priorities(seed: int, allowance: float) -> tuple[OverTurn, Found]:
+def priorities(seed: int, allowance: float) -> tuple[Problem, Found]:
     rng = np.random.default_rng(seed)
     every = quantities(rng, 3, 4)
     first = Goal("external", (force_and_moment(rng, 4),))
-    program = OverTurn(every, (first, Goal("bearings", (largest(0, 3),))), (), (), wide(4, 5.0))
+    program = Problem(every, (first, Goal("bearings", (largest(0, 3),))), (), (), wide(4, 5.0))
     return program, found(program, least_mass=True, allowances=(allowance,))
 
 

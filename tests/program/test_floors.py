@@ -14,7 +14,7 @@ from tests.program.turning import bearings, wide
 def test_floors_are_proven_whatever_the_limits(beside: bool) -> None:
     """Analytic: the largest radius, and beside it the counter-rotating phasors, which no counterweight changes."""
     program = bearings(3, limits=wide(6, 1e9), beside=beside)
-    posed = program.statement(program.first)
+    posed = program.outer(program.first)
     expected = max(smallest_circle(np.array([cut.constant for cut in cuts])).radius for cuts in program.first)
     expected += sum(peak.floor for group in program.groups for row in group.rows for peak in row.peaks)
     found = objective_lower_bound(posed, floor_multipliers(program, program.first, posed))

@@ -13,7 +13,7 @@ from optimizer.program.cuts.cut import Scatter
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.misplacement import largest_last_goals
 from optimizer.program.cuts.optimum import Found, Unkept, over_turn
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.misplacement import Norms, angle_corners, mass_corners, worst_by_angle, worst_by_mass
 from optimizer.program.rows import Row, weighted_peak
@@ -32,22 +32,22 @@ def responses(rng: np.random.Generator, webs: int, scenario: str | None) -> list
     return found
 
 
-def several(seed: int, cases: int = 3, webs: int = 4, limits: Limits | None = None) -> OverTurn:
+def several(seed: int, cases: int = 3, webs: int = 4, limits: Limits | None = None) -> Problem:
     """The largest, over some cases, of the peak force plus the peak moment, each a group by itself."""
     rng = np.random.default_rng(seed)
     every = [responses(rng, webs, str(case)) for case in range(cases)]
     groups = tuple(Group(rows=(Row(one.name, (weighted_peak(one, 1.0),)),)) for case in every for one in case)
     goal = Goal("all", groups, cases=tuple(n for n, case in enumerate(every) for _ in case))
-    return OverTurn((), (goal,), (), (), random_limits(rng, webs, bool(seed % 2), False) if limits is None else limits)
+    return Problem((), (goal,), (), (), random_limits(rng, webs, bool(seed % 2), False) if limits is None else limits)
 
 
-def best(program: OverTurn, least_mass: bool = False, gap: float = 1e-6) -> Found:
+def best(program: Problem, least_mass: bool = False, gap: float = 1e-6) -> Found:
     found = over_turn(program, gap, least_mass, ())
     assert isinstance(found, Found)
     return found
 
 
-def modelled(program: OverTurn) -> float:
+def modelled(program: Problem) -> float:
     """Independent: the same program in the modelling layer, with the scatter as a term of its own."""
     limits, scatter = program.limits, program.scatter
     webs = limits.radius.size
@@ -107,7 +107,7 @@ def _errors(rng: np.random.Generator, u: Complex, scatter: Scatter) -> Complex:
 def test_one_norm_comes_to_what_is_said_at_worst() -> None:
     """Analytic: |1 + u| + share |u| is least at u = -1, where the share remains, or at rest if that is above 1."""
     response = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1))
-    program = OverTurn(
+    program = Problem(
         (), (Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),)),), (), (), wide(1)
     )
     for share, at, value in ((0.0, -1.0, 0.0), (0.1, -1.0, 0.1), (0.99, -1.0, 0.99), (1.5, 0.0, 1.0)):
@@ -133,7 +133,7 @@ def test_ceilings_hold_in_the_worst_case() -> None:
     """Analytic: |1 + u| + |u|/10 <= 0.3 is kept from u = -7/9 on; at most 0.09 cannot be."""
     response = Response("force", "N", Phasors(np.asarray(1.0 + 0j), np.asarray(0j)), np.ones(1), scenario="hot")
     goal = Goal("all", (Group(rows=(Row("force", (weighted_peak(response, 1.0),)),)),))
-    kept = OverTurn((), (goal,), ((response, 0.3),), (), wide(1), Scatter(0.1))
+    kept = Problem((), (goal,), ((response, 0.3),), (), wide(1), Scatter(0.1))
     free = replace(response, baseline=Phasors(np.asarray(0j), np.asarray(2.0 + 0j)))
     still = Goal("all", (Group(rows=(Row("force", (weighted_peak(replace(free, influence=np.zeros(1)), 1.0),)),)),))
     found = best(replace(kept, goals=(still,)), least_mass=True)

@@ -13,7 +13,7 @@ from optimizer.program.certificate import objective_lower_bound
 from optimizer.program.cuts.cut import EXACT, Quantity, Scatter
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.optimum import Found, Unkept, over_turn
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.methods.implied_bounds import bounded
 from optimizer.responses.curve import TurnResponse
 from tests.program.cases import random_limits, random_point
@@ -35,14 +35,14 @@ def quantity(rng: np.random.Generator, turning: Real, scalar: bool, name: str) -
     return Quantity(TurnResponse(name, "N m", influence, curves, 0, turning, scalar))
 
 
-def program(seed: int, beside: bool = True, binding: bool = True) -> OverTurn:
+def program(seed: int, beside: bool = True, binding: bool = True) -> Problem:
     """A scalar, and beside it a vector, of six webs."""
     rng = np.random.default_rng(seed)
     turning = rng.choice([-2.0, -1.0, 0.0, 1.0, 2.0], 6)
     every = [quantity(rng, turning, True, "roll"), quantity(rng, turning, False, "force")][: 1 + beside]
     limits = random_limits(rng, 6, bool(seed % 2), bool(seed // 2 % 2)) if binding else wide(6)
     groups = tuple(Group(weighed=(Weighed(q, 1.0 + q),)) for q in range(len(every)))
-    return OverTurn(tuple(every), (Goal("all", groups),), (), (), limits)
+    return Problem(tuple(every), (Goal("all", groups),), (), (), limits)
 
 
 def sampled(of: Quantity, u: Complex) -> float:
@@ -110,7 +110,7 @@ def test_multipliers_that_are_not_real_prove_no_more() -> None:
     """Whatever is given as multipliers: of a scalar the real part counts."""
     rng = np.random.default_rng(4)
     asked = program(5, beside=False)
-    posed = asked.statement(asked.first)
+    posed = asked.outer(asked.first)
     best = over_turn(asked, 1e-6, False, ())
     assert isinstance(best, Found)
     for _ in range(20):
@@ -144,9 +144,9 @@ def test_webs_without_a_limit_reach_all_that_is_no_worse(seed: int) -> None:
     of = every[seed % 2]
     webs = of.response.influence.size
     limits = replace(wide(webs), max_mass=np.full(webs, np.inf))
-    asked = OverTurn((of,), (Goal("all", (Group(weighed=(Weighed(0, 1.0),)),)),), (), (), limits)
+    asked = Problem((of,), (Goal("all", (Group(weighed=(Weighed(0, 1.0),)),)),), (), (), limits)
     rest = float(asked.yardsticks[0])
-    reach = bounded(asked.statement(asked.telling), 2.0 * rest).limits.max_mass
+    reach = bounded(asked.outer(asked.telling), 2.0 * rest).limits.max_mass
     assert np.all(np.isfinite(reach))
     for _ in range(8):
         u = rng.normal(size=(webs, 2)) @ [1, 1j]

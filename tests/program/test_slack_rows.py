@@ -5,7 +5,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optimizer.formulation.formulate import formulate, responses
+from optimizer.formulation.formulate import responses
+from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.program.certificate import mass_lower_bound, objective_lower_bound
@@ -56,7 +57,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     assert set(best.found.method) == {INTERIOR_POINT}
     assert set(best.status) == {"optimal"}
     # the same program as both stages leave it: some of its masses are not proven
-    program = formulate(request.machine, request.objective, asked, square)
+    program = cone_program(request.machine, request.objective, asked, square)
     share = 1e-6 * yardstick(program)
     found = both_stages(program, share, share, True)
     left = np.flatnonzero(~found.certified)

@@ -6,7 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optimizer.formulation.formulate import formulate, responses
+from optimizer.formulation.formulate import responses
+from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.numerics.arrays import Complex
@@ -26,7 +27,7 @@ PLANES = (-0.5, -0.2, 0.2, 0.5)
 def program(made: ReciprocatingMachine, **objective: float) -> Statement:
     plan = layout(made)
     found = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
-    return formulate(made, Objective.model_validate(objective), found, plan.omega**2).alone()
+    return cone_program(made, Objective.model_validate(objective), found, plan.omega**2).alone()
 
 
 def two_throws(first: float, second: float, webs: list[Web], kg: tuple[float, float] = (9.0, 9.0)) -> Statement:

@@ -6,7 +6,7 @@ import numpy as np
 
 from optimizer.program.cuts.cut import Quantity
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.limits import Limits
 from optimizer.program.rows import Row, weighted_peak
 from optimizer.responses.curve import TurnResponse
@@ -53,7 +53,7 @@ def force_and_moment(rng: np.random.Generator, webs: int) -> Group:
 
 def bearings(
     seed: int, count: int = 4, webs: int = 6, measure: str = "peak", limits: Limits | None = None, beside: bool = False
-) -> OverTurn:
+) -> Problem:
     """The largest of some bearing loads, alone or beside force and moment."""
     rng = np.random.default_rng(seed)
     every = quantities(rng, count, webs, measure)
@@ -61,4 +61,4 @@ def bearings(
     if beside:
         groups = [force_and_moment(rng, webs), *groups]
     limits = random_limits(rng, webs, bool(seed % 2), bool(seed // 2 % 2)) if limits is None else limits
-    return OverTurn(every, (Goal("bearings", tuple(groups)),), (), (), limits)
+    return Problem(every, (Goal("bearings", tuple(groups)),), (), (), limits)

@@ -11,7 +11,7 @@ import numpy as np
 from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.cut import Pool
 from optimizer.program.cuts.rounding import settled_turn
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Levels, Point, Search
 from optimizer.program.methods.rounding import dust
 from optimizer.program.solution import CEILING_ROUNDING
@@ -30,7 +30,7 @@ _ROUNDS = 3
 class EmptyWebs:
     """What the search without some webs needs to know of the program."""
 
-    program: OverTurn
+    program: Problem
     statement: Statement  # with some cuts
     pool: Pool
     most: Real  # (goals,) what the goals may come to

@@ -10,11 +10,11 @@ import numpy as np
 
 from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.proof import times
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.statement import Statement
 
 
-def under_levels(statement: Statement, program: OverTurn, most: Real, least: float, steep: float) -> Statement:
+def under_levels(statement: Statement, program: Problem, most: Real, least: float, steep: float) -> Statement:
     """The statement of several goals as the one of its last goal under levels of the others, of as many sums.
 
     Parameters

@@ -9,11 +9,11 @@ import numpy as np
 
 from optimizer.numerics.enclosing_circle import smallest_circle
 from optimizer.program.certificate import Multipliers
-from optimizer.program.cuts.semi_infinite import Cuts, OverTurn
+from optimizer.program.cuts.semi_infinite import Cuts, Problem
 from optimizer.program.statement import Statement
 
 
-def floor_multipliers(program: OverTurn, cuts: Cuts, statement: Statement) -> Multipliers:
+def floor_multipliers(program: Problem, cuts: Cuts, statement: Statement) -> Multipliers:
     """Multipliers of the largest floor of each group: of a row by itself, or of a quantity by its circle.
 
     Parameters

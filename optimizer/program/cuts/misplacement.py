@@ -10,7 +10,7 @@ import numpy as np
 
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.cut import EXACT, Quantity, Reached
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.misplacement import angle_corners, mass_corners, worst_by_angle, worst_by_mass
 from optimizer.program.norms import Norms
 from optimizer.responses.curve import peaks_about
@@ -20,7 +20,7 @@ _WIDTH = 1e-7
 
 
 def largest_last_goals(
-    program: OverTurn, u: Complex, reached: Sequence[Reached], angle: float, share: float
+    program: Problem, u: Complex, reached: Sequence[Reached], angle: float, share: float
 ) -> tuple[float, float]:
     """The last goal where every counterweight (K,) is off by up to an angle [rad], and by up to a share of its mass.
 
@@ -48,7 +48,7 @@ def largest_last_goals(
 _Kind = tuple[float, Callable[[Norms], Real], Callable[[Complex], Complex]]
 
 
-def _pairs(program: OverTurn, reached: Sequence[Reached]) -> Iterator[tuple[Quantity, Reached]]:
+def _pairs(program: Problem, reached: Sequence[Reached]) -> Iterator[tuple[Quantity, Reached]]:
     yield from zip(program.quantities, reached, strict=True)
 
 
@@ -62,7 +62,7 @@ def _no_less(quantity: Quantity, u: Complex, reached: Reached, kind: _Kind) -> f
     return reached.upper + change * float(np.sum(np.abs(response.influence * u)))
 
 
-def _matter(program: OverTurn, reached: Sequence[Reached], worst: Sequence[float]) -> list[int]:
+def _matter(program: Problem, reached: Sequence[Reached], worst: Sequence[float]) -> list[int]:
     """Peaks that may decide the last goal, where what counterweights add stands still."""
     found: set[int] = set()
     for group in program.goals[-1].groups:
@@ -75,7 +75,7 @@ def _matter(program: OverTurn, reached: Sequence[Reached], worst: Sequence[float
     return sorted(q for q in found if peaks[q])
 
 
-def _sharper(program: OverTurn, u: Complex, kinds: Sequence[tuple[_Kind, int]]) -> Iterator[float]:
+def _sharper(program: Problem, u: Complex, kinds: Sequence[tuple[_Kind, int]]) -> Iterator[float]:
     """The worst of peaks by brackets at all corners."""
     if not kinds:
         return
@@ -91,7 +91,7 @@ def _sharper(program: OverTurn, u: Complex, kinds: Sequence[tuple[_Kind, int]]) 
     yield from peaks_about(responses, np.concatenate(offsets), _WIDTH, np.array(of)).upper.tolist()
 
 
-def _last_goal(program: OverTurn, size: Callable[[Norms], Real], of_quantities: Sequence[float]) -> float:
+def _last_goal(program: Problem, size: Callable[[Norms], Real], of_quantities: Sequence[float]) -> float:
     largest = [
         max(
             [float(sum(peak.floor + np.sum(size(peak.norms)) for peak in row.peaks)) for row in group.rows]

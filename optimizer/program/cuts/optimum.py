@@ -12,7 +12,7 @@ from optimizer.program.cuts.cut import Pool
 from optimizer.program.cuts.empty_webs import EmptyWebs
 from optimizer.program.cuts.proof import Proof, times
 from optimizer.program.cuts.rounding import settled_turn
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Levels, Point, Search, Stage
 from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import bounded, far_limits
@@ -105,7 +105,7 @@ class Unkept:
 
 
 def over_turn(
-    program: OverTurn,
+    program: Problem,
     relative_gap: float,
     least_mass: bool,
     allowances: Sequence[float],
@@ -156,7 +156,7 @@ def over_turn(
 
 
 def next_goal(
-    program: OverTurn, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
+    program: Problem, before: Sequence[Reached], u: Complex, relative_gap: float, time_limit_s: float
 ) -> Found:
     """Certified optimum of the last goal of a program under levels of the others that are given.
 
@@ -179,7 +179,7 @@ class _Course:
     """Stages one after the other, each with what is known already."""
 
     def __init__(
-        self, program: OverTurn, pool: Pool, nearest: Stage, raised: bool, contradicted: bool, until: float
+        self, program: Problem, pool: Pool, nearest: Stage, raised: bool, contradicted: bool, until: float
     ) -> None:
         self.program, self.pool, self.raised, self.contradicted = program, pool, raised, contradicted
         self.inside, self.so_far, self.until, self.timed_out = nearest.point, program, until, nearest.timed_out
@@ -269,11 +269,11 @@ class _Course:
         return stage.proof
 
 
-def _rest(program: OverTurn) -> Point:
+def _rest(program: Problem) -> Point:
     return Point(np.zeros(program.limits.radius.shape, complex), program.at_rest, 0.0)
 
 
-def _nearest(program: OverTurn, pool: Pool, until: float) -> Stage:
+def _nearest(program: Problem, pool: Pool, until: float) -> Stage:
     """A point with room below the ceilings, or the one that comes closest to keeping them with the proof of that."""
     rest = _rest(program)
     if not (program.ceilings or program.limited) or rest.values.excess <= -_ROOMY:
@@ -288,13 +288,13 @@ def _nearest(program: OverTurn, pool: Pool, until: float) -> Stage:
     return found._replace(point=_again(program, found.point))
 
 
-def _again(program: OverTurn, point: Point) -> Point:
+def _again(program: Problem, point: Point) -> Point:
     """A point with what it comes to in another program."""
     known = None if np.any(point.unbalance) else program.at_rest
     return replace(point, values=known or program.values(point.unbalance, _TOLD))
 
 
-def semicontinuous_limits(program: OverTurn, least: Real, most: Real) -> Limits:
+def semicontinuous_limits(program: Problem, least: Real, most: Real) -> Limits:
     """Finite limits that hold some best choice of counterweights that are at least so heavy where they are fitted.
 
     What no optimum of any masses needs, those may: limits of :func:`over_turn` are not theirs.
@@ -308,19 +308,19 @@ def semicontinuous_limits(program: OverTurn, least: Real, most: Real) -> Limits:
     return within_semicontinuous_reach(statement, least, _level(program, most)).limits
 
 
-def _telling(program: OverTurn) -> Statement:
+def _telling(program: Problem) -> Statement:
     """What tells all that counterweights change, in units of the goals."""
-    telling = program.begun if program.telling is program.first else program.statement(program.telling)
+    telling = program.begun if program.telling is program.first else program.outer(program.telling)
     return times(telling, 1.0 / program.units[program.goal_of])
 
 
-def _level(program: OverTurn, most: Real) -> float:
+def _level(program: Problem, most: Real) -> float:
     """What the objective of that comes to at most where the goals come to no more."""
     # no point that is no larger has a larger sum in any case
     return 2.0 * float(np.sum((most / program.units)[program.goal_of_case]))
 
 
-def _bounded(program: OverTurn, inside: Point, most: Real) -> OverTurn:
+def _bounded(program: Problem, inside: Point, most: Real) -> Problem:
     """The program with a finite limit for every web (reach.py), proven for all that is no larger than a point."""
     statement = _telling(program)
     if not np.any(far_limits(statement)):

@@ -15,7 +15,7 @@ from optimizer.program.certificate import (
     objective_lower_bound,
 )
 from optimizer.program.cuts.floors import floor_multipliers
-from optimizer.program.cuts.semi_infinite import Cuts, OverTurn
+from optimizer.program.cuts.semi_infinite import Cuts, Problem
 from optimizer.program.multipliers import mass_multipliers, objective_multipliers, resting_multipliers
 from optimizer.program.statement import Statement
 
@@ -47,7 +47,7 @@ class Proof:
         return replace(self, bound=max(self.bound - self.price * more * _UP, 0.0))
 
 
-def resting_proof(program: OverTurn, cuts: Cuts, statement: Statement) -> Proof:
+def resting_proof(program: Problem, cuts: Cuts, statement: Statement) -> Proof:
     """What is proven of the last goal without a solver, whatever the goals before it come to.
 
     Parameters
@@ -65,7 +65,7 @@ def resting_proof(program: OverTurn, cuts: Cuts, statement: Statement) -> Proof:
 
 
 def proofs(
-    program: OverTurn, cuts: Cuts, statement: Statement, u: Complex, dual: Multipliers, counted: Real
+    program: Problem, cuts: Cuts, statement: Statement, u: Complex, dual: Multipliers, counted: Real
 ) -> Iterator[Proof]:
     """Bounds of the last goal, or of the mass, by the multipliers of the solver and by sharper ones.
 
@@ -97,7 +97,7 @@ def proofs(
 
 
 def _charged(
-    program: OverTurn, of_mass: bool, statement: Statement, dual: Multipliers
+    program: Problem, of_mass: bool, statement: Statement, dual: Multipliers
 ) -> tuple[Statement, Multipliers, Real]:
     """The statement whose groups have the prices of their sums, where each group's multipliers sum to 1."""
     case_of, goal_of_case, unit_of = program.case_of, program.goal_of_case, units(program)
@@ -118,7 +118,7 @@ def _charged(
     return times(statement, charges[case_of]), multipliers, charges
 
 
-def units(program: OverTurn) -> Real:
+def units(program: Problem) -> Real:
     """(goals,) what the goals are divided by before they are dual: one alone stays as it is."""
     return program.units if len(program.goals) > 1 else np.ones(1)
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from optimizer.numerics.arrays import Real, mapped
-from optimizer.program.cuts.semi_infinite import OverTurn
+from optimizer.program.cuts.semi_infinite import Problem
 from optimizer.program.cuts.stage import Point
 from optimizer.program.methods.rounding import HEAVIER, NEAR, brought
 from optimizer.program.solution import CEILING_ROUNDING
@@ -17,7 +17,7 @@ _STEPS = ((NEAR[0], NEAR[0]), *((near, 0.0) for near in NEAR[1:]), *((0.0, near)
 
 
 def settled_turn(
-    program: OverTurn, statement: Statement, point: Point, most: Real, mass_bound: float | None, width: float
+    program: Problem, statement: Statement, point: Point, most: Real, mass_bound: float | None, width: float
 ) -> Point:
     """The point, settled as far as it is no worse for it.
 

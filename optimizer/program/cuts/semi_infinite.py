@@ -1,4 +1,7 @@
-"""The program with quantities that are known by cuts: bearing peaks beside force and moment, root mean squares.
+"""The problem: goals in order under ceilings and limits, with quantities that are known by cuts where there are any.
+
+Such are bearing peaks beside force and moment, and root mean squares. Without them it is a program of finitely many
+norms, which :attr:`Problem.finite` is.
 
 minimise    P_n(u) = sum_g max( rows of the group, w_q Q_q(u) of its quantities )      the last goal, or the mass
             or the largest of several such sums
@@ -15,7 +18,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from optimizer.numerics.arrays import SMALLEST, Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real, Reals
 from optimizer.program.ceilings import Ceilings, limited
 from optimizer.program.cuts.brackets import Brackets
 from optimizer.program.cuts.cut import EXACT, Cut, Quantity, Reached, Scatter
@@ -24,7 +27,7 @@ from optimizer.program.cuts.samples import Samples
 from optimizer.program.cuts.terms import Terms
 from optimizer.program.limits import Limits
 from optimizer.program.norms import Norms
-from optimizer.program.rows import Row, WeightedPeak
+from optimizer.program.rows import Row, WeightedPeak, statement
 from optimizer.program.scaling import natural_reach
 from optimizer.program.statement import Names, Statement
 from optimizer.responses.response import Response
@@ -64,8 +67,10 @@ class Values(NamedTuple):
 
 
 @dataclass(frozen=True)
-class OverTurn:
-    """A program whose quantities are known by cuts.
+class Problem:
+    """What is to be small, in order, and under which ceilings and limits; it knows no request.
+
+    Rows, ceilings and limits of a problem without quantities may have leading axes: many problems of one shape.
 
     goals : in the order of their priority, at least one.
     ceilings, limited : responses with the largest peak allowed, and quantities, by their place, with the largest value.
@@ -73,10 +78,18 @@ class OverTurn:
 
     quantities: tuple[Quantity, ...]
     goals: tuple[Goal, ...]
-    ceilings: tuple[tuple[Response, float], ...]
+    ceilings: tuple[tuple[Response, Reals], ...]
     limited: tuple[tuple[int, float], ...]
     limits: Limits
     scatter: Scatter = EXACT
+
+    @cached_property
+    def finite(self) -> Statement | None:
+        """The program itself, (...); None where several goals, quantities or scatter want cuts, or sums of cases."""
+        (goal, *later) = self.goals
+        if later or self.quantities or goal.cases or self.scatter != EXACT:
+            return None
+        return statement([group.rows for group in goal.groups], self.ceilings, self.limits)
 
     @cached_property
     def groups(self) -> tuple[Group, ...]:
@@ -105,7 +118,7 @@ class OverTurn:
         sums = np.bincount(self.case_of, of_groups)
         return np.maximum.reduceat(sums, np.searchsorted(self.goal_of_case, np.arange(len(self.goals))))
 
-    def changed(self, **fields: Any) -> "OverTurn":
+    def changed(self, **fields: Any) -> "Problem":
         """The program with other goals, ceilings or limits, and what is known of its quantities."""
         other = replace(self, **fields)
         vars(other).update({name: vars(self)[name] for name in _OF_QUANTITIES if name in vars(self)})
@@ -191,7 +204,7 @@ class OverTurn:
         """What terms grow by, whatever the counterweights."""
         return self.scatter.unbalance * np.sum(np.abs(norms.influence), axis=-1)
 
-    def alone(self, n: int) -> "OverTurn":
+    def alone(self, n: int) -> "Problem":
         """The program of one of the goals alone."""
         return self.changed(goals=self.goals[n : n + 1])
 
@@ -205,9 +218,9 @@ class OverTurn:
     @cached_property
     def begun(self) -> Statement:
         """The program with the cuts to begin with."""
-        return self.statement(self.first)
+        return self.outer(self.first)
 
-    def statement(self, cuts: Cuts) -> Statement:
+    def outer(self, cuts: Cuts) -> Statement:
         """The program with finitely many cuts of every quantity: its groups, its ceilings with what is limited last."""
         posed = self._objective(cuts)
         exact, chosen = self._exact_ceilings, [(q, cap, cut) for q, cap in self.limited for cut in cuts[q]]
@@ -323,7 +336,7 @@ class OverTurn:
         count = [*(1 for _ in self.ceilings), *(cuts[q] for q, _ in self.limited)]
         return np.repeat(self.sizes, np.array(count, dtype=int))
 
-    def excess(self) -> "OverTurn":
+    def excess(self) -> "Problem":
         """The program of the smallest largest excess over the ceilings; its sign tells whether they can be kept."""
         rows = []
         for (response, cap), size in zip(self.ceilings, self.sizes.tolist(), strict=False):

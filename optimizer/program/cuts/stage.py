@@ -18,7 +18,7 @@ from optimizer.program.ceilings import CEILING_TOLERANCE
 from optimizer.program.cuts.attempts import FREELY, WITHIN, Attempt
 from optimizer.program.cuts.cut import Pool, Reached
 from optimizer.program.cuts.proof import Proof, proofs, resting_proof, times, units
-from optimizer.program.cuts.semi_infinite import OverTurn, Values
+from optimizer.program.cuts.semi_infinite import Problem, Values
 from optimizer.program.reference.assembled import NoPoint, Target, solved
 from optimizer.program.scaled_program import Stage as CostStage
 from optimizer.program.scaling import natural_reach, scale
@@ -87,9 +87,7 @@ class Stage(NamedTuple):
 class Search:
     """One stage: the last goal of a program, or the mass, under what is kept."""
 
-    def __init__(
-        self, program: OverTurn, pool: Pool, levels: Levels, inside: Point, raised: bool, until: float
-    ) -> None:
+    def __init__(self, program: Problem, pool: Pool, levels: Levels, inside: Point, raised: bool, until: float) -> None:
         """Prepare.
 
         Parameters
@@ -200,7 +198,7 @@ class Search:
 
     def _posed(self) -> Statement:
         """The program with the cuts that are known."""
-        return self.program.statement(self.pool.cuts)
+        return self.program.outer(self.pool.cuts)
 
     def _closed(self, proof: Proof | None, statement: Statement) -> Proof | None:
         """The better of a proof and of that by the floors of all that is known by now, which needs no solver."""

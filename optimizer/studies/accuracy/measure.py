@@ -8,7 +8,8 @@ from importlib.metadata import version
 
 import numpy as np
 
-from optimizer.formulation.formulate import formulate, limited, weights
+from optimizer.formulation.formulate import limited, weights
+from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
 from optimizer.outputs.registry import prepare
 from optimizer.program.ceilings import CEILING_TOLERANCE
@@ -50,7 +51,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
     # outputs play no part: what they would miss must not refuse the ladder
     scene = prepare(request.model_copy(update={"outputs": ("residual",)}))
     solver = Solver()
-    whole = within_reach(formulate(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
+    whole = within_reach(cone_program(request.machine, request.objective, scene.responses, scene.omega_squared), solver)
     usable = whole.limits.reach > 0
     statement = whole.only(usable)
     task = Task(statement, _turn(request, scene).only(usable))
@@ -84,7 +85,7 @@ def accuracy(request: AccuracyRequest) -> AccuracyAnswer:
 
 
 def _turn(request: AccuracyRequest, scene: Prepared) -> OverTheTurn:
-    """The peaks and ceilings of :func:`optimizer.formulation.formulate.formulate`, as they pass over the turn."""
+    """The peaks and ceilings of :func:`optimizer.formulation.goals.cone_program`, as they pass over the turn."""
     wanted, across = weights(request.machine, request.objective), request.objective.direction_weights
     return OverTheTurn(
         peaks=tuple(

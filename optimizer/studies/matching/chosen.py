@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from optimizer.formulation.formulate import formulate, responses
+from optimizer.formulation.formulate import responses
+from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout, spread
 from optimizer.numerics.arrays import Real
@@ -43,7 +44,7 @@ class Chosen:
         leading = row_mass.shape[:-1]
         plan = spread(layout(machine), leading)
         base = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
-        return formulate(machine, self.request.objective, base, np.ones(leading))
+        return cone_program(machine, self.request.objective, base, np.ones(leading))
 
     def _minorants(self, program: Statement, multipliers: Multipliers, mass: Real) -> Minorants:
         """The bounds as functions of the vectors of the parts."""

@@ -8,7 +8,8 @@ import numpy as np
 
 from optimizer.analyze import analyze
 from optimizer.formulation.counterweights import as_given, unbalance
-from optimizer.formulation.formulate import formulate, responses
+from optimizer.formulation.formulate import responses
+from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.inertia import reciprocating, rotating
 from optimizer.mechanics.layout import layout
 from optimizer.numerics.arrays import Real
@@ -227,7 +228,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine) -> _Evaluat
     plan = layout(machine)
     first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
     square = plan.omega**2
-    program = formulate(machine, goal, first, square)
+    program = cone_program(machine, goal, first, square)
     fitted = answer.counterweights
     u = unbalance(
         np.array([one.mass_kg for one in fitted]), np.array([one.angle_deg for one in fitted]), plan.webs.radius

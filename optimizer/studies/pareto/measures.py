@@ -7,12 +7,12 @@ from functools import cached_property
 import numpy as np
 
 from optimizer.formulation.formulate import RESPONSES
-from optimizer.formulation.goals import Case, goals
+from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.cuts.dominance import Group, Weighed
-from optimizer.program.cuts.semi_infinite import Goal, OverTurn
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
 from schemas.front.trade import Traded
@@ -50,7 +50,7 @@ class Measures:
     """
 
     names: tuple[Traded, ...]
-    program: OverTurn
+    program: Problem
     groups: tuple[Group, ...]
 
     def values(self, u: Complex) -> Real:
@@ -62,7 +62,7 @@ class Measures:
         return self.each.values(u, _CLOSE).excess
 
     @cached_property
-    def each(self) -> OverTurn:
+    def each(self) -> Problem:
         """The program with a goal for each, that are not put in any order."""
         pairs = zip(self.names, self.groups, strict=True)
         return replace(self.program, goals=tuple(Goal(name, (group,)) for name, group in pairs))
@@ -82,13 +82,13 @@ class Measures:
         of_weighed = [w * np.abs(quantities[q].response.influence) @ size for q, w, _ in group.weighed]
         return float(max([*of_rows, *of_weighed], default=0.0))
 
-    def first(self, which: int, size: Real) -> OverTurn:
+    def first(self, which: int, size: Real) -> Problem:
         """The program that makes one small, and after it the largest of the others by their sizes (D,)."""
         others = [_along(self.groups[i], 0.0, size[i]) for i in range(len(self.names)) if i != which]
         goal = Goal(self.names[which], (self.groups[which],), float(size[which]))
         return replace(self.program, goals=(goal, Goal("others", (_largest(others),), 1.0)))
 
-    def along(self, anchor: Real, unit: Real) -> OverTurn:
+    def along(self, anchor: Real, unit: Real) -> Problem:
         """min max_i (R_i - anchor_i)/unit_i: the first attainable point on the line anchor + t unit, (D,) both."""
         rows = [_along(*each) for each in zip(self.groups, anchor.tolist(), unit.tolist(), strict=True)]
         return replace(self.program, goals=(Goal("trade", (_largest(rows),), 1.0),))
@@ -101,9 +101,10 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
     ----------
     turn : of the machine, where anything is asked of the whole turn.
     """
-    asked = request.model_copy(update={"objective": alone(request.objective, names)})
-    case = Case(asked, scene.laden, (scene.responses,), turn)
-    program = goals(asked, [case], scene.omega_squared).program
+    objective = alone(request.objective, names)
+    machine, square = request.machine, scene.omega_squared
+    case = Case(machine, square, (scene.responses,), None if turn is None else (turn, scene.laden))
+    program = formulate(machine, objective, [case], square, request.fidelity).program
     groups = {"mass": Group((total_mass(program.limits),))} | {
         name: Group(
             tuple(row for group in program.groups for row in group.rows if row.name == name),
