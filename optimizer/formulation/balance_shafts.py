@@ -16,6 +16,7 @@ from optimizer.mechanics.fixed_weights import beside, fixed_webs
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Complex, Real
 from schemas.answer.counterweights import Counterweight, FittedShaft
+from schemas.answer.limits import MachineLimit, WebLimit
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
 from schemas.machine.webs import Web
@@ -63,6 +64,12 @@ class Fitted(NamedTuple):
     def all_of_them(self) -> tuple[Counterweight, ...]:
         """Those on the balance shafts behind those of the crankshaft."""
         return (*self.counterweights, *(one for shaft in self.balance_shafts for one in shaft.counterweights))
+
+    def active_limits(
+        self, of_machine: tuple[MachineLimit, ...]
+    ) -> dict[str | None, tuple[WebLimit | MachineLimit, ...]]:
+        """Limits that are touched on each web, and by None those of the machine."""
+        return {None: of_machine} | {each.web: each.active_limits for each in self.all_of_them}
 
     @property
     def fields(self) -> dict[str, object]:

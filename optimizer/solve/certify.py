@@ -8,14 +8,15 @@ import numpy as np
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import fixed_masses
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import Complex, Real, Reals
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
 from optimizer.program.statement import Statement
-from optimizer.program.verdict import INFEASIBLE, Verdict, claim, verdict
+from optimizer.program.verdict import INFEASIBLE, Claim, Verdict, claim, verdict
 from optimizer.responses.response import Response
+from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 
 
@@ -76,26 +77,38 @@ def judged(
     mass_bound = found.mass_lower_bound if goal.least_mass else None
     claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
     judged = verdict(claimed, request.accuracy.relative_gap)
-    of_mass = {
-        "mass_lower_bound_kg": judged.mass_lower_bound + np.add.reduce(fixed_masses(machine), axis=-1),
-        "mass_relative_gap": judged.mass_gap,
-        "mass_yardstick_kg": judged.mass_yardstick,
-        "mass_objective_limit": found.mass_target * square,
-    }
-    if not goal.least_mass:
-        of_mass = dict.fromkeys(of_mass, np.full(square.shape, np.nan))
-    certificate = {
-        "objective": claimed.value[:, 0] * square,
-        "lower_bound": judged.lower_bound[:, 0] * square,
-        "gap": judged.gap[:, 0] * square,
-        "relative_gap": judged.relative_gap,
-        "yardstick": claimed.yardstick[:, 0] * square,
-        "objective_without_counterweights": program.at_rest * square,
-        "method": found.method,
-        **of_mass,
-    }
+    certificate = figures(machine, claimed, judged, program.at_rest, found.mass_target, square)
+    certificate["method"] = found.method
     status, reason = judged.status, judged.reason
     if found.unreachable.any():
         status = np.where(found.unreachable, "infeasible", status)
         reason = np.where(found.unreachable, INFEASIBLE, reason)
     return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)
+
+
+def figures(
+    machine: Machine, claimed: Claim, judged: Verdict, at_rest: Reals, mass_target: Reals, omega_squared: Reals
+) -> dict[str, np.ndarray]:
+    """Fields of certificates (...) in the units of the answer; nan is null.
+
+    Parameters
+    ----------
+    at_rest, mass_target : objectives without counterweights, and the largest that proofs of the mass count as optima.
+    """
+    of_mass = {
+        "mass_lower_bound_kg": judged.mass_lower_bound + np.add.reduce(fixed_masses(machine), axis=-1),
+        "mass_relative_gap": judged.mass_gap,
+        "mass_yardstick_kg": judged.mass_yardstick,
+        "mass_objective_limit": np.asarray(mass_target * omega_squared),
+    }
+    if claimed.mass_lower_bound is None:
+        of_mass = dict.fromkeys(of_mass, np.full(np.shape(omega_squared), np.nan))
+    return {
+        "objective": claimed.value[..., 0] * omega_squared,
+        "lower_bound": judged.lower_bound[..., 0] * omega_squared,
+        "gap": judged.gap[..., 0] * omega_squared,
+        "relative_gap": judged.relative_gap,
+        "yardstick": claimed.yardstick[..., 0] * omega_squared,
+        "objective_without_counterweights": np.asarray(at_rest * omega_squared),
+        **of_mass,
+    }

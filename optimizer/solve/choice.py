@@ -26,19 +26,14 @@ from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
 from optimizer.solve.design import certified_one
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.outcome import Outcome
-from optimizer.solve.search_claims import continuous, told_ample, told_status
+from optimizer.solve.search_claims import continuous, told_status
 from optimizer.solve.uncertain_program import Robust
-from optimizer.solve.whole_turn import told
+from optimizer.solve.whole_turn import SearchProof, told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
-from schemas.answer.answers import Certificate, GoalReached
 from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which choices are told apart, as a share of goals
 _CLOSE = 1e-10
-_EARLIER = (
-    "The last goal is within the asked gap under what those before it were left; of one of these the search ended with"
-    " a larger gap, which `goals` of the certificate tell."
-)
 
 
 def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, in_full: bool = True) -> Outcome:
@@ -78,40 +73,23 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         return replace(answer, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
     judged = any_mass.model_copy(update={"accuracy": request.accuracy})
     if len(stages) < len(asked.program.goals):
-        return _without_ceilings(judged, robust, picked, found, in_full)
-    answer = told(judged, scene, asked, best, picked.mass, picked.angle, found.lower_bound, in_full)
-    certificate = answer.fields["certificate"]
-    assert isinstance(certificate, Certificate)
-    proven = certificate.lower_bound is not None
-    any_lower = (
-        min(max(best.proof.bound, 0.0) * scene.omega_squared, certificate.lower_bound or 0.0) if proven else None
+        # nothing is proven of what goals come to in their order
+        asked, of_any = robust.solved()
+        if isinstance(of_any, Unkept):
+            return out_of_reach(judged, scene, asked, of_any)
+        nothing = SearchProof(found, found.nodes, found.rounds, None, True)
+        return told(judged, scene, asked, of_any, picked.mass, picked.angle, nothing, in_full)
+    proof = SearchProof(
+        found,
+        _nodes(stages),
+        sum(stage.found.rounds for stage in stages),
+        [stage.found.lower_bound for stage in stages[:-1]],
+        all(stage.closed for stage in stages),
     )
-    certificate = certificate.model_copy(
-        update={
-            "continuous_lower_bound": any_lower,
-            "nodes": _nodes(stages),
-            "method": found.method,
-            "rounds": best.rounds + sum(stage.found.rounds for stage in stages),
-            "cuts": found.cuts,
-            "goals": _goals(certificate, stages, scene.omega_squared),
-        }
-    )
-    status, reason = told_status(found, answer.status, answer.reason, proven)
-    reason = told_ample(reason, found, best.proof.bound)
-    if status == "optimal" and not all(stage.closed for stage in stages):
-        status, reason = "inaccurate", _EARLIER
-    answer = replace(
-        answer,
-        status=status,
-        reason=reason,
-        method=found.method,
-        nodes=_nodes(stages),
-        # what holds those of any mass up says nothing of what can be chosen
-        fields={**answer.fields, "certificate": certificate},
-    )
-    if not request.robust:
-        return answer
-    return with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
+    answer = told(judged, scene, asked, best, picked.mass, picked.angle, proof, in_full)
+    if request.robust:
+        answer = with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
+    return answer
 
 
 class _Stage(NamedTuple):
@@ -187,35 +165,9 @@ def _left(robust: Robust, kept_back: float) -> Callable[[], float]:
     return lambda: max(robust.left_s - kept_back, 0.0)
 
 
-def _without_ceilings(request: OptimizeRequest, robust: Robust, picked: Choice, found: Ended, in_full: bool) -> Outcome:
-    """What is told where no choice was found that keeps the ceilings: nothing is proven of what goals come to in their
-    order."""
-    asked, best = robust.solved()
-    if isinstance(best, Unkept):
-        return out_of_reach(request, robust.scene, asked, best)
-    answer = told(request, robust.scene, asked, best, picked.mass, picked.angle, -np.inf, in_full)
-    certificate = answer.fields["certificate"]
-    assert isinstance(certificate, Certificate)
-    nothing = {"lower_bound": None, "gap": None, "relative_gap": None, "nodes": found.nodes, "method": found.method}
-    status, reason = told_status(found, answer.status, answer.reason, True)
-    fields = {**answer.fields, "certificate": certificate.model_copy(update=nothing)}
-    return replace(answer, status=status, reason=reason, method=found.method, nodes=found.nodes, fields=fields)
-
-
 def _nodes(stages: list[_Stage]) -> int:
     """Nodes of the trees of all goals."""
     return sum(stage.found.nodes for stage in stages)
-
-
-def _goals(certificate: Certificate, stages: list[_Stage], omega_squared: float) -> tuple[GoalReached, ...]:
-    """The goals before the last with what is proven of all choices, where anything is."""
-
-    def of(goal: GoalReached, stage: _Stage) -> GoalReached:
-        # above it by no more than rounding
-        bound = min(stage.found.lower_bound * omega_squared, goal.value)
-        return goal if goal.lower_bound is None else goal.model_copy(update={"lower_bound": bound})
-
-    return tuple(of(goal, stage) for goal, stage in zip(certificate.goals, stages, strict=False))
 
 
 def _heavy_enough(request: OptimizeRequest, u: Complex) -> bool:

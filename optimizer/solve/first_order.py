@@ -1,6 +1,5 @@
 """Certified counterweights of one request that asks for the first order of the machine as it is given."""
 
-import math
 import time
 from collections.abc import Mapping
 from dataclasses import replace
@@ -23,16 +22,14 @@ from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.solve.certify import Certified
 from optimizer.solve.design import certified_one
-from optimizer.solve.outcome import Outcome
-from optimizer.solve.prices import of_ceilings, of_limits, quantity_of, touched_limits
+from optimizer.solve.outcome import Outcome, certificate
 from optimizer.solve.prices import shadow_prices as priced
-from optimizer.solve.proof import PhysicalMultipliers, implied_max_mass, named, named_proofs, physical, physical_proofs
+from optimizer.solve.prices import touched_limits
+from optimizer.solve.proof import implied_max_mass, named, named_proofs, physical, physical_proofs
 from optimizer.solve.search_claims import continuous
 from optimizer.solve.sensitivity import of_first_order
-from schemas.answer.answers import Certificate
-from schemas.answer.counterweights import Counterweight
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
-from schemas.answer.limits import MachineLimit, ShadowPrice
+from schemas.answer.limits import ShadowPrice
 from schemas.answer.proof import InfeasibilityMultipliers
 from schemas.answer.proof import Multipliers as PrintedMultipliers
 from schemas.request.requests import OptimizeRequest
@@ -74,52 +71,25 @@ def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted:
     in_units = physical_proofs(best.program, best.found, best.omega_squared)
     (proofs,) = named_proofs(best.program, best.found, in_units, best.omega_squared, goal.least_mass)
     figures = {name: column.item(0) for name, column in best.certificate.items()}
+    gap, prices = float(best.verdict.gap[0, 0]), tuple[ShadowPrice, ...]()
+    if not (np.isnan(gap) or best.searched or machine.web_groups):
+        # what limits cost those of any mass says nothing of what can be chosen, nor does one web of a group give way
+        proof, at_rest = in_units.objective, float(best.program.at_rest[0])
+        every = shadow_prices(best.program, best.unbalance, Multipliers(proof.term, proof.row, proof.ceiling))
+        alone = mapped(every, lambda array: array[0])
+        prices = priced(machine, goal, alone, (), fitted.active_limits(touched), scene.omega_squared, gap, at_rest)
     return {
         **fitted.fields,
         "active_limits": touched,
-        "shadow_prices": _prices(request, scene, best, in_units.objective, fitted.all_of_them, touched),
+        "shadow_prices": prices,
         "sensitivity": of_first_order(best.program, best.unbalance, scene.omega_squared),
-        "certificate": Certificate(
-            **{name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()},
-            implied_max_mass_kg=implied_max_mass(machine, best.program.limits.max_mass)[0],
-            multipliers=PrintedMultipliers(objective=proofs.objective, mass=proofs.mass),
+        "certificate": certificate(
+            figures,
+            machine,
+            best.program.limits.max_mass[0],
+            PrintedMultipliers(objective=proofs.objective, mass=proofs.mass),
         ),
     }
-
-
-def _prices(
-    request: OptimizeRequest,
-    scene: Prepared,
-    best: Certified,
-    proof: PhysicalMultipliers,
-    fitted: tuple[Counterweight, ...],
-    touched: tuple[MachineLimit, ...],
-) -> tuple[ShadowPrice, ...]:
-    """What limits cost, from the multipliers (1, ...) of the bound on the objective."""
-    gap = float(best.verdict.gap[0, 0])
-    if np.isnan(gap) or best.searched or request.machine.web_groups:
-        # what limits cost those of any mass says nothing of what can be chosen, nor does one web of a group give way
-        return ()
-    machine, objective = request.machine, request.objective
-    quantity = quantity_of(machine, objective)
-    assert quantity is not None  # the first order has a weight, or the objective looks at the whole turn
-    found = shadow_prices(best.program, best.unbalance, Multipliers(proof.term, proof.row, proof.ceiling))
-    prices = mapped(found, lambda array: array[0])
-    return priced(
-        machine,
-        quantity,
-        (*of_limits(machine, prices), *of_ceilings(objective, prices.ceiling, scene.omega_squared)),
-        fitted,
-        touched,
-        scene.omega_squared,
-        gap,
-        float(best.program.at_rest[0]),
-    )
-
-
-def finite_or_null(value: Real | float) -> float | None:
-    """A figure, null where nothing is proven."""
-    return float(value) if math.isfinite(value) else None
 
 
 def _conflict(

@@ -80,7 +80,7 @@ def unreachable(
             ceiling=ceiling,
             smallest=value[name],
             lower_bound=bound[name],
-            multipliers=multipliers_of(least[name], square),
+            multipliers=multipliers_of(least[name].proof, square),
         )
         for name, field, ceiling in (
             *((each.name, each.field, allowed) for each, allowed in given if each.name in components),
@@ -112,7 +112,7 @@ def unreachable(
             ),
             multipliers=InfeasibilityMultipliers(
                 conflict=conflict,
-                **smallest_proofs({name: multipliers_of(least[name], square) for name in RESPONSES}),
+                **smallest_proofs({name: multipliers_of(least[name].proof, square) for name in RESPONSES}),
             ),
         ),
     }

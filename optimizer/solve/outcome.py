@@ -1,12 +1,16 @@
 """Counterweights that were chosen with what is proven of them, whatever was asked: for answers and rows of sweeps."""
 
+import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from optimizer.formulation.simulation import Prepared
-from optimizer.numerics.arrays import Complex
-from optimizer.program.cuts.optimum import Found
-from optimizer.solve.proof import named, physical
-from schemas.answer.proof import BoundMultipliers
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.cuts.proof import Proof
+from optimizer.solve.proof import Bounded, implied_max_mass, named, physical
+from schemas.answer.answers import Certificate, GoalReached
+from schemas.answer.proof import BoundMultipliers, Multipliers
+from schemas.machine.machine import Machine
 
 
 @dataclass(frozen=True)
@@ -26,7 +30,35 @@ class Outcome:
     report_s: float = 0.0  # of the time, that spent on the fields
 
 
-def multipliers_of(found: Found, omega_squared: float) -> BoundMultipliers:
-    """Multipliers of the objective, of a program over omega^2, by their names and in their units."""
-    proof = found.proof
-    return named(proof.statement, physical(proof.statement, proof.multipliers, "objective", omega_squared))
+def multipliers_of(proof: Proof, omega_squared: float, bounded: Bounded = "objective") -> BoundMultipliers:
+    """Multipliers of a bound, of a program over omega^2, by their names and in their units."""
+    return named(proof.statement, physical(proof.statement, proof.multipliers, bounded, omega_squared))
+
+
+def certificate(
+    figures: Mapping[str, Real | float | str | None],
+    machine: Machine,
+    most: Real,
+    multipliers: Multipliers,
+    goals: tuple[GoalReached, ...] = (),
+) -> Certificate:
+    """What an answer prints of proofs.
+
+    Parameters
+    ----------
+    figures : of one design, by the fields of a certificate; what is not finite is null.
+    most : (K,) kg, largest masses that the proofs count with.
+    """
+    return Certificate.model_validate(
+        {name: value if isinstance(value, str) else finite_or_null(value) for name, value in figures.items()}
+        | {
+            "implied_max_mass_kg": implied_max_mass(machine, most[None])[0],
+            "multipliers": multipliers,
+            "goals": goals,
+        }
+    )
+
+
+def finite_or_null(value: Real | float | None) -> float | None:
+    """A figure, null where nothing is proven."""
+    return float(value) if value is not None and math.isfinite(value) else None

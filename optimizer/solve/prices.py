@@ -1,23 +1,30 @@
 """Limits that counterweights touch, and what each costs, in the units of a designer: newtons per kilogram."""
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import NamedTuple, get_args
 
 import numpy as np
 
 from optimizer.formulation.formulate import RESPONSES, given_ceilings, limited, weights
+from optimizer.formulation.goals import Limited
 from optimizer.formulation.limits import MACHINE_LIMITS, TOUCHED, given_limits
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.sensitivity import ShadowPrices
 from optimizer.responses.response import Response
-from schemas.answer.counterweights import Counterweight
-from schemas.answer.limits import MachineLimit, PriceUnit, ShadowPrice, WebLimit
+from schemas.answer.limits import CeilingField, MachineLimit, PriceUnit, ShadowPrice, WebLimit
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
 
 #: optima may differ by this share of the objective without counterweights: what is worth less holds nothing up
 _WORTH = 1e-6
 _UNITS: Mapping[str, PriceUnit] = {unit: unit for unit in get_args(PriceUnit)}
+#: units of the ceilings over the turn
+_UNIT_OF: Mapping[CeilingField, str] = {
+    "bearing_ceiling_N": "N",
+    "specific_load_ceiling_Pa": "Pa",
+    "bending_ceiling_Nm": "N m",
+    **{ceiling.field: ceiling.unit for response in RESPONSES.values() for ceiling in response.limits},
+}
 
 
 class Priced(NamedTuple):
@@ -65,32 +72,44 @@ class Quantity(NamedTuple):
     unit: str
 
 
-def quantity_of(machine: Machine, objective: Objective) -> Quantity | None:
-    """Force, or moment where the force has no weight; None where neither has."""
+def _quantity(machine: Machine, objective: Objective) -> Quantity:
+    """Force, moment where the force has no weight, and what else is weighed where neither has."""
     wanted = weights(machine, objective)
     weighed = (Quantity(float(wanted[each.name]), each.unit) for each in RESPONSES.values() if wanted[each.name] > 0)
-    return next(weighed, None)
+    of_frame = next(weighed, None)
+    if of_frame is not None:
+        return of_frame
+    if objective.bearing_weight > 0:
+        return Quantity(objective.bearing_weight, "Pa" if objective.bearing_measure == "specific" else "N")
+    return Quantity(objective.bending_weight or objective.roll_weight, "N m")
 
 
 def shadow_prices(
     machine: Machine,
-    quantity: Quantity,
-    prices: Iterable[Priced],
-    counterweights: Sequence[Counterweight],
-    touched: Collection[MachineLimit],
+    objective: Objective,
+    prices: ShadowPrices,
+    cuts: Sequence[tuple[Limited, int]],
+    active: Mapping[str | None, Collection[WebLimit | MachineLimit]],
     omega_squared: float,
     gap: float,
     at_rest: float,
 ) -> tuple[ShadowPrice, ...]:
-    """Prices of the limits that are touched, and of those that are not but hold the objective up.
+    """Prices of the limits that are touched, and of those that are not but hold the objective up, of one machine.
 
     Parameters
     ----------
-    prices : of one program, in objective over omega^2.
-    touched : limits of the machine that the counterweights touch.
+    prices : of one program, in objective over omega^2; ceilings of the first order first.
+    cuts : what is limited over the turn, and how many ceilings of the program are its cuts.
+    active : limits that are touched on each web, and by None those of the machine.
     gap, at_rest : certified gap, and objective without counterweights, over omega^2.
     """
-    active = {each.web: each.active_limits for each in counterweights}
+    quantity = _quantity(machine, objective)
+    first = prices.ceiling.size - sum(count for _, count in cuts)
+    limits = (
+        *of_limits(machine, prices),
+        *(_of_ceilings(objective, prices.ceiling[:first], omega_squared) if first else ()),
+        *_of_limited(objective, cuts, prices.ceiling[first:]),
+    )
     return tuple(
         ShadowPrice(
             limit=each.limit,
@@ -101,9 +120,8 @@ def shadow_prices(
             else 0.0,
             unit=_UNITS[f"{quantity.unit}/{each.unit}"],
         )
-        for each in prices
-        if each.limit in (touched if each.web is None else active[each.web])
-        or each.price * each.size > _WORTH * at_rest
+        for each in limits
+        if each.limit in active[each.web] or each.price * each.size > _WORTH * at_rest
     )
 
 
@@ -124,7 +142,7 @@ def of_limits(machine: Machine, prices: ShadowPrices) -> Iterator[Priced]:
             yield Priced(limit_name, None, float(limit.price(machine, prices)), float(limit.size(machine)), limit.unit)
 
 
-def of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> Iterator[Priced]:
+def _of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> Iterator[Priced]:
     """What every ceiling of the first order costs that is given.
 
     Parameters
@@ -133,9 +151,23 @@ def of_ceilings(objective: Objective, prices: Real, omega_squared: float) -> Ite
     """
     for (each, allowed), price in zip(given_ceilings(objective), prices.tolist(), strict=True):
         # an objective over omega^2 per ceiling over omega^2
-        yield Priced(each.limit, None, price / omega_squared, allowed, per(each.unit))
+        yield Priced(each.limit, None, price / omega_squared, allowed, _per(each.unit))
 
 
-def per(unit: str) -> str:
+def _of_limited(objective: Objective, cuts: Sequence[tuple[Limited, int]], prices: Real) -> Iterator[Priced]:
+    """Every ceiling over the turn: raising it raises the caps of all cuts (M,) of all that it limits."""
+    first, totals = 0, dict[CeilingField, tuple[MachineLimit, float]]()
+    for each, count in cuts:
+        allowed = getattr(objective, each.field)
+        # of specific loads the area of the bearing
+        share = each.ceiling / allowed if allowed > 0 else 1.0
+        of_cuts = float(np.sum(prices[first : first + count])) * share / each.omega_squared
+        first += count
+        totals[each.field] = each.limit, totals.get(each.field, (each.limit, 0.0))[1] + of_cuts
+    for field, (limit, price) in totals.items():
+        yield Priced(limit, None, price, getattr(objective, field), _per(_UNIT_OF[field]))
+
+
+def _per(unit: str) -> str:
     """A unit as it stands behind a stroke."""
     return f"({unit})" if " " in unit else unit

@@ -1,6 +1,7 @@
 """Certified counterweights of one request that asks for the whole turn: bearings, bending, goals in their order."""
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,22 +11,25 @@ from optimizer.formulation.formulate import given_ceilings
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.limits import TOUCHED
 from optimizer.formulation.simulation import Prepared
-from optimizer.mechanics.fixed_weights import beside, fixed_masses
+from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.whole_turn import WholeTurn
 from optimizer.numerics.arrays import Complex, Real
-from optimizer.program.certificate import ceiling_allowance
+from optimizer.program.certificate import ceiling_allowance, normalised
 from optimizer.program.cuts.optimum import METHOD, Found, Unkept, over_turn
 from optimizer.program.cuts.proof import Proof
 from optimizer.program.cuts.semi_infinite import Problem, Values
-from optimizer.program.verdict import CONTRADICTED, Claim, Verdict, mass_resolution, verdict
+from optimizer.program.sensitivity import shadow_prices
+from optimizer.program.verdict import CONTRADICTED, Claim, mass_resolution, verdict
 from optimizer.solve import sensitivity
+from optimizer.solve.certify import figures
+from optimizer.solve.cutting_plane_rounds import Ended
 from optimizer.solve.infeasibility import out_of_reach
-from optimizer.solve.outcome import Outcome, multipliers_of
+from optimizer.solve.outcome import Outcome, certificate, finite_or_null, multipliers_of
+from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_by_mass
-from optimizer.solve.proof import implied_max_mass, named, physical
-from optimizer.solve.turn_prices import prices_over_turn
-from schemas.answer.answers import Certificate, GoalReached
-from schemas.answer.limits import MachineLimit, ShadowPrice
+from optimizer.solve.search_claims import told_ample, told_status
+from schemas.answer.answers import GoalReached
+from schemas.answer.limits import MachineLimit, ShadowPrice, WebLimit
 from schemas.answer.proof import Multipliers
 from schemas.request.requests import OptimizeRequest
 
@@ -33,6 +37,25 @@ from schemas.request.requests import OptimizeRequest
 _CLOSE = 1e-10
 #: the same where goals are kept whose price may be high
 _CLOSER = 1e-12
+_EARLIER = (
+    "The last goal is within the asked gap under what those before it were left; of one of these the search ended with"
+    " a larger gap, which `goals` of the certificate tell."
+)
+
+
+class SearchProof(NamedTuple):
+    """What a search has proven of all that may be chosen."""
+
+    ended: Ended  # of the last goal
+    nodes: int  # of the trees of all goals
+    rounds: int  # likewise
+    bounds: Sequence[float] | None  # of the goals before it, over omega^2; None: of goals in order nothing is proven
+    closed: bool  # the gaps of all goals are the asked ones
+
+    @property
+    def lower_bound(self) -> float:
+        """Of the last goal, over omega^2."""
+        return -np.inf if self.bounds is None else self.ended.lower_bound
 
 
 def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:
@@ -79,7 +102,7 @@ def told(
     found: Found,
     mass: Real,
     angle: Real,
-    of_choices: float | None = None,
+    search: SearchProof | None = None,
     in_full: bool = True,
 ) -> Outcome:
     """The same of counterweights with masses [kg] and angles [deg] (K,).
@@ -87,42 +110,105 @@ def told(
     Parameters
     ----------
     found : whose proof holds for them.
-    of_choices : lower bound of all that may be chosen, over omega^2; None where any mass at any angle may be.
+    search : what is proven of all that may be chosen; None where any mass at any angle may be.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
-    machine, square = posed(request).machine, scene.omega_squared
-    u = unbalance(mass, angle, found.limits.radius)
-    shown = chosen(request, mass, angle)
-    there, _ = beside(machine, mass, angle)
-    values = asked.program.values(u, _CLOSE if len(asked.program.goals) == 1 else _CLOSER)
+    together, program, square = posed(request), asked.program, scene.omega_squared
+    machine, u, shown = together.machine, unbalance(mass, angle, found.limits.radius), chosen(request, mass, angle)
+    values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
-    judged = _judged(request, asked.program, found, u, values, mass, -np.inf if of_choices is None else of_choices)
-    late = found.timed_out and judged.status != "optimal" and judged.reason != CONTRADICTED
-    ended = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. " if late else ""
+    claimed = _claim(request, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
+    judged = verdict(claimed, request.accuracy.relative_gap)
+    status, reason, gap = str(judged.status), str(judged.reason), float(judged.gap[0])
+    if found.timed_out and status != "optimal" and reason != CONTRADICTED:
+        reason = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. {reason}"
+    there, _ = beside(machine, mass, angle)
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
-    gap, several = float(judged.gap[0]), request.robust or request.objective.priorities
-    prices: tuple[ShadowPrice, ...] = ()
-    if in_full and of_choices is None and not (several or np.isnan(gap) or machine.web_groups):
+    prices, several = tuple[ShadowPrice, ...](), request.robust or request.objective.priorities
+    if in_full and search is None and not (several or np.isnan(gap) or machine.web_groups):
         # of a group no web gives way by itself, and no choice gives way at all
-        prices = prices_over_turn(posed(request), asked, found.proof, u, shown.all_of_them, touched, gap)
+        prices = _prices(together, asked, found.proof, u, shown.active_limits(touched), gap, square)
+    at_rest, target = program.at_rest.goals[-1], np.asarray(found.mass_target)
+    printed: dict[str, Real | float | str | None] = {
+        **figures(request.machine, claimed, judged, at_rest, target, square),
+        "method": METHOD,
+        "cuts": found.cuts,
+        "rounds": found.rounds,
+    }
+    bounds = [goal.lower_bound for goal in found.goals[:-1]]
+    if search is not None:
+        proven = search.bounds is None or not np.isnan(judged.lower_bound[0])
+        status, reason = told_status(search.ended, status, reason, proven)
+        printed |= {"nodes": search.nodes, "method": search.ended.method}
+        if search.bounds is None:
+            printed |= dict.fromkeys(("lower_bound", "gap", "relative_gap"))
+        else:
+            reason = told_ample(reason, search.ended, found.proof.bound)
+            any_mass = np.minimum(max(found.proof.bound, 0.0), judged.lower_bound[0]) * square
+            rounds, cuts = found.rounds + search.rounds, search.ended.cuts
+            printed |= {"continuous_lower_bound": any_mass, "rounds": rounds, "cuts": cuts}
+            # above what it comes to by no more than rounding
+            bounds = [min(bound, goal.value) for bound, goal in zip(search.bounds, found.goals, strict=False)]
+        if status == "optimal" and not search.closed:
+            status, reason = "inaccurate", _EARLIER
     return Outcome(
-        str(judged.status),
-        f"{ended}{judged.reason}",
+        status,
+        reason,
         shown.on_crank,
         u,
         shown.on_shafts,
         found.certify_s,
-        METHOD,
-        0,
+        METHOD if search is None else search.ended.method,
+        0 if search is None else search.nodes,
         {
             **shown.fields,
             "active_limits": touched,
             "shadow_prices": prices,
             "sensitivity": None
-            if not in_full or any(each.response.turning is not None for each in asked.program.quantities)
-            else sensitivity.over_turn(asked.program, u, values, square),
-            "certificate": _certificate(request, asked, found, judged, values, square),
+            if not in_full or any(each.response.turning is not None for each in program.quantities)
+            else sensitivity.over_turn(program, u, values, square),
+            "certificate": certificate(
+                printed,
+                machine,
+                found.limits.max_mass,
+                Multipliers(
+                    objective=multipliers_of(found.proof, square),
+                    mass=None if found.mass_proof is None else multipliers_of(found.mass_proof, square, "mass"),
+                ),
+                tuple(
+                    GoalReached(
+                        goal=goal.goal,
+                        value=goal.value * square,
+                        lower_bound=None if judged.reason == CONTRADICTED else finite_or_null(bound * square),
+                        limit=goal.most * square,
+                    )
+                    for goal, bound in zip(found.goals, bounds, strict=False)
+                ),
+            ),
         },
+    )
+
+
+def _prices(
+    request: OptimizeRequest,
+    asked: Goals,
+    proof: Proof,
+    u: Complex,
+    active: Mapping[str | None, Collection[WebLimit | MachineLimit]],
+    gap: float,
+    omega_squared: float,
+) -> tuple[ShadowPrice, ...]:
+    """What limits cost, by the proof of the objective: every ceiling over the turn by all of its cuts."""
+    usable, _ = normalised(proof.statement, proof.multipliers)
+    return priced(
+        request.machine,
+        request.objective,
+        shadow_prices(proof.statement, u, usable),
+        [(each, proof.cuts[each.quantity]) for each in asked.limited],
+        active,
+        omega_squared,
+        gap,
+        float(asked.program.at_rest.goals[-1]),
     )
 
 
@@ -132,7 +218,7 @@ def whole_turn_of(scene: Prepared) -> WholeTurn:
     return turn
 
 
-def _judged(
+def _claim(
     request: OptimizeRequest,
     program: Problem,
     found: Found,
@@ -140,8 +226,8 @@ def _judged(
     values: Values,
     mass: Real,
     lower_bound: float,
-) -> Verdict:
-    """What may be said of the counterweights as they are fitted."""
+) -> Claim:
+    """What is claimed of the counterweights as they are fitted."""
     size = float(program.yardsticks[-1])
     *before, (bound, rounding) = (_bound(goal.proof, u, values.excess) for goal in found.goals)
     # what goals before the last are proven to need, these counterweights need as well
@@ -150,7 +236,7 @@ def _judged(
     if request.objective.least_mass:
         mass_bound = np.asarray(0.0 if found.mass_proof is None else found.mass_proof.bound)
     kept = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], found.goals, strict=False))
-    claimed = Claim(
+    return Claim(
         values.goals[-1:],
         # a sum of sizes is not below 0, whatever the rounding of a proof
         np.array([max(bound, lower_bound, 0.0)]),
@@ -162,7 +248,6 @@ def _judged(
         mass_bound,
         found.contradicted or any(against),
     )
-    return verdict(claimed, request.accuracy.relative_gap)
 
 
 def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
@@ -171,46 +256,6 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
     over = np.full(statement.ceilings.size.shape, max(excess, 0.0))
     allowance = float(ceiling_allowance(statement, proof.multipliers, over))
     return proof.bound - allowance, float(statement.rounding(u)) + proof.charge * np.finfo(float).eps
-
-
-def _certificate(
-    request: OptimizeRequest, asked: Goals, found: Found, judged: Verdict, values: Values, square: float
-) -> Certificate:
-    program, least = asked.program, request.objective.least_mass
-    fixed, of_mass = np.sum(fixed_masses(request.machine)), None
-    if found.mass_proof is not None:
-        proof = found.mass_proof
-        of_mass = named(proof.statement, physical(proof.statement, proof.multipliers, "mass", square))
-    return Certificate(
-        objective=float(values.goals[-1]) * square,
-        lower_bound=_or_null(judged.lower_bound[0] * square),
-        gap=_or_null(judged.gap[0] * square),
-        relative_gap=_or_null(judged.relative_gap),
-        yardstick=float(program.yardsticks[-1]) * square,
-        objective_without_counterweights=float(program.at_rest.goals[-1]) * square,
-        mass_lower_bound_kg=_or_null(judged.mass_lower_bound + fixed) if least else None,
-        mass_relative_gap=_or_null(judged.mass_gap) if least else None,
-        mass_yardstick_kg=_or_null(judged.mass_yardstick) if least else None,
-        mass_objective_limit=_or_null(found.mass_target * square) if least else None,
-        implied_max_mass_kg=implied_max_mass(posed(request).machine, found.limits.max_mass[None])[0],
-        method=METHOD,
-        cuts=found.cuts,
-        rounds=found.rounds,
-        goals=tuple(
-            GoalReached(
-                goal=goal.goal,
-                value=goal.value * square,
-                lower_bound=None if judged.reason == CONTRADICTED else _or_null(goal.lower_bound * square),
-                limit=goal.most * square,
-            )
-            for goal in found.goals[:-1]
-        ),
-        multipliers=Multipliers(objective=multipliers_of(found, square), mass=of_mass),
-    )
-
-
-def _or_null(value: Real | float) -> float | None:
-    return float(value) if np.isfinite(value) else None
 
 
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:

@@ -17,7 +17,7 @@ from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.symmetry import symmetric
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import Claim, mass_resolution, verdict
-from optimizer.solve.first_order import finite_or_null
+from optimizer.solve.outcome import finite_or_null
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.proof import implied_max_mass, named, physical
