@@ -12,7 +12,6 @@ from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.fixed_weights import beside
 from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Real, mapped
-from optimizer.outputs.first_order import first_order, smallest_peaks, smallest_proofs
 from optimizer.program.certificate import Multipliers, objective_lower_bound
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import Optima, optima
@@ -22,15 +21,14 @@ from optimizer.program.solution import CEILING_ROUNDING
 from optimizer.program.statement import Statement
 from optimizer.solve.certify import Certified
 from optimizer.solve.design import certified_one
+from optimizer.solve.infeasibility import Smallest, StatedCeiling, report
 from optimizer.solve.outcome import Outcome, certificate
 from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.proof import implied_max_mass, named, named_proofs, physical, physical_proofs
 from optimizer.solve.search_claims import continuous
 from optimizer.solve.sensitivity import of_first_order
-from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
 from schemas.answer.limits import ShadowPrice
-from schemas.answer.proof import InfeasibilityMultipliers
 from schemas.answer.proof import Multipliers as PrintedMultipliers
 from schemas.request.requests import OptimizeRequest
 
@@ -148,38 +146,13 @@ def _infeasible(
         in_units = physical_proofs(*of_excess, square)
         (proof,) = named_proofs(*of_excess, in_units, square, request.objective.least_mass)
         against = proof.conflict
-    proofs = {
-        name: named(peak, physical(peak, found.multipliers, "objective", square).chosen(0))
+    smallest = {
+        name: Smallest(
+            float(found.objective[0] * square[0]),
+            float(found.lower_bound[0] * square[0]),
+            named(peak, physical(peak, found.multipliers, "objective", square).chosen(0)),
+        )
         for name, (peak, found) in alone.items()
     }
-    smallest = {name: float(found.objective[0] * square[0]) for name, (_, found) in alone.items()}
-    bound = {name: float(found.lower_bound[0] * square[0]) for name, (_, found) in alone.items()}
-    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
-    return {
-        "counterweights": (),
-        "total_mass_kg": None,
-        "certificate": None,
-        "infeasibility": Infeasibility(
-            conflict=tuple(impossible or (ceiling.field for ceiling, _ in given)),
-            **smallest_peaks(smallest, bound),
-            smallest=tuple(
-                SmallestPeak(
-                    response=ceiling.name,
-                    ceiling_field=ceiling.field,
-                    ceiling=allowed,
-                    smallest=smallest[ceiling.name],
-                    lower_bound=bound[ceiling.name],
-                    multipliers=proofs[ceiling.name],
-                )
-                for ceiling, allowed in given
-                if ceiling.name in components
-            ),
-            implied_max_mass_kg=implied_max_mass(machine, most)[0],
-            closest=Closest(
-                counterweights=fitted.counterweights,
-                balance_shafts=fitted.balance_shafts,
-                first_order=first_order(scene.first_order(fitted.on_crank)),
-            ),
-            multipliers=InfeasibilityMultipliers(conflict=against, **smallest_proofs(proofs)),
-        ),
-    }
+    ceilings = [StatedCeiling(each.name, each.field, allowed, each.name in components) for each, allowed in given]
+    return report(scene, fitted, ceilings, ceilings, smallest, implied_max_mass(machine, most)[0], against)

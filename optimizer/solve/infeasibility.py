@@ -1,6 +1,8 @@
 """Ceilings over the turn that no counterweights keep: which conflict, and what comes closest."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -20,7 +22,8 @@ from optimizer.program.verdict import INFEASIBLE
 from optimizer.solve.outcome import Outcome, multipliers_of
 from optimizer.solve.proof import implied_max_mass, named_excess
 from schemas.answer.infeasibility import Closest, Infeasibility, SmallestPeak
-from schemas.answer.proof import InfeasibilityMultipliers
+from schemas.answer.limits import CeilingField
+from schemas.answer.proof import BoundMultipliers, InfeasibilityMultipliers
 from schemas.request.requests import OptimizeRequest
 
 #: relative gap of the smallest peaks by themselves
@@ -29,6 +32,78 @@ _ALONE = 1e-7
 _TAKES_PART = 1e-6
 #: so many responses of a conflict are looked at by themselves
 _MOST_AT_FAULT = 6
+
+
+class Smallest(NamedTuple):
+    """What a response comes to by itself at least, in the units of the answer."""
+
+    value: float
+    lower_bound: float
+    multipliers: BoundMultipliers
+
+
+class StatedCeiling(NamedTuple):
+    """A ceiling of a request."""
+
+    response: str
+    field: CeilingField
+    allowed: float  # [unit of the response]
+    listed: bool  # with what its response comes to at least, for which the answer has no other field
+
+
+def report(
+    scene: Prepared,
+    shown: Fitted,
+    ceilings: Sequence[StatedCeiling],
+    together: Sequence[StatedCeiling],
+    least: Mapping[str, Smallest],
+    implied: dict[str, float],
+    conflict: BoundMultipliers | None,
+    scenarios: tuple[str, ...] = (),
+) -> dict[str, object]:
+    """The fields of an answer that has no counterweights: which ceilings conflict, and what can be reached.
+
+    Parameters
+    ----------
+    shown : what comes closest.
+    together : ceilings that conflict where each by itself can be kept.
+    least : of the responses, and of all under ceilings that the report is about.
+    implied : largest masses that the proofs count with, by web, kg.
+    """
+    impossible = [each for each in ceilings if least[each.response].lower_bound > each.allowed]
+    closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
+    return {
+        "counterweights": (),
+        "total_mass_kg": None,
+        "certificate": None,
+        "infeasibility": Infeasibility(
+            conflict=tuple(dict.fromkeys(each.field for each in impossible or together)),
+            **smallest_peaks(
+                {name: each.value for name, each in least.items()},
+                {name: each.lower_bound for name, each in least.items()},
+            ),
+            smallest=tuple(
+                SmallestPeak(
+                    response=name,
+                    ceiling_field=field,
+                    ceiling=allowed,
+                    smallest=least[name].value,
+                    lower_bound=least[name].lower_bound,
+                    multipliers=least[name].multipliers,
+                )
+                for name, field, allowed, listed in dict.fromkeys(ceilings)
+                if listed
+            ),
+            implied_max_mass_kg=implied,
+            scenarios=scenarios,
+            closest=Closest(
+                counterweights=shown.counterweights, balance_shafts=shown.balance_shafts, first_order=closest
+            ),
+            multipliers=InfeasibilityMultipliers(
+                conflict=conflict, **smallest_proofs({name: each.multipliers for name, each in least.items()})
+            ),
+        ),
+    }
 
 
 def out_of_reach(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Unkept) -> Outcome:
@@ -46,10 +121,9 @@ def unreachable(
     found: Unkept | None,
 ) -> Outcome:
     """The same of what is shown as closest, with the proof by multipliers where there is one."""
-    machine, square = posed(request).machine, scene.omega_squared
+    square = scene.omega_squared
     alone = asked.program.changed(ceilings=(), limited=())
     groups = {name: Group(rows=rows) for name, rows in _alone(request, asked, square).items()}
-    components = [name for name in groups if name not in RESPONSES]
     # of quantities those that the conflict is about, all that are limited where that is not told
     at_fault = _under_ceilings(request, asked) if found is None else _at_fault(found)
     limited = {alone.quantities[each.quantity].name: each for each in asked.limited}
@@ -63,59 +137,27 @@ def unreachable(
     if np.any(most != alone.limits.max_mass):
         alone = alone.changed(limits=replace(alone.limits, max_mass=most))
         least = {name: _least(alone, group) for name, group in groups.items()}
-    value = {name: each.goals[0].value * square for name, each in least.items()}
-    bound = {name: each.goals[0].lower_bound * square for name, each in least.items()}
+    peaks = {
+        name: Smallest(goal.value * square, goal.lower_bound * square, multipliers_of(goal.proof, square))
+        for name, (goal,) in ((name, each.goals) for name, each in least.items())
+    }
     # of all orders the ceilings are among what is limited over the turn
     given = given_ceilings(request.objective) if request.objective.orders == "first" else []
-    both = dict.fromkeys(
-        (name, each.field, each.ceiling)
+    exact = [StatedCeiling(each.name, each.field, allowed, each.name not in RESPONSES) for each, allowed in given]
+    both = [
+        StatedCeiling(name, each.field, each.ceiling, True)
         for each in asked.limited
         for name in [alone.quantities[each.quantity].name]
         if name in limited
-    )
-    peaks = tuple(
-        SmallestPeak(
-            response=name,
-            ceiling_field=field,
-            ceiling=ceiling,
-            smallest=value[name],
-            lower_bound=bound[name],
-            multipliers=multipliers_of(least[name].proof, square),
-        )
-        for name, field, ceiling in (
-            *((each.name, each.field, allowed) for each, allowed in given if each.name in components),
-            *both,
-        )
-    )
-    exact = {ceiling.name: ceiling.field for ceiling, _ in given}
-    impossible = [ceiling.field for ceiling, allowed in given if bound[ceiling.name] > allowed]
-    impossible += [each.ceiling_field for each in peaks if each.lower_bound > each.ceiling]
-    together = [field for name, field in exact.items() if name in at_fault] + [field for _, field, _ in both]
-    closest = first_order(replace(scene, shafts=shown.on_shafts).first_order(shown.on_crank))
+    ]
+    together = [each for each in (*exact, *both) if each.response in at_fault] or exact
     conflict, scenarios = None, tuple[str, ...]()
     if found is not None:
         scales, proof = asked.program.excess_scales(found.proof.cuts), found.proof
         conflict = named_excess(proof.statement, proof.multipliers, scales, square)
         scenarios = _scenarios(asked.program, found)
-    fields: dict[str, object] = {
-        "counterweights": (),
-        "total_mass_kg": None,
-        "certificate": None,
-        "infeasibility": Infeasibility(
-            conflict=tuple(dict.fromkeys(impossible or together or exact.values())),
-            **smallest_peaks(value, bound),
-            smallest=peaks,
-            implied_max_mass_kg=implied_max_mass(machine, most[None])[0],
-            scenarios=scenarios,
-            closest=Closest(
-                counterweights=shown.counterweights, balance_shafts=shown.balance_shafts, first_order=closest
-            ),
-            multipliers=InfeasibilityMultipliers(
-                conflict=conflict,
-                **smallest_proofs({name: multipliers_of(least[name].proof, square) for name in RESPONSES}),
-            ),
-        ),
-    }
+    implied = implied_max_mass(posed(request).machine, most[None])[0]
+    fields = report(scene, shown, (*exact, *both), together, peaks, implied, conflict, scenarios)
     spent = (0.0 if found is None else found.certify_s) + sum(each.certify_s for each in least.values())
     return Outcome("infeasible", INFEASIBLE, None, None, None, spent, METHOD, 0, fields)
 
