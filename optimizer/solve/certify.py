@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.demand import Demand
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.fixed_weights import fixed_masses
 from optimizer.numerics.arrays import Complex, Real, Reals
@@ -17,7 +18,7 @@ from optimizer.program.statement import Statement
 from optimizer.program.verdict import INFEASIBLE, Claim, Verdict, claim, verdict
 from optimizer.responses.response import Response
 from schemas.machine.machine import Machine
-from schemas.request.requests import OptimizeRequest
+from schemas.request.objective import Objective
 
 
 @dataclass(frozen=True)
@@ -38,25 +39,30 @@ class Certified:
 
 
 def certified(
-    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
+    machine: Machine,
+    goal: Objective,
+    responses: Sequence[Response],
+    omega_squared: Real,
+    wanted: Demand,
+    solver: Solver,
 ) -> Certified:
     """Counterweights that minimise the objective, or those closest to ceilings that are out of reach.
 
     Parameters
     ----------
-    request : of columns (N,) or of numbers; its designs have one shape of program.
+    machine, goal : of columns (N,) or of numbers; the designs have one shape of program.
     omega_squared : (N,) rad^2/s^2.
     """
-    machine, goal = request.machine, request.objective
     program = within_reach(cone_program(machine, goal, responses, omega_squared), solver)
-    found = optima(program, request.accuracy.relative_gap, goal.least_mass, solver)
+    found = optima(program, wanted.relative_gap, wanted.least_mass, solver)
     if goal.symmetric:
         found = replace(found, unbalance=symmetric(program, found.unbalance))
-    return judged(request, program, found, omega_squared)
+    return judged(machine, wanted, program, found, omega_squared)
 
 
 def judged(
-    request: OptimizeRequest,
+    machine: Machine,
+    wanted: Demand,
     program: Statement,
     found: Optima,
     omega_squared: Real,
@@ -66,24 +72,23 @@ def judged(
 
     Parameters
     ----------
-    program : (N,), over omega^2, of the machine of the request.
+    program : (N,), over omega^2, of the machine.
     alike : masses and angles as they are fitted of those that were found; None is as they were found.
     """
-    machine, goal, square = request.machine, request.objective, omega_squared
     mass, angle = masses_and_angles(machine, found.unbalance, program.limits)
     if alike is not None:
         mass, angle = alike(mass, angle)
     u = unbalance(mass, angle, program.limits.radius)
-    mass_bound = found.mass_lower_bound if goal.least_mass else None
+    mass_bound = found.mass_lower_bound if wanted.least_mass else None
     claimed = claim(program, u, np.add.reduce(mass, axis=-1), found.lower_bound, found.multipliers, mass_bound)
-    judged = verdict(claimed, request.accuracy.relative_gap)
-    certificate = figures(machine, claimed, judged, program.at_rest, found.mass_target, square)
+    judged = verdict(claimed, wanted.relative_gap)
+    certificate = figures(machine, claimed, judged, program.at_rest, found.mass_target, omega_squared)
     certificate["method"] = found.method
     status, reason = judged.status, judged.reason
     if found.unreachable.any():
         status = np.where(found.unreachable, "infeasible", status)
         reason = np.where(found.unreachable, INFEASIBLE, reason)
-    return Certified(program, square, found, mass, angle, u, judged, certificate, status, reason)
+    return Certified(program, omega_squared, found, mass, angle, u, judged, certificate, status, reason)
 
 
 def figures(

@@ -14,6 +14,7 @@ from optimizer.choices.construction import feasible_set
 from optimizer.choices.discrete.options import EQUAL
 from optimizer.choices.feasible_set import Choice
 from optimizer.formulation.balance_shafts import chosen
+from optimizer.formulation.demand import demand, of_any_mass
 from optimizer.formulation.goals import Goals
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.layout import stacked
@@ -26,9 +27,9 @@ from optimizer.solve.cutting_plane_rounds import Ended, in_rounds
 from optimizer.solve.design import certified_one
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.outcome import Outcome
-from optimizer.solve.search_claims import continuous, told_status
+from optimizer.solve.search_claims import told_status
 from optimizer.solve.uncertain_program import Robust
-from optimizer.solve.whole_turn import SearchProof, told
+from optimizer.solve.whole_turn import Candidate, SearchProof, told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
 from schemas.request.requests import OptimizeRequest
 
@@ -54,14 +55,12 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         free = certified_any_mass(request, scene, in_full)
         if free.chosen is None or _heavy_enough(request, free.chosen):
             return free
-    any_mass = continuous(request)
-    usual = any_mass.accuracy.model_copy(update={"time_limit_s": request.accuracy.time_limit_s})
-    any_mass = any_mass.model_copy(update={"accuracy": usual})
-    robust = Robust(any_mass, scene)
+    any_mass = of_any_mass(request)
+    robust = Robust(request, scene, any_mass)
     asked = robust.asked()
-    first = _of_any_mass(asked.program, any_mass.accuracy.relative_gap, robust)
+    first = _of_any_mass(asked.program, any_mass.relative_gap, robust)
     if isinstance(first, Unkept):
-        return out_of_reach(any_mass, scene, asked, first)
+        return out_of_reach(request, scene, asked, first)
     stages = _in_order(request, robust, asked, first, solver)
     last, picked = stages[-1], stages[-1].picked
     found = last.found
@@ -69,16 +68,16 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
     if not found.kept and found.lower_bound == np.inf:
         shown = chosen(request, picked.mass, picked.angle)
         status, reason = told_status(found, "infeasible", "", True)
-        answer = unreachable(any_mass, scene, asked, shown, best.limits, None)
+        answer = unreachable(request, scene, asked, shown, best.limits, None)
         return replace(answer, status=status, reason=reason, method=found.method, nodes=_nodes(stages))
-    judged = any_mass.model_copy(update={"accuracy": request.accuracy})
+    judged = demand(request)._replace(least_mass=False)
     if len(stages) < len(asked.program.goals):
         # nothing is proven of what goals come to in their order
         asked, of_any = robust.solved()
         if isinstance(of_any, Unkept):
-            return out_of_reach(judged, scene, asked, of_any)
+            return out_of_reach(request, scene, asked, of_any)
         nothing = SearchProof(found, found.nodes, found.rounds, None, True)
-        return told(judged, scene, asked, of_any, picked.mass, picked.angle, nothing, in_full)
+        return told(request, scene, asked, Candidate(picked.mass, picked.angle, of_any), judged, nothing, in_full)
     proof = SearchProof(
         found,
         _nodes(stages),
@@ -86,7 +85,7 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
         [stage.found.lower_bound for stage in stages[:-1]],
         all(stage.closed for stage in stages),
     )
-    answer = told(judged, scene, asked, best, picked.mass, picked.angle, proof, in_full)
+    answer = told(request, scene, asked, Candidate(picked.mass, picked.angle, best), judged, proof, in_full)
     if request.robust:
         answer = with_worst_case(robust, answer, *_nominal_choice(request, scene, robust.left_s, solver))
     return answer
@@ -109,7 +108,7 @@ def _of_any_mass(program: Problem, gap: float, robust: Robust) -> Found | Unkept
 
 def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> list[_Stage]:
     """The goals one after the other, each with the most that those before it may come to."""
-    program, gap, stages = asked.program, robust.request.accuracy.relative_gap, list[_Stage]()
+    program, gap, stages = asked.program, robust.wanted.relative_gap, list[_Stage]()
     reached: list[Reached] = []
     for n, goal in enumerate(program.goals):
         so_far = program.changed(goals=program.goals[: n + 1])

@@ -4,14 +4,15 @@ from collections.abc import Sequence
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.feasible_set import FeasibleSet, Subproblem
+from optimizer.formulation.demand import demand, of_any_mass
 from optimizer.formulation.limits import limits
 from optimizer.numerics.arrays import Real
 from optimizer.program.reference.solver import Solver
 from optimizer.responses.response import Response
 from optimizer.solve.certify import Certified, certified
 from optimizer.solve.plates import certified_shapes
-from optimizer.solve.search_claims import continuous, searched
-from schemas.request.requests import Accuracy, OptimizeRequest
+from optimizer.solve.search_claims import searched
+from schemas.request.requests import OptimizeRequest
 
 
 def certified_one(
@@ -45,11 +46,11 @@ def _held(
     """Counterweights of any mass, with all that is proven of them, where they are choices."""
     if not choices.solved:
         return None
-    asked, usual, best = request.accuracy, Accuracy().relative_gap, None
+    wanted, usual, best = demand(request), of_any_mass(request).relative_gap, None
     # as closely as is usual first, and any closer only where nothing is to be searched
-    for gap in sorted({usual, min(asked.relative_gap, usual)}, reverse=True):
-        closely = request.model_copy(update={"accuracy": asked.model_copy(update={"relative_gap": gap})})
-        best = certified(closely, responses, omega_squared, solver)
+    for gap in sorted({usual, min(wanted.relative_gap, usual)}, reverse=True):
+        closely = wanted._replace(relative_gap=gap)
+        best = certified(request.machine, request.objective, responses, omega_squared, closely, solver)
         if not (best.found.unreachable[0] or choices.holds(best.mass_kg[0])):
             return None
     return best
@@ -62,7 +63,7 @@ def _best(
 
     Ceilings that no counterweights at all keep are proven out of reach without a search.
     """
-    best = certified(continuous(request), responses, omega_squared, solver)
+    best = certified(request.machine, request.objective, responses, omega_squared, of_any_mass(request), solver)
     if best.found.unreachable[0]:
         return best
     program, asked = best.program.chosen(0), request.accuracy

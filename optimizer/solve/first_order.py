@@ -26,7 +26,6 @@ from optimizer.solve.outcome import Outcome, certificate
 from optimizer.solve.prices import shadow_prices as priced
 from optimizer.solve.prices import touched_limits
 from optimizer.solve.proof import implied_max_mass, named, named_proofs, physical, physical_proofs
-from optimizer.solve.search_claims import continuous
 from optimizer.solve.sensitivity import of_first_order
 from schemas.answer.limits import ShadowPrice
 from schemas.answer.proof import Multipliers as PrintedMultipliers
@@ -62,12 +61,13 @@ def certified_first(request: OptimizeRequest, scene: Prepared, solver: Solver) -
 
 def _reached(request: OptimizeRequest, scene: Prepared, best: Certified, fitted: Fitted) -> dict[str, object]:
     """Counterweights, what holds them up, and their certificate."""
-    request = continuous(request) if best.searched else request
     machine, goal, u = request.machine, request.objective, best.unbalance[0]
     mass, _ = beside(machine, best.mass_kg[0], best.angle_deg[0])
     touched = touched_limits(machine, goal, scene.responses, mass, u, scene.omega_squared)
     in_units = physical_proofs(best.program, best.found, best.omega_squared)
-    (proofs,) = named_proofs(best.program, best.found, in_units, best.omega_squared, goal.least_mass)
+    (proofs,) = named_proofs(
+        best.program, best.found, in_units, best.omega_squared, goal.least_mass and not best.searched
+    )
     figures = {name: column.item(0) for name, column in best.certificate.items()}
     gap, prices = float(best.verdict.gap[0, 0]), tuple[ShadowPrice, ...]()
     if not (np.isnan(gap) or best.searched or machine.web_groups):

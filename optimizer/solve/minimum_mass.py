@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.choices.construction import feasible_set
 from optimizer.choices.feasible_set import Subproblem
+from optimizer.formulation.demand import demand
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
 from optimizer.numerics.arrays import Real
@@ -21,7 +22,7 @@ from optimizer.program.rows import total_mass
 from optimizer.program.statement import Names, Statement, Term
 from optimizer.responses.response import Response
 from optimizer.solve.cutting_plane_rounds import in_rounds
-from optimizer.solve.search_claims import continuous, ended, told_ample
+from optimizer.solve.search_claims import ended, told_ample
 from optimizer.solve.uncertain_program import Robust
 from schemas.request.requests import OptimizeRequest
 
@@ -97,8 +98,8 @@ def certified_light_over_turn(request: OptimizeRequest, scene: Prepared, solver:
     OutOfRange
         where the options of a web cannot be told.
     """
-    any_mass, gap = continuous(request), request.accuracy.relative_gap
-    robust = Robust(any_mass.model_copy(update={"accuracy": request.accuracy}), scene)
+    gap = request.accuracy.relative_gap
+    robust = Robust(request, scene, demand(request))
     program = robust.asked().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
     best = over_turn(weighed, _SHARP, False, (), robust.left_s)

@@ -18,6 +18,7 @@ import numpy as np
 from optimizer.choices.equal_plates import Cut, alike, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
 from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
+from optimizer.formulation.demand import demand
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.limits import limits
 from optimizer.mechanics.plates import Plates
@@ -63,7 +64,7 @@ def certified_shapes(
     """
     cut = plates(request.machine)
     if cut is None:
-        return request, certified(request, responses, omega_squared, solver)
+        return request, certified(request.machine, request.objective, responses, omega_squared, demand(request), solver)
     end = thread_time() + request.accuracy.time_limit_s
     closed = fitted(request.machine, np.zeros(cut.webs.size))
     whole = within_reach(cone_program(closed, request.objective, responses, omega_squared), solver)
@@ -245,7 +246,10 @@ class _Task:
         stated = limits(machine, self.omega_squared.shape)
         program = replace(self.whole, limits=_limits(stated, self.whole.limits, self.plates))
         found = replace(proven, unbalance=cut.unbalance[None])
-        return asked, judged(asked, program, found, self.omega_squared, lambda mass, angle: (mass[..., same], angle))
+        wanted = demand(asked)
+        return asked, judged(
+            machine, wanted, program, found, self.omega_squared, lambda mass, angle: (mass[..., same], angle)
+        )
 
 
 def _up_to(program: Statement, proven: Optima, objective: Real) -> Optima:

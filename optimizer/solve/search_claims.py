@@ -10,7 +10,6 @@ from optimizer.formulation.counterweights import unbalance
 from optimizer.numerics.arrays import Real
 from optimizer.program.verdict import claim, verdict
 from optimizer.solve.certify import Certified
-from schemas.request.requests import Accuracy, OptimizeRequest
 
 _ALL = (
     "Every set of counterweights that can be chosen was compared: none within the limits has a smaller objective, and"
@@ -48,12 +47,6 @@ def ended(found: SearchResult | None) -> str:
     if found.ended is not None:
         return _WHY[found.ended]
     return _LIGHTEST if found.proven else _TREE
-
-
-def continuous(request: OptimizeRequest) -> OptimizeRequest:
-    """The request without its catalogue: any mass at any angle within the limits of the webs."""
-    goal = request.objective.model_copy(update={"least_mass": False})
-    return request.model_copy(update={"objective": goal, "accuracy": Accuracy()})
 
 
 def searched(best: Certified, found: SearchResult, mass: Real, angle: Real, relative_gap: float) -> Certified:

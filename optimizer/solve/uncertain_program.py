@@ -14,6 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from optimizer.errors import MissingInput
+from optimizer.formulation.demand import Demand
 from optimizer.formulation.formulate import RESPONSES, given_ceilings, responses, weights
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.simulation import Prepared
@@ -115,7 +116,7 @@ class Machine:
 class Robust:
     """The program of one request with scenarios or tolerances, as far as the worst masses are known."""
 
-    def __init__(self, request: OptimizeRequest, scene: Prepared) -> None:
+    def __init__(self, request: OptimizeRequest, scene: Prepared, wanted: Demand) -> None:
         """Prepare the machines of all scenarios.
 
         Raises
@@ -123,7 +124,7 @@ class Robust:
         MissingInput
             if one of them lacks what the objective needs.
         """
-        self.request, self.scene = request, scene
+        self.request, self.scene, self.wanted = request, scene, wanted
         tolerances = request.tolerances
         self.scatter = scatter_of(tolerances)
         share = 0.0 if tolerances is None else tolerances.reciprocating_mass_relative
@@ -132,7 +133,7 @@ class Robust:
             if machine.scene is not scene:
                 scene.simulated.join(machine.scene.simulated, "scenarios")
         self._measures = list(dict.fromkeys(_measures(request)))
-        self._until = time.thread_time() + request.accuracy.time_limit_s
+        self._until = time.thread_time() + wanted.time_limit_s
         #: signs of the changes of masses that are known of every machine
         self._known: list[list[Real]] = [[] for _ in self.machines]
         self.learnt(np.zeros(len(request.machine.webs), complex))
@@ -167,10 +168,10 @@ class Robust:
 
     def solved(self) -> tuple[Goals, Found | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
-        objective, gap = self.request.objective, self.request.accuracy.relative_gap
+        gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(_MOST_ROUNDS):
             asked = self.asked()
-            found = over_turn(asked.program, gap, objective.least_mass, asked.allowances, self.left_s)
+            found = over_turn(asked.program, gap, least, asked.allowances, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open

@@ -7,6 +7,7 @@ import numpy as np
 
 from optimizer.formulation.balance_shafts import chosen, posed
 from optimizer.formulation.counterweights import masses_and_angles, unbalance
+from optimizer.formulation.demand import Demand, demand
 from optimizer.formulation.formulate import given_ceilings
 from optimizer.formulation.goals import Case, Goals, formulate
 from optimizer.formulation.limits import TOUCHED
@@ -41,6 +42,14 @@ _EARLIER = (
     "The last goal is within the asked gap under what those before it were left; of one of these the search ended with"
     " a larger gap, which `goals` of the certificate tell."
 )
+
+
+class Candidate(NamedTuple):
+    """Counterweights as they are fitted, and the proof that holds for them."""
+
+    mass: Real  # (K,) kg
+    angle: Real  # (K,) degrees
+    found: Found
 
 
 class SearchProof(NamedTuple):
@@ -80,10 +89,12 @@ def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = Tr
     found = over_turn(asked.program, accuracy.relative_gap, least, asked.allowances, accuracy.time_limit_s)
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
-    return fitted(request, scene, asked, found, in_full)
+    return fitted(request, scene, asked, found, demand(request), in_full)
 
 
-def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, in_full: bool = True) -> Outcome:
+def fitted(
+    request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found, wanted: Demand, in_full: bool = True
+) -> Outcome:
     """What is told of counterweights that were found.
 
     Parameters
@@ -92,36 +103,35 @@ def fitted(request: OptimizeRequest, scene: Prepared, asked: Goals, found: Found
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
     mass, angle = masses_and_angles(posed(request).machine, found.point.unbalance, found.limits)
-    return told(request, scene, asked, found, mass, angle, in_full=in_full)
+    return told(request, scene, asked, Candidate(mass, angle, found), wanted, in_full=in_full)
 
 
 def told(
     request: OptimizeRequest,
     scene: Prepared,
     asked: Goals,
-    found: Found,
-    mass: Real,
-    angle: Real,
+    candidate: Candidate,
+    wanted: Demand,
     search: SearchProof | None = None,
     in_full: bool = True,
 ) -> Outcome:
-    """The same of counterweights with masses [kg] and angles [deg] (K,).
+    """The same of counterweights however they were chosen.
 
     Parameters
     ----------
-    found : whose proof holds for them.
     search : what is proven of all that may be chosen; None where any mass at any angle may be.
     in_full : with prices of the limits and what misplaced counterweights may cost.
     """
+    mass, angle, found = candidate
     together, program, square = posed(request), asked.program, scene.omega_squared
     machine, u, shown = together.machine, unbalance(mass, angle, found.limits.radius), chosen(request, mass, angle)
     values = program.values(u, _CLOSE if len(program.goals) == 1 else _CLOSER)
     found = found.counting(float(values.goals[-1]))
-    claimed = _claim(request, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
-    judged = verdict(claimed, request.accuracy.relative_gap)
+    claimed = _claim(wanted, program, found, u, values, mass, -np.inf if search is None else search.lower_bound)
+    judged = verdict(claimed, wanted.relative_gap)
     status, reason, gap = str(judged.status), str(judged.reason), float(judged.gap[0])
     if found.timed_out and status != "optimal" and reason != CONTRADICTED:
-        reason = f"The time limit of {request.accuracy.time_limit_s:g} s ended the search. {reason}"
+        reason = f"The time limit of {wanted.time_limit_s:g} s ended the search. {reason}"
     there, _ = beside(machine, mass, angle)
     touched = tuple(dict.fromkeys((*touched_by_mass(machine, there), *_touched(request, asked, values))))
     prices, several = tuple[ShadowPrice, ...](), request.robust or request.objective.priorities
@@ -219,7 +229,7 @@ def whole_turn_of(scene: Prepared) -> WholeTurn:
 
 
 def _claim(
-    request: OptimizeRequest,
+    wanted: Demand,
     program: Problem,
     found: Found,
     u: Complex,
@@ -233,7 +243,7 @@ def _claim(
     # what goals before the last are proven to need, these counterweights need as well
     against = [least > value + known for (least, known), value in zip(before, values.goals[:-1], strict=True)]
     mass_bound = None
-    if request.objective.least_mass:
+    if wanted.least_mass:
         mass_bound = np.asarray(0.0 if found.mass_proof is None else found.mass_proof.bound)
     kept = all(value <= goal.most * (1.0 + 1e-12) for value, goal in zip(values.goals[:-1], found.goals, strict=False))
     return Claim(

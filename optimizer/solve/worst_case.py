@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import RESPONSES
 from optimizer.formulation.goals import Goals, bearing_responses, formulate
 from optimizer.formulation.simulation import Prepared
@@ -52,11 +53,11 @@ def certified_robust(request: OptimizeRequest, scene: Prepared) -> Outcome:
     MissingInput
         if a machine lacks what the objective needs.
     """
-    robust = Robust(request, scene)
+    robust = Robust(request, scene, demand(request))
     asked, found = robust.solved()
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
-    told = fitted(request, scene, asked, found)
+    told = fitted(request, scene, asked, found, demand(request))
     assert told.chosen is not None
     return with_worst_case(robust, told, *_nominal_optimum(robust))
 
@@ -80,7 +81,7 @@ def with_worst_case(robust: Robust, told: Outcome, nominal: Complex | None, late
 def nothing_off(request: OptimizeRequest, scene: Prepared, u: Complex, objective: float) -> dict[str, object]:
     """The same fields where tolerances are stated and all are 0: the worst case is what counterweights (K,) come to."""
     return {
-        "worst_case": _worst_case(Robust(request, scene), u, objective),
+        "worst_case": _worst_case(Robust(request, scene, demand(request)), u, objective),
         "price_of_robustness": PriceOfRobustness(
             nominal=objective, nominal_optimum=objective, nominal_optimum_worst_case=objective
         ),
@@ -136,11 +137,10 @@ def _bearing_responses(machine: Machine) -> Iterator[TurnResponse]:
 def _nominal_optimum(robust: Robust) -> tuple[Complex | None, bool]:
     """The best counterweights (K,) of the machine as it is given, if any keep its ceilings; whether the limit of time,
     of which the search has what is left, leaves that open."""
-    nominal, asked, left = _nominal(robust), robust.request, robust.left_s
+    nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
-    least = asked.objective.least_mass
-    found = over_turn(nominal.program, asked.accuracy.relative_gap, least, nominal.allowances, left)
+    found = over_turn(nominal.program, wanted.relative_gap, wanted.least_mass, nominal.allowances, left)
     late = isinstance(found, Found) and found.timed_out
     return found.point.unbalance if isinstance(found, Found) and not late else None, late
 

@@ -13,11 +13,11 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from optimizer.choices.catalogue_options import stock
+from optimizer.formulation.demand import of_any_mass
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import prepare
 from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
-from optimizer.solve.search_claims import continuous
 from optimizer.studies.matching.match import match
 from optimizer.studies.matching.problem import stated
 from optimizer.studies.sweep.whole import sweep_table
@@ -89,7 +89,7 @@ def beside(body: dict[str, Any], repeats: int, time_limit_s: float) -> Beside:
     assert proof.nodes is not None
     scene = prepare(request, ("residual",))
     square = np.array([scene.omega_squared])
-    relaxed = certified(continuous(request), scene.responses, square, own_solver())
+    relaxed = certified(request.machine, request.objective, scene.responses, square, of_any_mass(request), own_solver())
     size = float(relaxed.certificate["yardstick"][0] / square[0])
     began = time.process_time()
     theirs = scip(relaxed.program.chosen(0), stock(request.machine).options, _GAP, size, time_limit_s)

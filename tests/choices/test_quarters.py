@@ -10,10 +10,10 @@ from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
 from optimizer.choices.discrete.options import EQUAL, Incumbent
 from optimizer.choices.discrete.quarters import quarters
+from optimizer.formulation.demand import of_any_mass
 from optimizer.outputs.registry import prepare
 from optimizer.solve.certify import certified
 from optimizer.solve.process_solver import own_solver
-from optimizer.solve.search_claims import continuous
 from schemas.request.requests import OptimizeRequest
 from tests.benchmarks.discrete import choice
 from tests.verification.checking import optimized
@@ -40,7 +40,14 @@ def test_it_keeps_the_limits_and_is_never_worse(limits: dict[str, float]) -> Non
     body["machine"] |= limits
     request = OptimizeRequest.model_validate(body)
     scene = prepare(request, ("residual",))
-    best = certified(continuous(request), scene.responses, np.array([scene.omega_squared]), own_solver())
+    best = certified(
+        request.machine,
+        request.objective,
+        scene.responses,
+        np.array([scene.omega_squared]),
+        of_any_mass(request),
+        own_solver(),
+    )
     problem, options = best.program.chosen(0), stock(request.machine).options
 
     def found() -> tuple[float, Incumbent]:

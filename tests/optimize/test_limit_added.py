@@ -6,6 +6,7 @@ One crank with a rotating mass, and one web opposite: the counterweight m R take
 import numpy as np
 import pytest
 
+from optimizer.formulation.demand import demand
 from optimizer.formulation.limits import WEB_LIMITS, MassLimit, limits
 from optimizer.mechanics.layout import stacked
 from optimizer.numerics.arrays import Real, mapped
@@ -45,7 +46,9 @@ def _request(max_mass: float) -> OptimizeRequest:
 def _solved(request: OptimizeRequest) -> tuple[Certified, list[str], dict[str, Priced]]:
     """The optimum, the limits that it touches, and all prices in N per unit."""
     scene, machine = prepare(request, ("residual",)), request.machine
-    best = certified(request, scene.responses, np.array([scene.omega_squared]), Solver())
+    best = certified(
+        request.machine, request.objective, scene.responses, np.array([scene.omega_squared]), demand(request), Solver()
+    )
     touched = [name for name, limit in WEB_LIMITS.items() if limit.touched(machine, best.mass_kg, best.angle_deg)[0, 0]]
     prices = mapped(shadow_prices(best.program, best.unbalance, best.found.multipliers), lambda array: array[0])
     each = of_limits(machine, prices)

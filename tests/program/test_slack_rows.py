@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import responses
 from optimizer.formulation.goals import cone_program
 from optimizer.mechanics.inertia import reciprocating, rotating
@@ -53,7 +54,7 @@ def test_least_masses_of_even_layouts_are_proven_without_another_solver(most: fl
     shaft = layout(request.machine)
     square = np.broadcast_to(shaft.omega**2, (ORDERS,))
     asked = responses(shaft, rotating(shaft).plus(reciprocating(shaft, 1)))
-    best = certified(request, asked, square, own_solver())
+    best = certified(request.machine, request.objective, asked, square, demand(request), own_solver())
     assert set(best.found.method) == {INTERIOR_POINT}
     assert set(best.status) == {"optimal"}
     # the same program as both stages leave it: some of its masses are not proven

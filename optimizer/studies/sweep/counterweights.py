@@ -5,6 +5,7 @@ from typing import Any
 import numpy as np
 
 from optimizer.formulation.counterweights import as_given, unbalance
+from optimizer.formulation.demand import demand
 from optimizer.formulation.formulate import responses, shape_facts
 from optimizer.mechanics.fixed_weights import beside, laden
 from optimizer.mechanics.inertia import reciprocating, rotating
@@ -37,7 +38,8 @@ def optimal(request: OptimizeRequest, count: int, solver: Solver, multipliers: b
     layout = laden(layout_of(request.machine), request.machine)
     baseline = rotating(layout).plus(reciprocating(layout, 1))
     square = np.broadcast_to(layout.omega**2, (count,))
-    return columns_of(request, certified(request, responses(layout, baseline), square, solver), multipliers)
+    machine, objective, every = request.machine, request.objective, responses(layout, baseline)
+    return columns_of(request, certified(machine, objective, every, square, demand(request), solver), multipliers)
 
 
 def columns_of(request: OptimizeRequest, best: Certified, multipliers: bool) -> tuple[Columns, Complex]:
