@@ -71,7 +71,6 @@ class Goals:
     """What is asked of the whole turn, or of several cases."""
 
     program: Problem  # over omega^2 of the machine as it is given
-    allowances: tuple[float, ...]  # of all goals but the last
     limited: tuple[Limited, ...]  # as in the program
     cases: tuple[Case, ...]
 
@@ -116,7 +115,7 @@ def formulate(
     if objective.bending_weight > 0:
         groups["bending"] = [(each.weighed_bending(),) for each in asked]
     limited = tuple(one for each in asked for one in each.limited())
-    chosen, allowances = _in_order(objective, groups)
+    chosen = _in_order(objective, groups)
     # of all orders the ceilings are among what is limited over the turn
     exact = tuple(
         (each, allowed / case.omega_squared)
@@ -126,7 +125,7 @@ def formulate(
     )
     capped = tuple((each.quantity, each.ceiling / each.omega_squared) for each in limited)
     program = Problem(tuple(quantities), chosen, exact, capped, limits(machine, np.shape(omega_squared)), scatter)
-    return Goals(program, allowances, limited, tuple(cases))
+    return Goals(program, limited, tuple(cases))
 
 
 def cone_program(
@@ -327,10 +326,8 @@ def _merged(groups: Sequence[Group]) -> Group:
     return Group(rows, tuple(each for group in groups for each in group.weighed))
 
 
-def _in_order(
-    objective: Objective, groups: dict[str, list[tuple[Group, ...]]]
-) -> tuple[tuple[Goal, ...], tuple[float, ...]]:
-    """Goals one after the other with their allowances, or one of them all.
+def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) -> tuple[Goal, ...]:
+    """Goals one after the other, or one of them all.
 
     Parameters
     ----------
@@ -338,15 +335,14 @@ def _in_order(
     """
     order = [priority for priority in objective.priorities if priority.goal != "mass"]
     if order:
-        return (
-            tuple(_largest(priority.goal, groups[priority.goal]) for priority in order),
-            tuple(priority.allowance for priority in order[:-1]),
+        return tuple(
+            _largest(priority.goal, groups[priority.goal])._replace(allowance=priority.allowance) for priority in order
         )
     every = [tuple(group for one in of_case for group in one) for of_case in zip(*groups.values(), strict=True)]
     # several goals in their order are never combined: their quantities are of one kind
     if objective.combine == "max":
         every = [(_merged(each),) for each in every]
-    return (_largest("all", every),), ()
+    return (_largest("all", every),)
 
 
 def missing_sizes(machine: ReciprocatingMachine) -> Iterator[FieldProblem]:

@@ -103,7 +103,7 @@ class _Stage(NamedTuple):
 
 def _of_any_mass(program: Problem, gap: float, robust: Robust) -> Found | Unkept:
     """The first goal by itself."""
-    return over_turn(program.changed(goals=program.goals[:1]), gap, False, (), robust.left_s)
+    return over_turn(program.changed(goals=program.goals[:1]), gap, False, robust.left_s)
 
 
 def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Found, solver: Solver) -> list[_Stage]:
@@ -131,7 +131,7 @@ def _in_order(request: OptimizeRequest, robust: Robust, asked: Goals, best: Foun
             # counterweights that keep no ceilings are told by what any masses come to
             break
         # choices that are this near are equal, which leaves room for the brackets by which they are judged
-        most = max(value, found.lower_bound + asked.allowances[n] * size) + EQUAL * size if later else value
+        most = max(value, found.lower_bound + goal.allowance * size) + EQUAL * size if later else value
         reached.append(Reached(goal.name, value, best.proof, most))
     return stages
 

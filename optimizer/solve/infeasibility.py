@@ -191,7 +191,7 @@ def _under(program: Problem, scenario: str) -> Found | Unkept:
     """The program under the ceilings of one scenario alone, as far as whether they can be kept."""
     ceilings = tuple(each for each in program.ceilings if each[0].scenario == scenario)
     limited = tuple(each for each in program.limited if program.quantities[each[0]].scenario == scenario)
-    return over_turn(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False, ())
+    return over_turn(program.changed(goals=program.goals[-1:], ceilings=ceilings, limited=limited), 1.0, False)
 
 
 def _at_fault(found: Unkept) -> list[str]:
@@ -213,6 +213,6 @@ def _under_ceilings(request: OptimizeRequest, asked: Goals) -> list[str]:
 
 def _least(program: Problem, group: Group) -> Found:
     """The smallest value of one group."""
-    found = over_turn(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False, ())
+    found = over_turn(program.changed(goals=(Goal("alone", (group,)),)), _ALONE, False)
     assert isinstance(found, Found)  # without ceilings nothing is out of reach
     return found

@@ -102,7 +102,7 @@ def certified_light_over_turn(request: OptimizeRequest, scene: Prepared, solver:
     robust = Robust(request, scene, demand(request))
     program = robust.asked().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
-    best = over_turn(weighed, _SHARP, False, (), robust.left_s)
+    best = over_turn(weighed, _SHARP, False, robust.left_s)
     if isinstance(best, Unkept):
         nothing = np.zeros(program.limits.radius.shape)
         return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, METHOD)

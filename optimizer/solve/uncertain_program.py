@@ -171,7 +171,7 @@ class Robust:
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
         for _ in range(_MOST_ROUNDS):
             asked = self.asked()
-            found = over_turn(asked.program, gap, least, asked.allowances, self.left_s)
+            found = over_turn(asked.program, gap, least, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):
                 return asked, found
         # judged by all that is known: the gap tells what is left open

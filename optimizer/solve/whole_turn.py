@@ -86,7 +86,7 @@ def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = Tr
     case = Case(machine, square, (responses,), (whole_turn_of(scene), scene.laden))
     asked = formulate(machine, together.objective, [case], square, request.fidelity)
     accuracy, least = request.accuracy, request.objective.least_mass
-    found = over_turn(asked.program, accuracy.relative_gap, least, asked.allowances, accuracy.time_limit_s)
+    found = over_turn(asked.program, accuracy.relative_gap, least, accuracy.time_limit_s)
     if isinstance(found, Unkept):
         return out_of_reach(request, scene, asked, found)
     return fitted(request, scene, asked, found, demand(request), in_full)

@@ -140,7 +140,7 @@ def _nominal_optimum(robust: Robust) -> tuple[Complex | None, bool]:
     nominal, wanted, left = _nominal(robust), robust.wanted, robust.left_s
     if left == 0.0:
         return None, True
-    found = over_turn(nominal.program, wanted.relative_gap, wanted.least_mass, nominal.allowances, left)
+    found = over_turn(nominal.program, wanted.relative_gap, wanted.least_mass, left)
     late = isinstance(found, Found) and found.timed_out
     return found.point.unbalance if isinstance(found, Found) and not late else None, late
 

@@ -22,8 +22,8 @@ from tests.responses.fourier import FourierCurves
 ANGLES = np.deg2rad(np.arange(0.0, 360.0, 0.1))
 
 
-def found(program: Problem, gap: float = 1e-6, least_mass: bool = False, allowances: tuple[float, ...] = ()) -> Found:
-    outcome = over_turn(program, gap, least_mass, allowances)
+def found(program: Problem, gap: float = 1e-6, least_mass: bool = False) -> Found:
+    outcome = over_turn(program, gap, least_mass)
     assert isinstance(outcome, Found)
     return outcome
 
@@ -204,7 +204,7 @@ def test_ceilings_on_bearings_are_kept(seed: int) -> None:
 def test_ceilings_below_the_floors_are_out_of_reach() -> None:
     program = bearings(0, limits=wide(6))
     least = max(floor(quantity.response, 1e-9).circle.radius for quantity in program.quantities)
-    outcome = over_turn(replace(program, limited=((0, 0.5 * least), (1, 3.0 * least))), 1e-6, True, ())
+    outcome = over_turn(replace(program, limited=((0, 0.5 * least), (1, 3.0 * least))), 1e-6, True)
     assert isinstance(outcome, Unkept)
     assert outcome.proof.bound > 0
     assert outcome.closest.values.excess >= outcome.proof.bound
@@ -213,9 +213,9 @@ def test_ceilings_below_the_floors_are_out_of_reach() -> None:
 def priorities(seed: int, allowance: float) -> tuple[Problem, Found]:
     rng = np.random.default_rng(seed)
     every = quantities(rng, 3, 4)
-    first = Goal("external", (force_and_moment(rng, 4),))
+    first = Goal("external", (force_and_moment(rng, 4),), allowance=allowance)
     program = Problem(every, (first, Goal("bearings", (largest(0, 3),))), (), (), wide(4, 5.0))
-    return program, found(program, least_mass=True, allowances=(allowance,))
+    return program, found(program, least_mass=True)
 
 
 @pytest.mark.parametrize("seed", range(3))

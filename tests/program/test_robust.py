@@ -42,7 +42,7 @@ def several(seed: int, cases: int = 3, webs: int = 4, limits: Limits | None = No
 
 
 def best(program: Problem, least_mass: bool = False, gap: float = 1e-6) -> Found:
-    found = over_turn(program, gap, least_mass, ())
+    found = over_turn(program, gap, least_mass)
     assert isinstance(found, Found)
     return found
 
@@ -140,7 +140,7 @@ def test_ceilings_hold_in_the_worst_case() -> None:
     assert found.point.unbalance[0] == pytest.approx(-7 / 9, abs=1e-6)
     assert found.mass_proof is not None
     assert found.mass_proof.bound == pytest.approx(7 / 9 / 0.2, rel=1e-5)
-    unkept = over_turn(replace(kept, ceilings=((response, 0.09),)), 1e-6, True, ())
+    unkept = over_turn(replace(kept, ceilings=((response, 0.09),)), 1e-6, True)
     assert isinstance(unkept, Unkept)
     assert unkept.proof.statement.names.terms[0].scenario == "hot"
 

@@ -57,7 +57,7 @@ def sampled(of: Quantity, u: Complex) -> float:
 def test_the_optimum_of_a_scalar_is_that_of_a_linear_program(seed: int) -> None:
     """Independent: |Re d + Re(h u)| <= t at 360 angles and no limits that bind, by scipy's simplex."""
     asked = program(seed, beside=False, binding=False)
-    best = over_turn(asked, 1e-6, False, ())
+    best = over_turn(asked, 1e-6, False)
     assert isinstance(best, Found)
     response = asked.quantities[0].response
     turned = np.exp(1j * ANGLES[:, None] * response.turning) * response.influence
@@ -76,7 +76,7 @@ def test_the_optimum_of_a_scalar_is_that_of_a_linear_program(seed: int) -> None:
 @given(seed=st.integers(0, 10**6), least_mass=st.booleans())
 def test_bounds_are_never_above_what_another_point_comes_to(seed: int, least_mass: bool) -> None:
     asked = program(seed)
-    best = over_turn(asked, 1e-5, least_mass, ())
+    best = over_turn(asked, 1e-5, least_mass)
     assert isinstance(best, Found)
     rng = np.random.default_rng(seed + 1)
     rest = float(asked.yardsticks[0])
@@ -94,15 +94,15 @@ def test_bounds_are_never_above_what_another_point_comes_to(seed: int, least_mas
 @pytest.mark.parametrize("seed", range(2))
 def test_a_ceiling_on_a_scalar_is_kept_and_proven(seed: int) -> None:
     """A little above the smallest peak it is kept, and costs no less than the bound; below it, it is out of reach."""
-    free = over_turn(program(seed, beside=False), 1e-7, False, ())
+    free = over_turn(program(seed, beside=False), 1e-7, False)
     assert isinstance(free, Found)
     least, asked = free.goals[-1], program(seed)
     other = (Goal("force", (Group(weighed=(Weighed(1, 1.0),)),)),)
-    kept = over_turn(replace(asked, goals=other, limited=((0, 1.2 * least.value),)), 1e-6, True, ())
+    kept = over_turn(replace(asked, goals=other, limited=((0, 1.2 * least.value),)), 1e-6, True)
     assert isinstance(kept, Found)
     assert sampled(asked.quantities[0], kept.point.unbalance) <= 1.2 * least.value * (1.0 + 1e-9)
     assert kept.goals[-1].value - kept.goals[-1].lower_bound <= 1e-6 * float(asked.alone(0).yardsticks[0])
-    below = over_turn(replace(asked, goals=other, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True, ())
+    below = over_turn(replace(asked, goals=other, limited=((0, 0.999 * least.lower_bound),)), 1e-6, True)
     assert isinstance(below, Unkept)
 
 
@@ -111,7 +111,7 @@ def test_multipliers_that_are_not_real_prove_no_more() -> None:
     rng = np.random.default_rng(4)
     asked = program(5, beside=False)
     posed = asked.outer(asked.first)
-    best = over_turn(asked, 1e-6, False, ())
+    best = over_turn(asked, 1e-6, False)
     assert isinstance(best, Found)
     for _ in range(20):
         given = replace(best.proof.multipliers, term=best.proof.multipliers.row * np.exp(2j * np.pi * rng.uniform()))

@@ -108,7 +108,6 @@ def over_turn(
     program: Problem,
     relative_gap: float,
     least_mass: bool,
-    allowances: Sequence[float],
     time_limit_s: float = TIME_LIMIT_S,
 ) -> Found | Unkept:
     """Certified optimum of a program over the turn: its goals one after the other, then the least mass.
@@ -117,7 +116,6 @@ def over_turn(
     ----------
     relative_gap : asked gap of the last goal, relative to its yardstick.
     least_mass : take the least total mass among the optima.
-    allowances : of all goals but the last, the share of its yardstick that what follows may use.
     time_limit_s : of this thread's own time, after which the search ends with what it has: what else a machine does
         changes no answer.
     """
@@ -129,9 +127,9 @@ def over_turn(
     if nearest.proof is not None and nearest.proof.bound > CEILING_ROUNDING and not contradicted:
         return Unkept(nearest.point, nearest.proof, nearest.proof.statement.limits, nearest.rounds, nearest.certify_s)
     course = _Course(program, pool, nearest, raised=excess > -_AMPLE, contradicted=contradicted, until=until)
-    for n, allowance in enumerate(allowances):
-        size = float(program.units[n])
-        course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), max(allowance, OPTIMUM_SHARE) * size)
+    for n, goal in enumerate(program.goals[:-1]):
+        size, share = float(program.units[n]), max(goal.allowance, OPTIMUM_SHARE)
+        course.keep(n, course.smallest(n, _SHARPNESS[0] * OPTIMUM_SHARE * size), share * size)
     last = len(program.goals) - 1
     size = float(program.units[last])
     if not least_mass:

@@ -51,6 +51,7 @@ class Goal(NamedTuple):
     groups: tuple[Group, ...]
     unit: float | None = None  # what gaps are measured by; by default the yardstick
     cases: tuple[int, ...] = ()  # sum to which each group belongs, in rising order from 0; by default one
+    allowance: float = 0.0  # share of its unit that goals after it may use
 
 
 class Values(NamedTuple):

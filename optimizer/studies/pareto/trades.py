@@ -106,7 +106,7 @@ def _ends(traded: Measures) -> tuple[Real, Real, Real] | None:
     for _ in range(2):
         ends, smallest, gross = [], [], np.zeros(size.shape)
         for which in range(len(traded.names)):
-            found = over_turn(traded.first(which, size), OPTIMUM_SHARE, False, (_END_SLACK,))
+            found = over_turn(traded.first(which, size, _END_SLACK), OPTIMUM_SHARE, False)
             if isinstance(found, Unkept):
                 return None
             ends.append(traded.values(found.point.unbalance))
@@ -146,7 +146,7 @@ class _Front:
         least = self.request.objective.least_mass and "mass" not in self.traded.names
         asked = self.request.accuracy.relative_gap
         share = min(1.0, float(np.min(self.size / unit)))
-        found = over_turn(self.traded.along(anchor, unit), share * asked, least, ())
+        found = over_turn(self.traded.along(anchor, unit), share * asked, least)
         assert isinstance(found, Found)  # the ends have kept the ceilings
         masses, angles = masses_and_angles(self.machine, found.point.unbalance, found.limits)
         u = unbalance(masses, angles, found.limits.radius)
