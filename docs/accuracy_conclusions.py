@@ -65,26 +65,28 @@ def on_ladders(text: str) -> str:
     coarse = next(row for row in ladders["m-type-four"] if row.setting == "6 angles")
     return _list(
         f"**What the default buys.** With `relative_gap` 1e-6 the errors are at most {_worst(default, _error)}, and "
-        f"proven to be at most {_worst(default, _gap)}, for {_range(default)} ms. Without the proof nobody could "
-        "tell the rows apart.",
+        f"proven to be at most {_worst(default, _gap)}, for {_range(default)} ms. Without the proof the rows "
+        "would look equal.",
         "**What a digit costs.** From `relative_gap` 1e-3 to 1e-9 the time of the compiled interior point changes "
-        f"by a factor of {_change(ladders, 'interior point, compiled')}, that of the cone program as matrices from "
-        f"tolerance 1e-2 to 1e-10 by {_change(ladders, 'cone program, matrices')} (median of the examples): either "
+        f"by a factor of {_change(ladders, 'interior point, compiled')}. That of the cone program as matrices changes "
+        f"by {_change(ladders, 'cone program, matrices')} from tolerance 1e-2 to 1e-10 (median of the examples). "
+        f"Either "
         "gains a digit or more with every step. There is no reason to ask for less than the default.",
         f"**The last digits.** Double precision ends at a proof of {_worst(double, _gap)} at the worst. Extended "
         f"precision takes {_times(extended, double)} times as long and proves {_worst(extended, _gap)}; 50 digits "
         f"take {_times(fifty, double)} times as long and prove {_worst(fifty, _gap)}. The service goes there by "
         "itself, when double precision and clarabel do not suffice.",
         f"**A thousand at once.** A sweep pays {_range(batch)} ms for each program where a single one takes "
-        f"{_range(alone)} ms: the steps are the same, what goes around them is shared. A solve by clarabel behind "
+        f"{_range(alone)} ms. The steps are the same, and the work around them is shared. A solve by clarabel behind "
         f"cvxpy takes {_range(clarabel)} ms.",
         "**Digits of a grid are dear.** The proof of a sampled program falls as 1/n² (1 − cos(π/n), half a step of "
-        f"the grid), its time grows with n: 720 angles take {_times(grid, clarabel)} times the exact cone program "
-        f"and prove {_worst(grid, _gap)} at the worst. The point it finds can be better than it can prove, and on "
-        f"machines in one line it often is; on the M type 6 angles are off by {coarse.error:.1e}.",
-        f"**Polygons behave the same**, 5/N² and a simplex method: 256 sides take {_times(corner, clarabel)} times "
-        f"the exact cone program and prove {_worst(corner, _gap)} at the worst. Where a corner falls on the optimum "
-        'the point is exact by luck, which the column "as drawn" shows and the certified gap does not reward.',
+        f"the grid), and its time grows with n. 720 angles take {_times(grid, clarabel)} times the exact cone program "
+        f"and prove {_worst(grid, _gap)} at the worst. The point can be better than its proof, and often is on "
+        f"machines in one line. On the M type 6 angles are off by {coarse.error:.1e}.",
+        f"**Polygons behave the same**, with 5/N² and a simplex method. 256 sides take {_times(corner, clarabel)} "
+        f"times the exact cone program and prove {_worst(corner, _gap)} at the worst. Where a corner falls on the "
+        f"optimum "
+        'the point is exact by luck. The column "as drawn" shows it, and the certified gap does not reward it.',
     )
 
 
@@ -104,15 +106,16 @@ def on_effects(text: str) -> str:
     second = [row.error for row in gas if row.setting == "kinematics of order 2"]
     return _list(
         f"The customary 10 or 15 degrees are off by {error(gas, 'fluctuation', *customary)} in the energy that sizes "
-        f"a flywheel, and by {error(gas, 'peak', *customary)} in the peak torque, which stands at an opening valve "
-        f"between two samples. On the V8, where inertia rules, it is {error(inertia, 'fluctuation', *customary)} and "
-        f"{error(inertia, 'peak', *customary)}. With 1 degree the energy is off by "
+        f"a flywheel. In the peak torque, at an opening valve between two samples, they are off by "
+        f"{error(gas, 'peak', *customary)}. On the V8, where inertia rules, it is "
+        f"{error(inertia, 'fluctuation', *customary)} and {error(inertia, 'peak', *customary)}. With 1 degree the "
+        f"energy is off by "
         f"{error(gas, 'fluctuation', '1 deg')} and {error(inertia, 'fluctuation', '1 deg')}.",
         f"A step of 0.1 degree takes {fine.time / panels.time:.1f} times as long as the panels and leaves "
         f"{fine.error:.0e} where they leave {panels.error:.0e}.",
-        f"The second order of the kinematics is no saving: it is off by {min(second):.0e} to {max(second):.0e} on "
-        f"the 2D12, and by {error(inertia, 'fluctuation', 'kinematics of order 2')} on the V8, whose rods are "
-        "shorter and whose torque is all inertia.",
+        f"The second order of the kinematics is no saving. It is off by {min(second):.0e} to {max(second):.0e} on "
+        f"the 2D12, and by {error(inertia, 'fluctuation', 'kinematics of order 2')} on the V8. Its rods are "
+        "shorter, and its torque is all inertia.",
     )
 
 
@@ -127,12 +130,12 @@ def on_peaks(text: str) -> str:
     uneven = [row for rows in (compressor, engine) for row in rows.values() if row.setting == "17 in a piece"]
     return _list(
         f"With the customary 10 degrees the bearing load of the 2D12 reads {missed(compressor, '10 deg')} low, that of "
-        f"the engine {missed(engine, '10 deg')}; with 0.1 degree {missed(compressor, '0.1 deg')} and "
+        f"the engine {missed(engine, '10 deg')}. With 0.1 degree {missed(compressor, '0.1 deg')} and "
         f"{missed(engine, '0.1 deg')} are still missing. The peak stands at an opening valve, or at a dead centre on "
         "the one side of the jump of friction that counts, and no even step lands there.",
-        "An uneven grid, both sides of every valve, dead centre and entry of a table and some samples between them, "
-        f"misses {_worst(uneven, _error)} at the worst with 17 samples in a piece. It cannot know that.",
-        f"The bracket is proven to {_worst(brackets, _gap)} at the worst, where 1e-09 is asked for.",
+        "An uneven grid has both sides of every valve, dead centre and entry of a table, and samples between them. "
+        f"With 17 samples in a piece it misses {_worst(uneven, _error)} at the worst, and cannot know that.",
+        f"The bracket is proven to {_worst(brackets, _gap)} at the worst, where 1e-09 is requested.",
     )
 
 

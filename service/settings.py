@@ -84,7 +84,7 @@ class _Sizes(BaseSettings):
     )
     max_webs: int = Field(MAX_WEBS, ge=1, le=MAX_WEBS, description="webs of a machine")
     # a request that says nothing takes 360
-    max_angles: int = Field(36_000, ge=360, le=36_000, description="samples of the shaft angle in one turn")
+    max_angles: int = Field(36_000, ge=360, le=36_000, description="samples of the shaft angle in one revolution")
     max_sweep_designs: int = Field(MAX_DESIGNS, ge=1, le=MAX_DESIGNS, description="designs of a sweep")
 
 

@@ -66,9 +66,7 @@ def _problems(machine: Machine, cranks: Sequence[float | None], i: int, group: S
             unlike.append("hole_angles_deg, counted from the own crank,")
         if unlike:
             words = " and ".join(unlike)
-            yield FieldProblem(
-                path, f"only webs that are alike get the same casting: its {words} is not that of {first.name}"
-            )
+            yield FieldProblem(path, f"webs of a group are equal castings: its {words} must equal that of {first.name}")
 
 
 def _same_holes(

@@ -99,7 +99,7 @@ def _crosshead_lifts(told: Told) -> Iterator[Caution]:
             yield Caution(
                 code="crosshead_lifts",
                 message=f"The crosshead of this row leaves its lower guide over {100.0 * row.guide.lifted_share:.0f} % "
-                f"of the turn: a side force of up to {_plain(up)} N against a weight of {_plain(weight)} N.",
+                f"of the cycle: a side force of up to {_plain(up)} N against a weight of {_plain(weight)} N.",
                 pointer=pointer(("machine", "throws", row.throw, "rows", row.row)),
             )
 

@@ -314,7 +314,7 @@ OVER_THE_TURN = (
     ),
     Output(
         "torque",
-        "torque over the turn, its mean, powers, fluctuation energy",
+        "torque over the cycle, its mean, powers, fluctuation energy",
         ("torque", "torque_integrals", "torque_errors", "whole_turn"),
         torque,
         Columns(_torque_columns, needs=("friction", "torque_integrals", "whole_turn")),

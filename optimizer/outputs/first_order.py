@@ -148,4 +148,4 @@ RESIDUAL = Output(
     residual,
     Columns(lambda scene, unbalance: peaks(scene.first_order(unbalance))),
 )
-HODOGRAPH = Output("hodograph", "first-order force and moment over the turn", FIRST_ORDER_EFFECTS, hodographs)
+HODOGRAPH = Output("hodograph", "first-order force and moment over a revolution", FIRST_ORDER_EFFECTS, hodographs)

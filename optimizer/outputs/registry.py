@@ -159,14 +159,14 @@ def input_rules(machine: Machine, outputs: Sequence[str]) -> Iterator[Rule]:
     """What the outputs ask of a machine, whose fields may hold columns (n,); paths from the root of the request."""
     for output, effect in _reached(machine, outputs):
         for broken, path, message in rules_of(machine, effect):
-            yield Rule(broken, ("machine", *path), f"{message}; asked for by output '{output}'")
+            yield Rule(broken, ("machine", *path), f"{message}; needed by output '{output}'")
 
 
 def missing_inputs(machine: Machine, outputs: Sequence[str]) -> Iterator[FieldProblem]:
     """Fields that the outputs need and the machine does not give, whatever the numbers in the others."""
     for output, effect in _reached(machine, outputs):
         for path, message in EFFECTS[effect].problems(machine):
-            yield FieldProblem(("machine", *path), f"{message}; asked for by output '{output}'")
+            yield FieldProblem(("machine", *path), f"{message}; needed by output '{output}'")
 
 
 def _reached(machine: Machine, outputs: Sequence[str]) -> Iterator[tuple[str, str]]:

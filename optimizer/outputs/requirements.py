@@ -32,7 +32,7 @@ def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
     field = goal.over_the_turn[0]
     for path, message in problems_of(machine, needs):
         why = _FREE if path == ("bearings",) and field.startswith("bending") else message
-        yield FieldProblem(("machine", *path), f"{why}; asked for by objective.{field}")
+        yield FieldProblem(("machine", *path), f"{why}; needed by objective.{field}")
     specific = goal.specific_load_ceiling_Pa is not None or (goal.bearing_weight and goal.bearing_measure == "specific")
     if specific and isinstance(machine, ReciprocatingMachine):
         yield from missing_sizes(machine)

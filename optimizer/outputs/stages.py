@@ -67,31 +67,31 @@ _II = _Heading(
 _III = _Heading(
     "III",
     "first-order forces of reciprocating masses",
-    "peak force over a turn",
+    "peak force over a revolution",
     "|A1| + |B1|, A1 = omega^2/2 sum m r e^{jd}, B1 = omega^2/2 sum m r e^{j(2g - d)}",
     "N",
 )
-_IV = _Heading("IV", "moments of first-order forces", "peak moment over a turn", f"as stage III, {_ARMS}", "N m")
+_IV = _Heading("IV", "moments of first-order forces", "peak moment over a revolution", f"as stage III, {_ARMS}", "N m")
 _V = _Heading(
     "V",
     "second-order forces of reciprocating masses",
-    "peak force over a turn",
+    "peak force over a revolution",
     "|A2| + |B2|, A2 = omega^2/2 sum m r a2 e^{j(2d - g)}, B2 = omega^2/2 sum m r a2 e^{j(3g - 2d)}, "
     "a2 the second harmonic of the acceleration, r/l in the shortest series",
     "N",
 )
-_VI = _Heading("VI", "moments of second-order forces", "peak moment over a turn", f"as stage V, {_ARMS}", "N m")
+_VI = _Heading("VI", "moments of second-order forces", "peak moment over a revolution", f"as stage V, {_ARMS}", "N m")
 _VII = _Heading(
     "VII",
     "counterweights by superposition",
     "total mass times radius, in the two outermost planes, that removes all that turns with the shaft "
-    "(rotating masses and co-rotating half of the reciprocating masses); remaining is what is still missing",
+    "(rotating masses and co-rotating half of the reciprocating masses); remaining is the part still missing",
     "|u1| + |u2|, u1 + u2 = -f, z1 u1 + z2 u2 = -c, f and c the co-rotating force and moment over omega^2",
     "kg m",
 )
 _VIII = _Heading(
     "VIII",
-    "summary of what is left unbalanced",
+    "summary of the residual unbalance",
     "sum of the peak forces of orders 1 and 2, which their force never exceeds; the plane names every force and "
     "moment that is left",
     "|R + A1| + |B1| + |A2| + |B2|",

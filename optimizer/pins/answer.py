@@ -164,7 +164,7 @@ def _reason(pattern: Pattern, dead: bool) -> str:
     if pattern.formula:
         force = ", and the sum of the forces is not 0" if pattern.count == 1 else ""
         return (
-            f"with {pattern.count} pin(s) the loads give the torque only on the average over a turn: "
+            f"with {pattern.count} pin(s) the loads give the torque only on the average over a revolution: "
             f"their moment swings between 0 and twice the torque{force}"
         )
     if dead and pattern.drive > 0.0:

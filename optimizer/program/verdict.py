@@ -24,16 +24,16 @@ _MASS_SHARE = CEILING_TOLERANCE / MASS_GAP
 #: rounding of a mass, relative to it
 _MASS_ROUNDING = 1e-13
 
-OPTIMAL = "The gap to the proven lower bound is within the asked one, and every limit is kept."
+OPTIMAL = "Proven optimal: the gap to the lower bound is within the requested gap, and every limit is kept."
 OPTIMAL_LIGHTEST = (
-    "The gap to the proven lower bound is within the asked one, every limit is kept, and the total mass is proven to"
-    " be the least to 1e-4 of its yardstick."
+    "Proven optimal: the gap to the lower bound is within the requested gap, and every limit is kept. The total mass is"
+    " proven minimum to 1e-4 of its reference value."
 )
-NOT_KEPT = "The ceilings are not kept, nor proven out of reach: they are on the boundary of what can be reached."
-NOT_CLOSE = "The objective is not certified to the asked gap."
-NOT_LIGHT = "The total mass is not certified to be the least."
-CONTRADICTED = "A bound contradicts the answer, a fault of the service: nothing is proven."
-INFEASIBLE = "It is proven that no counterweights within the limits keep the ceilings."
+NOT_KEPT = "The ceilings are neither kept nor proven infeasible: they lie on the boundary of the feasible peaks."
+NOT_CLOSE = "The objective is not certified to the requested gap."
+NOT_LIGHT = "The total mass is not certified as minimum."
+CONTRADICTED = "Nothing is proven: a bound contradicts the answer, which is a fault of the service."
+INFEASIBLE = "Proven infeasible: no counterweights within the limits keep the ceilings."
 
 
 @dataclass(frozen=True)

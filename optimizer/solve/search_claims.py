@@ -12,36 +12,36 @@ from optimizer.program.verdict import claim, verdict
 from optimizer.solve.certify import Certified
 
 _ALL = (
-    "Every set of counterweights that can be chosen was compared: none within the limits has a smaller objective, and"
-    " of those with the same one none is lighter."
+    "Proven optimal: of all sets of counterweights none within the limits has a smaller objective, and none with the"
+    " same objective has less mass."
 )
-_LIGHTEST = "Every set of counterweights that can be chosen was compared: none that keeps the ceilings is lighter."
-_TREE = "The gap to the proven lower bound of all sets that can be chosen is within the asked one."
+_LIGHTEST = "Proven optimal: of all sets of counterweights none that keeps the ceilings has less mass."
+_TREE = "Proven optimal: the gap to the lower bound of all sets of counterweights is within the requested gap."
 #: why a search left a gap
-LATE = "The search ended at accuracy.time_limit_s: the gap to the proven lower bound is what was reached by then."
-_SIZE = "The search ended because its tree had grown too large: the gap to the proven lower bound is what was reached."
+LATE = "The search ended at accuracy.time_limit_s. The certificate states the gap to the proven lower bound."
+_SIZE = "The search ended at the largest size of its tree. The certificate states the gap to the proven lower bound."
 _CUTS = (
-    "The search ended because its last choices have shown nothing new of the whole turn: the gap to the proven lower"
-    " bound is what was reached."
+    "The search ended because further candidates gave no new cut. The certificate states the gap to the proven lower"
+    " bound."
 )
 _WHY = {"time": LATE, "size": _SIZE, "cuts": _CUTS}
 #: beside any of these, where the tree has proven nothing of its own
 _AMPLE = (
-    " So far it is that of any masses at any angles: of an ample choice, which comes near to what those reach, nothing"
-    " closer can be proven."
+    " The bound is that of free masses and angles: the catalogue comes so close to these that no closer bound was"
+    " proven."
 )
-_NONE = "No set of counterweights that can be chosen keeps the ceilings: {proof}."
-_BY = {True: "all were compared", False: "a tree of bounds over all of them proves it"}
+_NONE = "Proven infeasible: no set of counterweights keeps the ceilings, since {proof}."
+_BY = {True: "all were compared", False: "branch and bound excludes all of them"}
 _NONE_FOUND = (
-    "No set of counterweights that keeps the ceilings was found before the search ended, nor is it proven that there"
-    " is none: the one closest to them is shown."
+    "The search ended before it found a set of counterweights that keeps the ceilings or proved that none does. The"
+    " closest set is shown."
 )
 
 
 def ended(found: SearchResult | None) -> str:
     """What is said of the lightest set that keeps the ceilings; None: none of any masses does."""
     if found is None:
-        return _NONE.format(proof="none of any masses does")
+        return _NONE.format(proof="no free masses do")
     if not found.kept:
         return _NONE.format(proof=_BY[found.method == EXHAUSTED]) if found.lower_bound == np.inf else _NONE_FOUND
     if found.ended is not None:

@@ -39,8 +39,8 @@ _CLOSE = 1e-10
 #: the same where goals are kept whose price may be high
 _CLOSER = 1e-12
 _EARLIER = (
-    "The last goal is within the asked gap under what those before it were left; of one of these the search ended with"
-    " a larger gap, which `goals` of the certificate tell."
+    "The last goal is within the requested gap. The search for an earlier goal ended with a larger gap, which `goals`"
+    " of the certificate states."
 )
 
 

@@ -27,7 +27,7 @@ from schemas.request.requests import OptimizeRequest
 
 #: width of brackets of what is shown, relative; and of those that tell which of several peaks may be the largest
 _CLOSE, _ABOUT = 1e-10, 1e-2
-_NO_PRICE = " The time limit left the nominal optimum in price_of_robustness open."
+_NO_PRICE = " The time limit ended before the nominal optimum of price_of_robustness was found."
 
 
 def certified_any_mass(request: OptimizeRequest, scene: Prepared, in_full: bool = True) -> Outcome:

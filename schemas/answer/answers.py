@@ -33,7 +33,8 @@ class BalanceRate(Model):
         examples=[0.82],
     )
     sideways: float | None = Field(
-        description="share across the crank, a quarter of a turn counter-clockwise from opposite it", examples=[0.0]
+        description="share across the crank, a quarter of a revolution counter-clockwise from opposite it",
+        examples=[0.0],
     )
 
 
@@ -59,7 +60,7 @@ class Certificate(Model):
         examples=[30344.97],
     )
     gap: float | None = Field(description="objective minus lower bound; null if nothing is proven", examples=[0.03])
-    relative_gap: float | None = Field(description="gap over the yardstick; null if nothing is proven", examples=[5e-7])
+    relative_gap: float | None = Field(description="gap over `yardstick`; null if nothing is proven", examples=[5e-7])
     yardstick: float = Field(
         description="what the relative gap is relative to: the objective without counterweights; where that is 0, what"
         " the counterweights could change of it",
@@ -67,21 +68,22 @@ class Certificate(Model):
     )
     objective_without_counterweights: float = Field(description="objective with no counterweights", examples=[60690.0])
     mass_lower_bound_kg: Kilograms | None = Field(
-        description="no optimum, ceilings kept to their tolerance, has a smaller total mass; null if least mass was not"
-        " asked for, or if nothing is proven",
+        description="no optimum, ceilings kept to their tolerance, has a smaller total mass; null if minimum mass was"
+        " not asked for, or if nothing is proven",
         examples=[41.2],
     )
     mass_relative_gap: float | None = Field(
-        description="total mass above that bound, over its yardstick; null likewise", examples=[2e-9]
+        description="total mass above that bound, over `yardstick`; null likewise", examples=[2e-9]
     )
     mass_yardstick_kg: Kilograms | None = Field(
-        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the least mass that"
-        " could cancel the objective, or a response under a ceiling, at the web where a kilogram does most, so that the"
-        " gap allowed changes neither by more than ceilings may be exceeded by. Null if least mass was not asked for",
+        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the minimum mass"
+        " that could cancel the objective, or a response under a ceiling, at the web where a kilogram does most. The"
+        " gap allowed then changes neither by more than the tolerance of a ceiling. Null if minimum mass was"
+        " not asked for",
         examples=[41.2],
     )
     mass_objective_limit: float | None = Field(
-        description="largest objective that counts as an optimum in the bound of the mass; null if least mass was not"
+        description="largest objective that counts as an optimum in the bound of the mass; null if minimum mass was not"
         " asked for",
         examples=[30345.06],
     )
@@ -92,7 +94,7 @@ class Certificate(Model):
     )
     method: str = Field(description="what found the counterweights", examples=["cone program, clarabel"])
     cuts: int | None = Field(
-        None, description="angles at which responses over the whole turn were held; null without any", examples=[24]
+        None, description="angles at which responses over a revolution were held; null without any", examples=[24]
     )
     rounds: int | None = Field(None, description="programs solved to find them; null likewise", examples=[5])
     continuous_lower_bound: float | None = Field(

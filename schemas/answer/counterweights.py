@@ -63,7 +63,7 @@ class FittedShaft(Model):
     name: Name = Field(description="name of the shaft", examples=["upper"])
     speed_ratio: int = Field(description="turns of it for one of the crankshaft", examples=[-1])
     gearing: str = Field(
-        description="which way it turns, how fast, and how its unbalances stand at shaft angle 0, in a sentence",
+        description="sense of rotation, speed, and its unbalances at shaft angle 0, in a sentence",
         examples=["Turns against the crankshaft at its speed."],
     )
     total_mass_kg: Kilograms = Field(description="total mass of its unbalances", examples=[3.2])

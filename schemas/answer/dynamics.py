@@ -83,7 +83,9 @@ class Chamber(Model):
     discharge_opens_deg: Degrees | None = Field(
         description="own crank angle at which discharge opens; null on an open side", examples=[286.5]
     )
-    indicated_work_J: Joules = Field(description="work put into the gas in one turn, closed form", examples=[37000.0])
+    indicated_work_J: Joules = Field(
+        description="work put into the gas in one revolution, closed form", examples=[37000.0]
+    )
 
 
 class RowGas(RowSeries):
@@ -116,9 +118,9 @@ class RowPistonForce(RowSeries):
     inertia_N: tuple[Newtons, ...] = Field(description="inertia force of the row", examples=[[139833.0]])
     friction_N: tuple[Newtons, ...] = Field(description="friction of the row", examples=[[0.0]])
     total_N: tuple[Newtons, ...] = Field(description="their sum", examples=[[-98175.0]])
-    peak_tension_N: Newtons = Field(description="largest sum over the whole turn", examples=[180000.0])
+    peak_tension_N: Newtons = Field(description="largest sum over the cycle", examples=[180000.0])
     peak_tension_bracket_N: ForceBracket
-    peak_compression_N: Newtons = Field(description="smallest sum over the whole turn", examples=[-200000.0])
+    peak_compression_N: Newtons = Field(description="smallest sum over the cycle", examples=[-200000.0])
     peak_compression_bracket_N: ForceBracket
 
 
@@ -151,7 +153,7 @@ class RowRodLoads(RowSeries):
     tangential_N: tuple[Newtons, ...] = Field(description="tangential force on the crank pin", examples=[[0.0]])
     radial_N: tuple[Newtons, ...] = Field(description="radial force on the crank pin, outward", examples=[[-98175.0]])
     peak_side_N: Newtons = Field(
-        description="largest force on the crosshead guide over the whole turn, magnitude", examples=[41000.0]
+        description="largest force on the crosshead guide over the cycle, magnitude", examples=[41000.0]
     )
     peak_side_bracket_N: ForceBracket
     cases: tuple[LoadCase, ...] = Field(description="load cases", examples=[[{"case": "running"}]])
@@ -173,7 +175,7 @@ class RowTorque(RowSeries):
     """Torque of one row."""
 
     torque_Nm: tuple[NewtonMetres, ...] = Field(description="torque about the shaft", examples=[[0.0]])
-    mean_torque_Nm: NewtonMetres = Field(description="mean over the turn", examples=[12000.0])
+    mean_torque_Nm: NewtonMetres = Field(description="mean over the cycle", examples=[12000.0])
 
 
 class Torque(Model):
@@ -186,16 +188,16 @@ class Torque(Model):
     tangential_N: tuple[Newtons, ...] | None = Field(
         description="the same as tangential force at the crank radius; null if the radii differ", examples=[[3112.0]]
     )
-    peak_Nm: NewtonMetres = Field(description="largest over the whole turn, magnitude", examples=[62000.0])
+    peak_Nm: NewtonMetres = Field(description="largest over the cycle, magnitude", examples=[62000.0])
     peak_bracket_Nm: MomentBracket
     peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])
-    mean_torque_Nm: NewtonMetres = Field(description="mean over the turn, whatever the samples", examples=[24692.8])
+    mean_torque_Nm: NewtonMetres = Field(description="mean over the cycle, whatever the samples", examples=[24692.8])
     mean_torque_error_Nm: NewtonMetres = Field(description="estimate of its error", examples=[1e-9])
     indicated_power_W: Watts = Field(description="power put into the gas", examples=[1216873.9])
     friction_power_W: Watts = Field(description="power lost to friction", examples=[76040.4])
     shaft_power_W: Watts = Field(description="mean torque times angular speed", examples=[1292914.4])
     fluctuation_energy_J: Joules = Field(
-        description="range of the running integral of torque minus mean over the turn", examples=[28733.2]
+        description="range of the running integral of torque minus mean over the cycle", examples=[28733.2]
     )
     fluctuation_energy_error_J: Joules = Field(description="estimate of its error", examples=[0.01])
 
@@ -227,7 +229,7 @@ class Overturning(Model):
     angle_deg: ShaftAngles
     rows: tuple[RowOverturning, ...] = Field(description="the rows", examples=[[{"throw": 0, "row": 0}]])
     couple_Nm: tuple[NewtonMetres, ...] = Field(description="all rows", examples=[[0.0]])
-    peak_Nm: NewtonMetres = Field(description="largest over the whole turn, magnitude", examples=[62000.0])
+    peak_Nm: NewtonMetres = Field(description="largest over the cycle, magnitude", examples=[62000.0])
     peak_bracket_Nm: MomentBracket
     peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])
 
@@ -237,7 +239,7 @@ class BearingLoad(Model):
 
     force_x_N: tuple[Newtons, ...] = Field(description="x component", examples=[[120000.0]])
     force_y_N: tuple[Newtons, ...] = Field(description="y component", examples=[[0.0]])
-    peak_N: Newtons = Field(description="largest magnitude over the whole turn", examples=[120000.0])
+    peak_N: Newtons = Field(description="largest magnitude over the cycle", examples=[120000.0])
     peak_bracket_N: ForceBracket
     peak_angle_deg: Degrees = Field(
         description="shaft angle at which it occurs; at a jump the load is that on its larger side", examples=[0.0]
@@ -245,7 +247,7 @@ class BearingLoad(Model):
     specific_load_Pa: Pascals | None = Field(
         None, description="peak over diameter times length; null where the bearing has none", examples=[2.0e7]
     )
-    rms_N: Newtons = Field(description="root of the mean square over the turn", examples=[61000.0])
+    rms_N: Newtons = Field(description="root of the mean square over the cycle", examples=[61000.0])
     floor_N: Newtons = Field(
         description="what the peak comes to at least, whatever counterweights turn with the shaft: the radius of the "
         "smallest circle around the load as the shaft sees it",

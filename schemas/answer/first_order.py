@@ -14,11 +14,11 @@ from schemas.base.quantities import (
 class ForceEllipse(Model):
     """The first-order force over a turn: an ellipse, exact."""
 
-    peak_N: Newtons = Field(description="largest force over a turn, the major semi-axis", examples=[4997.4])
-    minor_N: Newtons = Field(description="smallest force over a turn, the minor semi-axis", examples=[0.0])
+    peak_N: Newtons = Field(description="largest force over a revolution, the major semi-axis", examples=[4997.4])
+    minor_N: Newtons = Field(description="smallest force over a revolution, the minor semi-axis", examples=[0.0])
     major_axis_deg: Degrees = Field(description="direction of the major axis, 0 to 180", examples=[0.0])
-    peak_x_N: Newtons = Field(description="largest x component over a turn", examples=[4997.4])
-    peak_y_N: Newtons = Field(description="largest y component over a turn", examples=[0.0])
+    peak_x_N: Newtons = Field(description="largest x component over a revolution", examples=[4997.4])
+    peak_y_N: Newtons = Field(description="largest y component over a revolution", examples=[0.0])
     co_rotating_N: Newtons = Field(description="magnitude of the phasor that turns with the shaft", examples=[2498.7])
     counter_rotating_N: Newtons = Field(
         description="magnitude of the phasor that turns against the shaft", examples=[2498.7]
@@ -28,11 +28,13 @@ class ForceEllipse(Model):
 class MomentEllipse(Model):
     """The first-order moment over a turn: the couple in the plane of the forces, an ellipse, exact."""
 
-    peak_Nm: NewtonMetres = Field(description="largest moment over a turn, the major semi-axis", examples=[19494.0])
-    minor_Nm: NewtonMetres = Field(description="smallest moment over a turn, the minor semi-axis", examples=[0.0])
+    peak_Nm: NewtonMetres = Field(
+        description="largest moment over a revolution, the major semi-axis", examples=[19494.0]
+    )
+    minor_Nm: NewtonMetres = Field(description="smallest moment over a revolution, the minor semi-axis", examples=[0.0])
     major_axis_deg: Degrees = Field(description="direction of the major axis, 0 to 180", examples=[0.0])
-    peak_x_Nm: NewtonMetres = Field(description="largest x component over a turn", examples=[19494.0])
-    peak_y_Nm: NewtonMetres = Field(description="largest y component over a turn", examples=[0.0])
+    peak_x_Nm: NewtonMetres = Field(description="largest x component over a revolution", examples=[19494.0])
+    peak_y_Nm: NewtonMetres = Field(description="largest y component over a revolution", examples=[0.0])
     co_rotating_Nm: NewtonMetres = Field(
         description="magnitude of the phasor that turns with the shaft", examples=[9747.0]
     )
@@ -66,8 +68,8 @@ class ResidualOrders(Model):
 class TurnPeaks(Model):
     """Peaks of force and moment with all orders, each to 1e-8."""
 
-    force_peak_N: Newtons = Field(description="largest force over the turn", examples=[13010.2])
-    moment_peak_Nm: NewtonMetres = Field(description="largest moment over the turn", examples=[20110.0])
+    force_peak_N: Newtons = Field(description="largest force over a revolution", examples=[13010.2])
+    moment_peak_Nm: NewtonMetres = Field(description="largest moment over a revolution", examples=[20110.0])
 
 
 class TurnResidual(Model):

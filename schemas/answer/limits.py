@@ -47,7 +47,7 @@ class ShadowPrice(Model):
         ge=0,
         description="fall of the objective per unit of the limit, the objective taken as a force (over the force "
         "weight) or, where the force has no weight, as a moment, then as a bearing load, bending moment or roll; 0 if "
-        "it cannot be told from 0 by the certificate",
+        "it cannot be distinguished from 0 by the certificate",
         examples=[102.8],
     )
     unit: PriceUnit = Field(description="unit of the value; sectors are opened to both sides", examples=["N/kg"])

@@ -58,21 +58,21 @@ class RowLoad(RowSeries):
         description="largest inertia force among the samples, magnitude", examples=[139833.0]
     )
     largest_piston_force_N: Newtons = Field(
-        description="largest sum of gas, inertia and friction over the whole turn, magnitude", examples=[180000.0]
+        description="largest sum of gas, inertia and friction over the cycle, magnitude", examples=[180000.0]
     )
     piston_rod_N: Newtons = Field(description="for piston rod and pin: the largest of the three", examples=[239491.5])
     piston_rod_governed_by: Literal["gas", "inertia", "running"] = Field(
         description="which of the three", examples=["gas"]
     )
     crosshead_pin_N: Newtons = Field(
-        description="largest rod force over the whole turn while running, magnitude", examples=[182000.0]
+        description="largest rod force over the cycle while running, magnitude", examples=[182000.0]
     )
     stop_at_outer_dead_centre_N: Newtons = Field(
         description="sudden stop at the outer dead centre: gas force alone", examples=[-239491.5]
     )
     stop_at_inner_dead_centre_N: Newtons = Field(description="at the inner dead centre", examples=[228681.6])
     stop_over_the_turn_N: Newtons = Field(
-        description="sudden stop anywhere: largest rod force of gas alone over the whole turn, magnitude",
+        description="sudden stop anywhere: largest rod force of gas alone over the cycle, magnitude",
         examples=[239937.4],
     )
     covers: tuple[CoverLoad, ...] = Field(description="ends of the cylinders", examples=[[{"side": "head"}]])
@@ -123,10 +123,10 @@ class Loads(Model):
         examples=[[-24000.0]],
     )
     own_base_peak_Nm: NewtonMetres = Field(
-        description="largest torque on a base of the machine's own, over the whole turn, magnitude", examples=[62000.0]
+        description="largest torque on a base of the machine's own, over the cycle, magnitude", examples=[62000.0]
     )
     shared_base_peak_Nm: NewtonMetres = Field(
-        description="largest of shared_base_Nm, over the whole turn, magnitude", examples=[41000.0]
+        description="largest of shared_base_Nm, over the cycle, magnitude", examples=[41000.0]
     )
     angular_acceleration_rad_s2: Annotated[tuple[float, ...] | None, Unit("rad/s2")] = Field(
         description="eps of the shaft for its inertia; null without flywheel", examples=[None]

@@ -67,7 +67,7 @@ class ForceOrder(Model):
     counter_rotating: ForcePhasor = Field(
         description="phasor that turns against the shaft", examples=[{"real_N": 2498.7}]
     )
-    peak_N: Newtons = Field(description="largest force of this order over a turn", examples=[4997.4])
+    peak_N: Newtons = Field(description="largest force of this order over a revolution", examples=[4997.4])
 
 
 class MomentOrder(Model):
@@ -77,7 +77,7 @@ class MomentOrder(Model):
     counter_rotating: MomentPhasor = Field(
         description="phasor that turns against the shaft", examples=[{"real_Nm": 9747.0}]
     )
-    peak_Nm: NewtonMetres = Field(description="largest moment of this order over a turn", examples=[19494.0])
+    peak_Nm: NewtonMetres = Field(description="largest moment of this order over a revolution", examples=[19494.0])
 
 
 class Order(Model):
@@ -164,7 +164,9 @@ class InternalMoment(Model):
 class OutputFields(Model):
     """What a scene may ask for beyond the residual; null where it was not asked for."""
 
-    hodograph: Hodographs | None = Field(None, description="first order over a turn, if asked for", examples=[None])
+    hodograph: Hodographs | None = Field(
+        None, description="first order over a revolution, if asked for", examples=[None]
+    )
     orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
     stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
     internal_moment: InternalMoment | None = Field(
@@ -242,11 +244,13 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
         ),
     ),
     "gas": (Column("indicated_power_W", "number", "W", "power put into the gas"),),
-    "piston_force": (Column("peak_piston_force_N", "number", "N", "largest piston force over the turn, magnitude"),),
+    "piston_force": (
+        Column("peak_piston_force_N", "number", "N", "largest piston force over a revolution, magnitude"),
+    ),
     "rod_loads": (Column("peak_rod_load_N", "number", "N", "largest rod force of all load cases, magnitude"),),
     "torque": (
-        Column("mean_torque_Nm", "number", "N m", "mean torque over the turn, whatever the samples"),
-        Column("peak_torque_Nm", "number", "N m", "largest torque over the turn, magnitude"),
+        Column("mean_torque_Nm", "number", "N m", "mean torque over a revolution, whatever the samples"),
+        Column("peak_torque_Nm", "number", "N m", "largest torque over a revolution, magnitude"),
         Column("fluctuation_energy_J", "number", "J", "energy that a flywheel takes up and gives back"),
         Column("shaft_power_W", "number", "W", "mean torque times angular speed"),
         Column("indicated_power_W", "number", "W", "power put into the gas"),
@@ -257,12 +261,16 @@ OUTPUT_COLUMNS: dict[str, tuple[Column, ...]] = {
         Column("inertia_J_kg_m2", "number", "kg m2", "polar moment of inertia of all that turns"),
     ),
     "overturning": (
-        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple over the turn, magnitude"),
+        Column("peak_overturning_Nm", "number", "N m", "largest overturning couple over a revolution, magnitude"),
     ),
-    "roll": (Column("peak_roll_Nm", "number", "N m", "largest roll moment over the turn without its mean, magnitude"),),
+    "roll": (
+        Column("peak_roll_Nm", "number", "N m", "largest roll moment over a revolution without its mean, magnitude"),
+    ),
     "loads": (
-        Column("peak_crosshead_pin_N", "number", "N", "largest rod force of a running row over the turn, magnitude"),
-        Column("peak_sudden_stop_N", "number", "N", "largest rod force of gas alone over the turn, magnitude"),
+        Column(
+            "peak_crosshead_pin_N", "number", "N", "largest rod force of a running row over a revolution, magnitude"
+        ),
+        Column("peak_sudden_stop_N", "number", "N", "largest rod force of gas alone over a revolution, magnitude"),
         Column("own_base_peak_Nm", "number", "N m", "largest torque on a base of the machine's own, magnitude"),
         Column("shared_base_peak_Nm", "number", "N m", "largest torque on a base shared with the driver, magnitude"),
     ),

@@ -22,9 +22,7 @@ _PART = (
     "co: the weighted vector that turns with the shaft; counter: the one that turns against it, which counterweights"
     " change only where the direction weights differ"
 )
-_ANGLE = (
-    "shaft angle at which a response over the whole turn is cut; null where the peak over a turn stands in closed form"
-)
+_ANGLE = "shaft angle at which a response over a revolution is cut; null where the peak has a closed form"
 _SCENARIO = "scenario whose response it is; null for the machine as it is given"
 
 
@@ -96,7 +94,7 @@ class Multipliers(Model):
         description="of the lower bound of the objective", examples=[{"rows": [{"name": "sum", "value": 1.0}]}]
     )
     mass: BoundMultipliers | None = Field(
-        description="of the lower bound of the total mass; null if least mass was not asked for; all 0 where no more"
+        description="of the lower bound of the total mass; null if minimum mass was not asked for; all 0 where no more"
         " than 0 is proven",
         examples=[{"rows": [{"name": "sum", "value": 0.02}]}],
     )

@@ -15,7 +15,7 @@ class Sensitivity(Model):
     objective_rise_per_deg: Annotated[float, Unit("1/deg")] = Field(
         ge=0,
         description="by up to one degree each; exact of one peak or the larger of several, no less than it of a sum of"
-        " peaks, or of loads over the whole turn",
+        " peaks, or of loads over a revolution",
         examples=[105.4],
     )
     objective_rise_per_percent: float = Field(

@@ -11,7 +11,7 @@ class RollMoment(Model):
     """Moment about the crankshaft on the frame, without its mean; counter-clockwise is positive."""
 
     moment_Nm: tuple[NewtonMetres, ...] = Field(description="at the samples", examples=[[0.0]])
-    peak_Nm: NewtonMetres = Field(description="largest over the whole turn, magnitude", examples=[794.7])
+    peak_Nm: NewtonMetres = Field(description="largest over the cycle, magnitude", examples=[794.7])
     peak_bracket_Nm: MomentBracket
     peak_angle_deg: Degrees = Field(description="shaft angle at which it occurs", examples=[38.2])
 

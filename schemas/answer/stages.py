@@ -16,7 +16,7 @@ class Acting(Model):
     order: int = Field(description="multiple of the shaft speed", examples=[1])
     frequency_Hz: Annotated[float, Told("Hz")] = Field(description="its frequency", examples=[8.333])
     unit: Literal["N", "N m"] = Field(description="unit of peak and minor", examples=["N"])
-    peak: float = Field(description="major semi-axis, largest over a turn", examples=[9994.7])
+    peak: float = Field(description="major semi-axis, largest over a revolution", examples=[9994.7])
     minor: float = Field(description="minor semi-axis", examples=[0.0])
     motion: Literal["none", "with_shaft", "against_shaft", "fixed", "ellipse"] = Field(
         description="how it moves: it turns with the shaft or against it, keeps a direction, or runs on an ellipse",

@@ -13,7 +13,7 @@ class Angles(Ruled):
     """Where sampled outputs are sampled."""
 
     step_deg: Annotated[float, Field(ge=0.01, le=120), Unit("deg")] = Field(
-        1.0, description="step of the shaft angle; a turn must hold a whole number of them", examples=[1.0]
+        1.0, description="step of the shaft angle; a revolution must hold a whole number of them", examples=[1.0]
     )
 
     def rules(self) -> Iterator[Rule]:

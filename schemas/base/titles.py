@@ -52,7 +52,7 @@ _TITLES = {
     "max_half_angle_deg": "Half of the largest opening",
     "max_part_numbers": "Most different masses",
     "max_total_mass_kg": "Largest total mass",
-    "min_fitted_mass_kg": "Least mass, if any",
+    "min_fitted_mass_kg": "Minimum mass, if any",
     "multipliers": "Multipliers in the answer",
     "number": "Document number",
     "offset_m": "Offset from the throw",

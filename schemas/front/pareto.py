@@ -78,7 +78,7 @@ class ParetoRequest(OptimizeRequest):
 
     def rules(self) -> Iterator[Rule]:
         yield from super().rules()
-        yield from self.worst_case_rules("a front is of one machine as it is given")
+        yield from self.worst_case_rules("remove it: a front is of one machine as it is given")
         yield from self._trade_rules()
         yield from no_balance_shafts(self.machine, ("machine",), "a front")
         if self.counts is not None or self.responses is not None:
@@ -89,14 +89,14 @@ class ParetoRequest(OptimizeRequest):
         if self.counts is not None:
             yield from self._count_rules(self.counts)
         elif self.chosen:
-            message = "prove what any masses at any angles reach: leave it out where counterweights are chosen"
+            message = "remove it: it proves what free masses at free angles reach, and these counterweights are chosen"
             yield Rule(self.multipliers, ("multipliers",), message)
         budgets = self.total_mass_budgets_kg or ()
         fixed = sum((web.fixed.mass_kg for web in self.machine.webs if web.fixed is not None), 0.0)
         for index, budget in enumerate(budgets):
             path = ("total_mass_budgets_kg", index)
             yield Rule(budget in budgets[:index], path, "this budget is in the list already")
-            yield Rule(budget < fixed, path, "the weights that are fixed are heavier")
+            yield Rule(budget < fixed, path, "the fixed counterweights are heavier than this budget")
         together, places = self.points * len(budgets), self.points * max(1, len(budgets)) * len(self.machine.webs)
         points = f"points times budgets must be at most {MAX_POINTS_TOGETHER}"
         work = f"points times budgets times webs must be at most {MAX_PLACES}"
@@ -105,13 +105,13 @@ class ParetoRequest(OptimizeRequest):
         )
 
     def _count_rules(self, counts: CountTrade) -> Iterator[Rule]:
-        message = "counterweights that are counted are chosen from a catalogue: give masses and angles that there are"
+        message = "counts need a catalogue: give `catalogue`, or masses and hole angles of every web"
         yield Rule(not self.machine.discrete, ("counts",), message)
         yield Rule(self.responses is not None, ("responses",), "give either responses or counts")
-        yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
+        yield Rule(self.multipliers, ("multipliers",), "remove it: only the front of force and moment takes it")
         ceilings = [name for name in type(self.objective).model_fields if "_ceiling_" in name]
         limited = any(getattr(self.objective, name) is not None for name in ceilings)
-        message = "the least mass of all is none: give ceilings that are to be kept"
+        message = "without a ceiling the minimum mass is 0: give at least one ceiling"
         yield Rule(counts.least == "mass" and not limited, ("counts", "least"), message)
         ordered = bool(self.objective.priorities) and self.responses is None
         yield Rule(ordered, ("objective", "priorities"), _NO_ORDER)
@@ -119,16 +119,16 @@ class ParetoRequest(OptimizeRequest):
     def _trade_rules(self) -> Iterator[Rule]:
         if self.responses is None:
             for name in self.objective.over_the_turn if self.counts is None else ():
-                message = "a front is of the first-order peaks: what the whole turn asks for needs responses"
+                message = "this front is of first-order peaks: name the goals in `responses` instead"
                 yield Rule(True, ("objective", name), message)
             return
         yield Rule(bool(self.objective.priorities), ("objective", "priorities"), _NO_ORDER)
         for k, web in enumerate(self.machine.webs):
             fixed = web.fixed is not None
-            yield Rule(fixed, ("machine", "webs", k, "fixed"), "serves only the front of force and moment")
+            yield Rule(fixed, ("machine", "webs", k, "fixed"), "remove it: only the front of force and moment takes it")
         for index, name in enumerate(self.responses):
             yield Rule(name in self.responses[:index], ("responses", index), "this response is in the list already")
-        yield Rule(self.multipliers, ("multipliers",), "serves only the front of force and moment")
+        yield Rule(self.multipliers, ("multipliers",), "remove it: only the front of force and moment takes it")
         together = self.points * max(1, len(self.total_mass_budgets_kg or ()))
         most = f"points times budgets must be at most {MAX_TRADED_POINTS} where responses are named"
         yield Rule(together > MAX_TRADED_POINTS, ("points",), most)
@@ -159,7 +159,7 @@ class CornerCertificate(Model):
     )
     relative_gap: float | None = Field(
         description="how far the point is above the corner: the larger of both differences, each relative to its"
-        " yardstick; null if nothing is proven",
+        " `yardstick`; null if nothing is proven",
         examples=[8e-13],
     )
     yardstick: Scale = Field(
@@ -167,20 +167,21 @@ class CornerCertificate(Model):
     )
     mass_lower_bound_kg: Kilograms | None = Field(
         description="no counterweights that are as good in both peaks, to within that gap, have a smaller total mass;"
-        " null if least mass was not asked for",
+        " null if minimum mass was not asked for",
         examples=[236.35],
     )
     mass_relative_gap: float | None = Field(
-        description="total mass above that bound, over its yardstick; null likewise", examples=[3e-8]
+        description="total mass above that bound, over `yardstick`; null likewise", examples=[3e-8]
     )
     mass_yardstick_kg: Kilograms | None = Field(
-        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the least mass that"
-        " could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does most, so that"
-        " the gap allowed changes none by more than ceilings may be exceeded by. Null if least mass was not asked for",
+        description="what the mass gap is relative to: the total mass; where that is less, 1e-5 of the minimum mass"
+        " that could cancel one of the peaks, or a response under a ceiling, at the web where a kilogram does most."
+        " The gap allowed then changes none by more than the tolerance of a ceiling. Null if minimum mass was not"
+        " asked for",
         examples=[236.35],
     )
     mass_force_limit_N: Newtons | None = Field(
-        description="largest weighted peak force that the bound of the mass allows; null if least mass was not asked"
+        description="largest weighted peak force that the bound of the mass allows; null if minimum mass was not asked"
         " for",
         examples=[7504.6],
     )
@@ -270,7 +271,7 @@ class ParetoFront(Model):
     reason: Reason | None = Field(
         None,
         description="why there are fewer points than asked for. reached_together: both peaks are smallest at the same"
-        " counterweights, within the asked gap. resolution: points that rounding could not tell apart were left out."
+        " counterweights, within the asked gap. resolution: points that rounding could not separate were left out."
         " undecided: the ceilings are on the very boundary of what can be reached, and the point comes closest."
         " Where counterweights are chosen: complete: no set is better than these by more than the asked gap; time:"
         " accuracy.time_limit_s ended the search",

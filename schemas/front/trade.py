@@ -43,18 +43,18 @@ class TradedCertificate(Model):
         description="one value for each response, in their order; null if nothing is proven", examples=[[98000.0, 41.2]]
     )
     relative_gap: float | None = Field(
-        description="how far the point is above the corner: the largest difference over its yardstick; null likewise",
+        description="how far the point is above the corner: the largest difference over `yardstick`; null likewise",
         examples=[3e-7],
     )
     mass_lower_bound_kg: Kilograms | None = Field(
         description="no counterweights that are as good in every response, to within that gap, have a smaller total"
-        " mass; null if least mass was not asked for, or the mass is traded",
+        " mass; null if minimum mass was not asked for, or the mass is traded",
         examples=[41.2],
     )
     mass_relative_gap: float | None = Field(
         description="total mass above that bound, over the mass; null likewise", examples=[2e-6]
     )
-    cuts: int = Field(description="cuts of what is known over the turn", examples=[12])
+    cuts: int = Field(description="cuts of what is known over a revolution", examples=[12])
     rounds: int = Field(description="programs that were solved", examples=[4])
     method: str = Field(description="what found the counterweights", examples=["cuts, clarabel"])
 

@@ -30,8 +30,8 @@ class Catalogue(Ruled):
     )
     angle_step_deg: Annotated[float, Field(gt=0, le=180), Unit("deg")] | None = Field(
         None,
-        description="angles that there are, counted from the own crank, for webs without holes; a turn must hold a"
-        " whole number of them",
+        description="step of the angles for webs without holes, counted from the own crank; a revolution must hold a"
+        " whole number of steps",
         examples=[15.0],
     )
     max_part_numbers: Annotated[Count, Field(ge=1, le=MAX_MASSES)] | None = Field(

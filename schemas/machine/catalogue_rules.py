@@ -20,13 +20,13 @@ def catalogue_rules(catalogue: Catalogue, webs: Sequence[Web]) -> Iterator[Rule]
         yield from _hole_rules(("webs", k, "hole_angles_deg"), web)
         step = catalogue.mass_step_kg if web.catalogue_masses_kg is None else None
         no_masses = web.catalogue_masses_kg is None and catalogue.masses_kg is None and step is None
-        message = "chosen from a catalogue: give the masses of this web, or masses or their step for all"
+        message = "the catalogue has no masses for this web: give them here, or for all webs in `catalogue`"
         yield Rule(no_masses, ("webs", k, "catalogue_masses_kg"), message)
         no_angles = web.hole_angles_deg is None and catalogue.angle_step_deg is None
-        message = "chosen from a catalogue: give the holes of this web, or a step of angles for all"
+        message = "the catalogue has no angles for this web: give its holes, or `catalogue.angle_step_deg`"
         yield Rule(no_angles, ("webs", k, "hole_angles_deg"), message)
         endless = step is not None and web.max_mass_kg is None
-        yield Rule(endless, ("webs", k, "max_mass_kg"), "steps of mass need a largest mass")
+        yield Rule(endless, ("webs", k, "max_mass_kg"), "`mass_step_kg` needs a largest mass of this web")
         if no_masses or no_angles or endless:
             continue
         masses = len(web.catalogue_masses_kg or catalogue.masses_kg or ())

@@ -84,8 +84,8 @@ class IndicatedPressure(Ruled):
     )
     dead_centre_deg: Annotated[Angle | None, Unit("deg")] = Field(
         None,
-        description="shaft angle of the outer dead centre of the row from which the angles count, 0 to 360, with two "
-        "turns to 720; null is the first",
+        description="shaft angle of the outer dead centre of the row from which the angles count, 0 to 360, or to "
+        "720 for two revolutions; null is the first",
         examples=[0.0],
     )
 

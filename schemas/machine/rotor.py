@@ -102,7 +102,8 @@ class Rotor(Ruled):
                 taken.add(name)
                 web = webs.get(name)
                 if web is not None:
-                    yield Rule(web.fixed is not None, path, "the weight of this web is fixed: nothing is chosen")
+                    message = "remove this web from the group: it has a fixed counterweight"
+                    yield Rule(web.fixed is not None, path, message)
                     endless = group.mirror and web.envelope is None and web.max_mass_kg is None
                     yield Rule(endless, path, "a mirrored pair needs max_mass_kg: give its webs a limit")
 
@@ -137,7 +138,7 @@ class Rotor(Ruled):
         yield from self._group_rules()
         fixed = sum((web.fixed.mass_kg for web in self.webs if web.fixed is not None), 0.0)
         if self.max_total_mass_kg is not None:
-            message = "the weights that are fixed are heavier"
+            message = "the fixed counterweights are heavier than this limit"
             yield Rule(fixed > self.max_total_mass_kg, ("max_total_mass_kg",), message)
 
 

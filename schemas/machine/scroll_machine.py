@@ -53,7 +53,7 @@ class ScrollMachine(Rotor):
 
     rotation_torque_Nm: TorqueOverTurn | None = Field(
         None,
-        description="torque that turns the scroll about itself, constant or over one turn; needed by pin_loads",
+        description="torque that turns the scroll about itself, constant or over one revolution; needed by pin_loads",
         examples=[12.5],
     )
     tangential_gas_force_N: ForceOverTurn | None = Field(

@@ -75,7 +75,7 @@ class WebGroup(Model):
 
     name: Name = Field(description="name of the group, unique in the machine", examples=["cheeks"])
     webs: Annotated[tuple[Name, ...], Field(max_length=MAX_GROUPED), NotEmpty()] = Field(
-        description="names of its webs, which are alike", examples=[["1a", "1b"]]
+        description="names of its webs, which are equal", examples=[["1a", "1b"]]
     )
     mirror: Flag = Field(
         False,
@@ -120,8 +120,8 @@ class Web(Ruled):
     )
     fixed: FixedWeight | None = Field(
         None,
-        description="a weight that is there already: it counts in the total mass and in what remains, and nothing is"
-        " chosen for this web",
+        description="a counterweight that is fitted already: it counts in the total mass and in the residual, and this"
+        " web takes no other",
         examples=[None],
     )
     min_fitted_mass_kg: Annotated[Annotated[float, positive(1e15)] | None, Unit("kg")] = Field(
@@ -170,7 +170,7 @@ class Web(Ruled):
     def rules(self) -> Iterator[Rule]:
         if self.min_fitted_mass_kg is not None and self.fixed is None:
             path, most = ("min_fitted_mass_kg",), self.max_mass_kg
-            yield Rule(self.envelope is not None, path, "not with an envelope")
+            yield Rule(self.envelope is not None, path, "remove it: a web with an `envelope` has no minimum mass")
             if most is not None:
                 yield Rule(self.min_fitted_mass_kg > most, path, "more than max_mass_kg of this web")
         if self.fixed is not None:
@@ -179,15 +179,16 @@ class Web(Ruled):
                 heavier = self.fixed.mass_kg > self.max_mass_kg
                 yield Rule(heavier, ("fixed", "mass_kg"), "more than max_mass_kg of this web")
             for name in _CHOSEN:
-                message = "nothing is chosen where a weight is fixed: leave it out"
+                message = f"remove `{name}`: this web has a fixed counterweight"
                 yield Rule(getattr(self, name) is not None, (name,), message)
         elif self.envelope is None:
             # left out, and not null: no limit has to be meant
             yield Rule("max_mass_kg" not in self.model_fields_set, ("max_mass_kg",), REQUIRED)
             yield Rule(self.counterweight_radius_m is None, ("counterweight_radius_m",), REQUIRED)
         else:
-            message = "follows from the envelope: leave it out"
+            message = "remove it: it follows from the `envelope` of this web"
             yield Rule(self.counterweight_radius_m is not None, ("counterweight_radius_m",), message)
             yield Rule(self.max_mass_kg is not None, ("max_mass_kg",), message)
             bolted = self.max_centrifugal_force_N is not None
-            yield Rule(bolted, ("max_centrifugal_force_N",), "not with an envelope: limit its opening")
+            message = "remove it: limit `max_half_angle_deg` of the `envelope` instead"
+            yield Rule(bolted, ("max_centrifugal_force_N",), message)

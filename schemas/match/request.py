@@ -133,13 +133,13 @@ class MatchRequest(Ruled):
     def rules(self) -> Iterator[Rule]:
         yield from no_balance_shafts(self.machine, ("machine",), "a match")
         for broken, path, message in self.machine.no_envelopes(
-            "parts are matched first: optimise with the rows of the answer"
+            "remove it: match the parts first, then optimise with the rows of the answer"
         ):
             yield Rule(broken, ("machine", *path), message)
         yield from no_catalogue(self.machine, ("machine",), _MATCHED_FIRST)
         yield from no_groups(self.machine, ("machine",), _MATCHED_FIRST)
         rows = self.places
-        yield Rule(not rows, ("machine", "throws"), "parts need rows to go on")
+        yield Rule(not rows, ("machine", "throws"), "parts need at least one row")
         yield Rule(not self.parts and not self.balance_nuts_kg, ("parts",), "nothing to match: give parts or nuts")
         kinds = [each.kind for each in self.parts]
         for k, each in enumerate(self.parts):
@@ -147,21 +147,23 @@ class MatchRequest(Ruled):
             yield from _parts_rules(("parts", k), each, rows)
         yield from fitted_rules(self.machine, self.counterweights)
         both = self.choose_counterweights and bool(self.counterweights)
-        yield Rule(both, ("counterweights",), "either they are on the machine or they are chosen")
+        yield Rule(both, ("counterweights",), "give either `counterweights` or `choose_counterweights`")
         for k, web in enumerate(self.machine.webs):
             endless = (
                 self.choose_counterweights
                 and web.fixed is None
                 and (web.max_mass_kg is None or web.max_mass_kg > _LARGEST)
             )
-            yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), "counterweights to be chosen need a limit here")
+            message = f"a match that chooses counterweights needs a limit of at most {_LARGEST:g} kg here"
+            yield Rule(endless, ("machine", "webs", k, "max_mass_kg"), message)
             fixed = self.choose_counterweights and web.fixed is not None
-            yield Rule(fixed, ("machine", "webs", k, "fixed"), "not where counterweights are chosen with the parts")
+            message = "remove it, or do not choose counterweights with the parts"
+            yield Rule(fixed, ("machine", "webs", k, "fixed"), message)
         for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "parts are matched for force and moment of the first order")
+            yield Rule(True, ("objective", name), "remove it: parts are matched for first-order force and moment")
         for name in _CEILINGS:
             given = getattr(self.objective, name) is not None
-            yield Rule(given, ("objective", name), "parts are matched without ceilings")
+            yield Rule(given, ("objective", name), "remove it: parts are matched without ceilings")
 
 
 def _parts_rules(path: Path, parts: Parts, rows: tuple[RowPlace, ...]) -> Iterator[Rule]:

@@ -66,7 +66,8 @@ class CylinderSize(Model):
         description="piston area of one cylinder on the crank side, without the rod", examples=[0.40904]
     )
     swept_volume_m3: CubicMetres = Field(
-        description="volume swept in one turn by all working sides of all cylinders of the stage", examples=[0.23172]
+        description="volume swept in one revolution by all working sides of all cylinders of the stage",
+        examples=[0.23172],
     )
 
 

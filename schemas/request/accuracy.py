@@ -25,7 +25,7 @@ class AccuracyRequest(OptimizeRequest):
         yield from self.worst_case_rules("the ladder is of one machine as it is given")
         yield from self.envelope_rules("the ladder is of counterweights of a known radius")
         for name in self.objective.over_the_turn:
-            yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of the whole turn")
+            yield Rule(True, ("objective", name), "the ladder is of the first order: not asked of a whole cycle")
         yield from no_balance_shafts(self.machine, ("machine",), "the ladder")
         yield from no_catalogue(self.machine, ("machine",), "the ladder")
         yield from no_groups(self.machine, ("machine",), "the ladder")
@@ -92,7 +92,7 @@ class EffectRow(Model):
 
     quantity: Literal[
         "mean_torque", "peak_torque", "fluctuation_energy", "peak_inertia_torque", "inertia_fluctuation_energy"
-    ] = Field(description="figure over the turn", examples=["fluctuation_energy"])
+    ] = Field(description="figure over the cycle", examples=["fluctuation_energy"])
     method: Literal["panels", "search", "samples"] = Field(
         description="panels: what the service does, Gauss-Legendre panels between the kinks; search: the peak on "
         "both sides of every jump and between them; samples: values at equal steps, the mean as their average, the "
@@ -200,7 +200,7 @@ class AccuracyAnswer(Answer):
         examples=[[]],
     )
     peaks_ladder: tuple[PeakRow, ...] = Field(
-        description="peaks over the turn, brute force on even and uneven grids against the bracket; empty where the "
+        description="peaks over the cycle, brute force on even and uneven grids against the bracket; empty where the "
         "machine gives no rods, and of bearings and bending only where it has bearings",
         examples=[[]],
     )

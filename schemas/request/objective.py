@@ -26,7 +26,7 @@ class Priority(Model):
 
     goal: Literal["external", "bearings", "bending", "mass"] = Field(
         description="external: force, moment and roll as they are weighed and combined; bearings, bending: the largest"
-        " of their kind; mass: the least total mass, always the last",
+        " of their kind; mass: the minimum total mass, always the last",
         examples=["external"],
     )
     allowance: Fraction = Field(
@@ -105,7 +105,7 @@ class Objective(Ruled):
     )
     bearing_measure: Literal["peak", "rms", "specific"] = Field(
         "peak",
-        description="of every bearing the peak over the turn, the root mean square, or the peak over diameter times"
+        description="of every bearing the peak over the cycle, the root mean square, or the peak over diameter times"
         " length",
         examples=["peak"],
     )
@@ -137,7 +137,7 @@ class Objective(Ruled):
         examples=[[{"goal": "external", "allowance": 0.001}, {"goal": "bearings"}, {"goal": "mass"}]],
     )
     least_mass: Flag = Field(
-        True, description="among all optima take the one with the least total mass", examples=[True]
+        True, description="among all optima take the one with the minimum total mass", examples=[True]
     )
     symmetric: Flag = Field(
         True,
@@ -162,7 +162,7 @@ class Objective(Ruled):
         yield Rule(some == 0, ("moment_weight",), "one of the weights must be above 0")
         across = self.direction_weights
         unequal = (across.x != across.y) & (self.orders == "all")
-        yield Rule(unequal, ("direction_weights",), "all orders count alike in every direction: equal weights only")
+        yield Rule(unequal, ("direction_weights",), "with all orders both directions count equally: give equal weights")
         weighed = {"external": external, "bearings": self.bearing_weight != 0, "bending": self.bending_weight != 0}
         named = [priority.goal for priority in self.priorities]
         for i, goal in enumerate(named):

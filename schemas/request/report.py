@@ -68,7 +68,9 @@ class ReportRequest(OptimizeRequest):
             names.add(version.name)
             if version.counterweights is not None:
                 unasked = version.objective is not None
-                yield Rule(unasked, (*place, "objective"), "nothing is chosen where counterweights are given")
+                yield Rule(
+                    unasked, (*place, "objective"), "remove `objective`: this version has counterweights of its own"
+                )
                 machine = version.machine or self.machine
                 for broken, path, message in fitted_rules(machine, version.counterweights):
                     yield Rule(broken, (*place, *path), message)

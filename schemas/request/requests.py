@@ -44,7 +44,7 @@ class Accuracy(Model):
         5.0,
         gt=0,
         le=30,
-        description="computing time after which a search over the whole turn or among"
+        description="computing time after which a search over a revolution or among"
         " discrete choices ends and says its gap [s]",
         examples=[5.0],
     )

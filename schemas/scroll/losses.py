@@ -57,14 +57,16 @@ class OldhamLoads(Model):
     peak_speed_m_s: MetresPerSecond = Field(
         description="largest sliding speed, orbit radius times angular speed", examples=[1.57]
     )
-    loss_W: Watts = Field(description="mean over the turn of friction times sliding speed, all keys", examples=[16.7])
+    loss_W: Watts = Field(
+        description="mean over a revolution of friction times sliding speed, all keys", examples=[16.7]
+    )
 
 
 class Losses(Model):
     """What pins and ring cost."""
 
     pins_W: Watts | None = Field(
-        description="mean friction loss of all pins over the turn; null where a dead point leaves it without bound",
+        description="mean friction loss of all pins over a revolution; null where a dead point leaves it without bound",
         examples=[1.33],
     )
     oldham_ring: OldhamLoads = Field(description="the ring", examples=[{"loss_W": 16.7}])

@@ -22,7 +22,7 @@ TableAngles = Annotated[
     Field(
         min_length=2,
         max_length=MAX_TABLE,
-        description="shaft angles, rising, within one turn from 0; a last one at 360 repeats the first value",
+        description="shaft angles, rising, within one revolution from 0; a last one at 360 repeats the first value",
         examples=[[0.0, 120.0, 240.0]],
     ),
 ]
@@ -62,9 +62,9 @@ def _table_rules(angles: tuple[float, ...], values: tuple[float, ...], name: str
     yield from first_of(
         [
             *rising,
-            Rule(late, ("angle_deg", last), "360 ends the turn only if the table begins at 0"),
-            Rule(jumps, (name, last), "the value at 360 must be that at 0: the table is one turn"),
-            Rule(short, ("angle_deg",), "must hold at least two different angles of the turn"),
+            Rule(late, ("angle_deg", last), "360 ends the revolution only if the table begins at 0"),
+            Rule(jumps, (name, last), "the value at 360 must be that at 0: the table is one revolution"),
+            Rule(short, ("angle_deg",), "must hold at least two different angles of the revolution"),
         ]
     )
 

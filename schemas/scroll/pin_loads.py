@@ -65,12 +65,12 @@ class PinLoadsRequest(Ruled):
     )
     rotation_torque_Nm: TorqueOverTurn | None = Field(
         None,
-        description="torque that turns the orbiting scroll about itself, constant or over one turn",
+        description="torque that turns the orbiting scroll about itself, constant or over one revolution",
         examples=[12.5, _TORQUE_EXAMPLE],
     )
     tangential_gas_force_N: ForceOverTurn | None = Field(
         None,
-        description="tangential gas force on the orbiting scroll, constant or over one turn, "
+        description="tangential gas force on the orbiting scroll, constant or over one revolution, "
         "in place of the torque that it causes",
         examples=[5000.0, {"angle_deg": [0, 120, 240], "force_N": [4000, 5000, 4300]}],
     )
@@ -155,12 +155,12 @@ class PinLoad(Model):
         description="force on the scroll, positive along the eccentric; null at a dead point", examples=[[0.0, 2.91]]
     )
     peak_N: Newtons | None = Field(
-        description="largest magnitude over the turn, between the samples too; null where a dead point has no bound",
+        description="largest magnitude over a revolution, between samples too; null where a dead point has no bound",
         examples=[166.67],
     )
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[90.0])
     compression_from_deg: Degrees | None = Field(
-        description="where the pin's compression begins; null if torque or contact do not leave half a turn of it",
+        description="where the pin's compression begins; null if torque or contact leave less than half a revolution",
         examples=[0.0],
     )
     compression_to_deg: Degrees | None = Field(description="where its compression ends", examples=[180.0])
@@ -217,7 +217,7 @@ class DriveBearingLoad(Model):
         description="positive along the eccentric; null at a dead point", examples=[[-12.0, -11.5]]
     )
     peak_N: Newtons | None = Field(
-        description="largest magnitude over the turn; null where a dead point has no bound", examples=[98.0]
+        description="largest magnitude over a revolution; null where a dead point has no bound", examples=[98.0]
     )
     peak_angle_deg: Degrees | None = Field(description="first shaft angle of the peak", examples=[20.0])
 
@@ -255,7 +255,7 @@ class PinLoads(Model):
         description="largest load of any pin; null where a dead point has no bound", examples=[166.67]
     )
     half_turn_mechanism_peak_N: Newtons = Field(
-        description="the same for a mechanism whose members bear for half a turn only, 4 T / (n R) "
+        description="the same for a mechanism whose members bear for half a revolution only, 4 T / (n R) "
         "at the largest torque and the mean radius",
         examples=[333.33],
     )

@@ -26,10 +26,10 @@ _CERTIFICATE = (
     Column("method", "text", None, "what found the counterweights"),
     Column("objective", "number", None, "objective of the counterweights, recomputed"),
     Column("lower_bound", "number", None, "no counterweights within the limits have a smaller objective"),
-    Column("relative_gap", "number", None, "objective above that bound, over the yardstick"),
+    Column("relative_gap", "number", None, "objective above that bound, over `yardstick`"),
     Column("yardstick", "number", None, "what relative gaps are relative to: the objective without counterweights"),
     Column("mass_lower_bound_kg", "number", "kg", "no optimum has a smaller total mass"),
-    Column("mass_relative_gap", "number", None, "total mass above that bound, over its yardstick"),
+    Column("mass_relative_gap", "number", None, "total mass above that bound, over `yardstick`"),
     Column(
         "mass_yardstick_kg", "number", "kg", "what that gap is relative to: the total mass, or the least that counts"
     ),

@@ -119,7 +119,7 @@ DETAILS: dict[str, tuple[Details, ...]] = {
         Details(
             "chambers",
             (
-                _number("indicated_work_J", "J", "work put into the gas of this chamber in one turn"),
+                _number("indicated_work_J", "J", "work put into the gas of this chamber in one revolution"),
                 _number("suction_opens_deg", "deg", "own crank angle at which its suction opens"),
                 _number("discharge_opens_deg", "deg", "own crank angle at which its discharge opens"),
             ),
@@ -129,8 +129,8 @@ DETAILS: dict[str, tuple[Details, ...]] = {
         Details(
             "rows",
             (
-                _number("piston_tension_N", "N", "largest sum of the forces on this piston over the turn"),
-                _number("piston_compression_N", "N", "smallest sum of the forces on this piston over the turn"),
+                _number("piston_tension_N", "N", "largest sum of the forces on this piston over the cycle"),
+                _number("piston_compression_N", "N", "smallest sum of the forces on this piston over the cycle"),
             ),
         ),
     ),
@@ -139,7 +139,7 @@ DETAILS: dict[str, tuple[Details, ...]] = {
             "rows",
             (
                 _number("rod_load_N", "N", "largest rod force of this row of all load cases, magnitude"),
-                _number("peak_side_N", "N", "largest force on the guide of this row over the turn, magnitude"),
+                _number("peak_side_N", "N", "largest force on the guide of this row over the cycle, magnitude"),
             ),
         ),
         Details(
@@ -151,7 +151,7 @@ DETAILS: dict[str, tuple[Details, ...]] = {
         ),
     ),
     "torque": (
-        Details("rows", (_number("mean_torque_Nm", "N m", "mean torque of this row over the turn"),)),
+        Details("rows", (_number("mean_torque_Nm", "N m", "mean torque of this row over the cycle"),)),
         Details("machine", (_number("rotating_friction_Nm", "N m", "rotating friction, constant"),)),
     ),
     "flywheel": (
@@ -174,9 +174,9 @@ DETAILS: dict[str, tuple[Details, ...]] = {
                 _number("rotating_mass_kg", "kg", "all that turns at the crank pin in the plane of this row"),
                 _number("largest_gas_N", "N", "largest gas force of this row among the samples, magnitude"),
                 _number("largest_inertia_N", "N", "largest inertia force among the samples, magnitude"),
-                _number("largest_piston_force_N", "N", "largest sum of all of them over the turn, magnitude"),
+                _number("largest_piston_force_N", "N", "largest sum of all of them over the cycle, magnitude"),
                 _number("piston_rod_N", "N", "for piston rod and pin: the largest of the three"),
-                _number("crosshead_pin_N", "N", "largest rod force of this row running, over the turn, magnitude"),
+                _number("crosshead_pin_N", "N", "largest rod force of this row running, over the cycle, magnitude"),
                 _number("stop_at_outer_dead_centre_N", "N", "gas force of a sudden stop at its outer dead centre"),
                 _number("stop_at_inner_dead_centre_N", "N", "gas force of a sudden stop at its inner dead centre"),
                 _number("stop_over_the_turn_N", "N", "largest rod force of a sudden stop anywhere, magnitude"),
@@ -221,7 +221,7 @@ DETAILS: dict[str, tuple[Details, ...]] = {
             "bearings",
             (
                 _number("specific_load_Pa", "Pa", "largest load of this bearing over diameter times length"),
-                _number("bearing_rms_N", "N", "root of the mean square of the load of this bearing over the turn"),
+                _number("bearing_rms_N", "N", "root of the mean square of the load of this bearing over the cycle"),
                 _number("bearing_floor_N", "N", "what the peak comes to at least, whatever turns with the shaft"),
                 _number("bearing_circle_x_N", "N", "x of the centre of the smallest circle around the load"),
                 _number("bearing_circle_y_N", "N", "y of that centre, as the shaft sees it"),

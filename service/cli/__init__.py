@@ -74,5 +74,5 @@ def main() -> None:
         if os.environ.get(_LOG_LEVEL, "").lower() == "debug":
             traceback.print_exc()
         said = f"{type(error).__name__}: {error}".partition("\n")[0]
-        typer.echo(f"internal fault, not of the input: {said} ({_LOG_LEVEL}=debug tells where)", err=True)
+        typer.echo(f"internal fault, not of the input: {said} ({_LOG_LEVEL}=debug logs where)", err=True)
         raise SystemExit(FAULT) from None

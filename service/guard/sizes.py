@@ -66,7 +66,7 @@ class SizeLimits:
                     yield from self._machine_problems(version.machine, ("versions", index, "machine"))
         angles = getattr(asked, "angles", None)
         if isinstance(angles, Angles) and angles.count > self.angles:
-            message = f"a turn may hold at most {self.angles} samples here"
+            message = f"a revolution may hold at most {self.angles} samples here"
             yield FieldProblem((*at, "angles", "step_deg"), message)
 
     def _machine_problems(self, machine: Machine, at: Path) -> Iterator[FieldProblem]:

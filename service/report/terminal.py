@@ -93,4 +93,4 @@ def _coarse(samples: Samples) -> Iterator[Table]:
             for k in range(0, len(samples.angle_deg), stride)
         ]
         heads = ["#angle, deg", *(f"#{name}" for name, _ in some)]
-        yield table(f"{samples.title} over the turn, {samples.unit}", heads, rows)
+        yield table(f"{samples.title} over the cycle, {samples.unit}", heads, rows)

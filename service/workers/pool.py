@@ -147,7 +147,7 @@ class Pool:
                     await long.granted()
                     computing = True
                     outcome = await self._computed(replace(task, long=True), Priority.LONG, short, long)
-                    assert not isinstance(outcome, Long), "it has a turn of the long ones"
+                    assert not isinstance(outcome, Long), "a long computation has been granted"
                     return outcome
         except Full:
             self.counts.refused_busy += 1

@@ -125,7 +125,7 @@ def test_what_stands_beside_the_answer(portal: Portal, url: str) -> None:
     portal.open("2d12", ("cranks", "orders"))
     answer = ask(url, "/v1/optimize", ask(url, "/v1/examples/2d12"))
     rows = cells(portal.panel("orders").locator("table"))
-    assert [row[0] for row in rows] == ["1, once a turn", "2, twice a turn"]
+    assert [row[0] for row in rows] == ["1, once a revolution", "2, twice a revolution"]
     second = answer["residual"]["orders"]["after"][1]
     assert float(rows[1][2].replace(",", "")) == pytest.approx(second["force"]["peak_N"], rel=1e-4)
     rates = cells(portal.panel("cranks").locator("table"))

@@ -21,7 +21,7 @@ DISCOURAGED = {
     r"ample": "large",
     r"dust": "negligible mass",
     r"what (?:remains|is left)": "residual",
-    r"(?:this|that|another|the same|which|a) ways?": "method",
+    r"(?:this|that|another|in the same|which|a) ways?": "method",
     r"alike": "equal",
 }
 _DISCOURAGED = {re.compile(rf"\b(?:{pattern})\b", re.IGNORECASE): better for pattern, better in DISCOURAGED.items()}

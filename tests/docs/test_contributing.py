@@ -58,7 +58,7 @@ with TestClient(create_app(Settings(), warm=False)) as client:
     missing = json.loads(json.dumps(body))
     del missing["machine"]["throws"][0]["rows"][0]["connecting_rod"]
     refused = client.post("/v1/optimize", json=missing)
-    assert refused.status_code == 422 and "asked for by output 'obliquity'" in refused.text
+    assert refused.status_code == 422 and "needed by output 'obliquity'" in refused.text
 
 path = "/machine/throws/0/crank_radius_m"
 axis = {"path": path, "values": [0.1, 0.12, 0.14]}

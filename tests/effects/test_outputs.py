@@ -138,7 +138,7 @@ def test_all_that_is_missing_is_named_at_once() -> None:
     problems = {problem.path: problem.message for problem in refused.value.problems}
     row = ("machine", "throws", 0, "rows", 0, "cylinder")
     assert set(problems) == {row, ("machine", "flywheel"), ("machine", "bearings")}
-    assert problems[row].endswith("asked for by output 'gas'")
+    assert problems[row].endswith("needed by output 'gas'")
 
 
 @pytest.mark.parametrize("output", SAMPLED)

@@ -157,7 +157,7 @@ def test_of_an_ample_choice_it_says_that_nothing_closer_can_be_proven() -> None:
     assert found.certificate is not None
     assert found.status == "inaccurate"
     assert found.certificate.lower_bound == found.certificate.continuous_lower_bound
-    assert "nothing closer can be proven" in found.status_reason
+    assert "no closer bound was proven" in found.status_reason
 
 
 def test_rows_of_a_sweep() -> None:

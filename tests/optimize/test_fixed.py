@@ -164,7 +164,7 @@ def test_bad_input_names_the_field(change: dict[str, Any], pointer: tuple[str, .
 def test_heavier_than_all_that_is_allowed() -> None:
     body = with_fixed()
     body["machine"]["max_total_mass_kg"] = KG - 1
-    with pytest.raises(ValidationError, match="the weights that are fixed are heavier"):
+    with pytest.raises(ValidationError, match="the fixed counterweights are heavier"):
         OptimizeRequest.model_validate(body)
 
 

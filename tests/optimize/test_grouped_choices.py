@@ -115,9 +115,9 @@ def test_counts_are_of_webs(mirror: bool) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"catalogue_masses_kg": [1.0, 2.0]}, "its catalogue_masses_kg is not that of 0a"),
-        ({"min_fitted_mass_kg": 2.0}, "its min_fitted_mass_kg is not that of 0a"),
-        ({"hole_angles_deg": [10.0, 20.0]}, "its hole_angles_deg, counted from the own crank, is not that of 0a"),
+        ({"catalogue_masses_kg": [1.0, 2.0]}, "its catalogue_masses_kg must equal that of 0a"),
+        ({"min_fitted_mass_kg": 2.0}, "its min_fitted_mass_kg must equal that of 0a"),
+        ({"hole_angles_deg": [10.0, 20.0]}, "its hole_angles_deg, counted from the own crank, must equal that of 0a"),
     ],
 )
 def test_unlike_choices_are_refused(change: dict[str, Any], words: str) -> None:

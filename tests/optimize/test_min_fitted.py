@@ -216,7 +216,7 @@ def test_ceilings_that_nothing_heavy_enough_keeps() -> None:
     found = optimized(body)
     assert found.status == "infeasible"
     assert found.infeasibility is not None
-    assert "tree" in found.status_reason
+    assert "branch and bound" in found.status_reason
 
 
 def test_of_a_catalogue_what_is_too_light_is_left_out() -> None:

@@ -185,11 +185,11 @@ def test_bad_groups_name_the_field(groups: list[list[str]], path: tuple[str | in
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"counterweight_radius_m": 0.3}, "its counterweight_radius_m is not that of 0a"),
-        ({"max_mass_kg": 1.0}, "its max_mass_kg is not that of 0a"),
+        ({"counterweight_radius_m": 0.3}, "its counterweight_radius_m must equal that of 0a"),
+        ({"max_mass_kg": 1.0}, "its max_mass_kg must equal that of 0a"),
         (
             {"sector": {"centre_deg": 0, "half_angle_deg": 10}},
-            "its sector, counted from the own crank, is not that of",
+            "its sector, counted from the own crank, must equal that of",
         ),
         ({"position_m": -0.15}, "belongs to no crank: name its throw"),
     ],

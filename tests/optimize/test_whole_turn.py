@@ -219,7 +219,7 @@ def test_what_a_machine_lacks_is_named() -> None:
         optimize(asked(machine, bearing_weight=1))
     (problem,) = missing.value.problems
     assert problem.path == ("machine", "bearings")
-    assert problem.message == "bearing loads need the bearings; asked for by objective.bearing_weight"
+    assert problem.message == "bearing loads need the bearings; needed by objective.bearing_weight"
     with pytest.raises(MissingInput) as missing:
         optimize(asked(machine, bending_ceiling_Nm=5.0))
     (problem,) = missing.value.problems
@@ -230,12 +230,12 @@ def test_what_a_machine_lacks_is_named() -> None:
         optimize(asked(machine, orders="all"))
     (problem,) = missing.value.problems
     assert problem.path == ("machine", "throws", 0, "rows", 0, "connecting_rod")
-    assert problem.message.endswith("asked for by objective.orders")
+    assert problem.message.endswith("needed by objective.orders")
 
 
 def test_fronts_refuse_the_whole_turn() -> None:
     base = {"machine": inline_six(), "objective": {"bearing_weight": 1}}
-    with pytest.raises(ValidationError, match="whole turn"):
+    with pytest.raises(ValidationError, match="name the goals in `responses`"):
         ParetoRequest.model_validate(base)
 
 

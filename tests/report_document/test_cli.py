@@ -38,7 +38,7 @@ def test_an_infeasible_machine_is_reported_and_told_by_the_exit_code(machine: Pa
     body: dict[str, Any] = json.loads(machine.read_bytes())
     machine.write_text(json.dumps({**body, "objective": {"moment_ceiling_Nm": 1}}))
     assert run(machine, "-o", tmp_path / "report.html").exit_code == 1
-    assert "Infeasible, and proven so" in (tmp_path / "report.html").read_text()
+    assert "Proven infeasible" in (tmp_path / "report.html").read_text()
 
 
 @pytest.mark.parametrize(

@@ -102,7 +102,7 @@ def test_the_verdict_on_an_optimum(made: Make) -> None:
     assert answer.certificate is not None
     found = made("2d12")
     assert found.status == "optimal"
-    assert f"better than an objective of {answer.certificate.lower_bound:.6g}" in words(found, "Result")
+    assert f"bring the objective below {answer.certificate.lower_bound:.6g}" in words(found, "Result")
     (figures,) = tables(found, "Certificate")
     assert ("lower bound", answer.certificate.lower_bound) in values(figures)
 
@@ -120,14 +120,14 @@ def test_the_verdict_on_less_accuracy_than_was_asked_for() -> None:
     answer = optimize(request).model_copy(update={"status": "inaccurate"})
     said = document(request, answer, (), AT)
     assert said.status == "inaccurate"
-    assert "Not certified to the accuracy asked for" in words(said, "Result")
+    assert "Inaccurate: the counterweights below keep the limits" in words(said, "Result")
 
 
 def test_a_machine_without_a_place_for_counterweights(made: Make) -> None:
     request = asked("2d12").model_dump(mode="json")
     request["machine"]["webs"] = []
     found = made("2d12", **request)
-    assert "no place for counterweights" in words(found, "Result")
+    assert "no web for counterweights" in words(found, "Result")
     assert words(found, "Counterweights").startswith("There are none.")
 
 

@@ -61,7 +61,7 @@ def test_without_versions_there_is_no_chapter() -> None:
     ("version", "field", "said"),
     [
         ({"counterweights": [{"web": "9", "mass_kg": 1, "angle_deg": 0}]}, ("counterweights", 0, "web"), "no web"),
-        ({"counterweights": [], "objective": {}}, ("objective",), "nothing is chosen"),
+        ({"counterweights": [], "objective": {}}, ("objective",), "counterweights of its own"),
         ({"objective": {"roll_weight": 1}}, ("objective", "roll_weight"), "balance shafts"),
         ({"name": ""}, ("name",), "at least 1"),
     ],

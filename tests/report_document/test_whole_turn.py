@@ -89,7 +89,7 @@ def test_of_ceilings_out_of_reach_the_one_that_each_figure_is_of() -> None:
     for bearing in machine["bearings"]:
         bearing |= {"diameter_m": 0.06, "length_m": 0.02}
     request = asked(machine, bearing_ceiling_N=0.1, specific_load_ceiling_Pa=0.05 / 0.0012)
-    rows = rows_of(report(of(request)), "What else has a ceiling by itself")
+    rows = rows_of(report(of(request)), "Other responses under a ceiling, each by itself")
     specific = "specific bearing loads, times diameter and length"
     # both bearings are alike, so that either may stand for both
     assert {tuple(row[1:3]) for row in rows} == {("bearing loads", "N"), (specific, "N")}

@@ -14,8 +14,8 @@ from tests.service.test_dynamics import OVER_THE_TURN
 
 SHOWN = {
     "kinematics": ("Motion", "I: velocity, m/s", "7.47575", "460.582"),
-    "gas": ("suction opens, deg", "36.873", "286.5", "indicated power, W", "machine", "gas force over the turn, N"),
-    "piston_force": ("I: gas", "II: inertia", "I: sum", "piston force over the turn, N"),
+    "gas": ("suction opens, deg", "36.873", "286.5", "indicated power, W", "machine", "gas force over the cycle, N"),
+    "piston_force": ("I: gas", "II: inertia", "I: sum", "piston force over the cycle, N"),
     "rod_loads": ("sudden stop", "(governs)", "tangential", "largest rod force of the machine"),
     "torque": (
         "Mean torque of the rows",
@@ -26,7 +26,7 @@ SHOWN = {
         " 330 │",
     ),
     "flywheel": ("irregularity", "moment of inertia J", "MD2 = 4 J, kg m2"),
-    "overturning": ("Overturning couple", "machine", "largest couple over the turn, N m"),
+    "overturning": ("Overturning couple", "machine", "largest couple over the cycle, N m"),
     "main_bearings": ("every span simply supported", "peak without", "peak with", "Largest bending moment"),
 }
 
@@ -101,7 +101,7 @@ def test_many_rows_stand_below_each_other() -> None:
     result = run("analyze", "-", "--output", "torque", given=json.dumps(body).encode())
     assert result.exit_code == 0
     # the heading of a table, not the largest of all
-    assert len(re.findall(r"^torque over the turn, N m", result.stdout, re.MULTILINE)) == 2
+    assert len(re.findall(r"^torque over the cycle, N m", result.stdout, re.MULTILINE)) == 2
 
 
 def test_rating() -> None:

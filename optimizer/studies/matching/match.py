@@ -37,8 +37,8 @@ _PROGRAMS = 16
 #: candidates that are solved to prove that none is better
 _CANDIDATES = 2_000
 _LEFT = (
-    "No exchange that the search tried is better, and too many assignments are left to compare all of them: the gap to"
-    " the proven lower bound is what was reached, and more time would change nothing."
+    "No exchange of the search gives a better assignment, and there are too many assignments to compare all of them."
+    " The certificate states the gap to the proven lower bound, which more time would not change."
 )
 
 

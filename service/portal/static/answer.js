@@ -75,10 +75,10 @@ function comparison(request, answer) {
   const heads = ["", "before", "after", "floor"];
   const shaft = ofTheShaft(answer).map(([what, unit, ...values]) => [`largest ${what}, ${unit}`, ...values.map((value) => number(value))]);
   return [
-    table("First order, over a turn of the shaft", heads, [
+    table("First order, over a revolution of the shaft", heads, [
       cells("peak force, N", "force", "peak_N", floor.force_N),
       cells("peak moment, N m", "moment", "peak_Nm", floor.moment_Nm),
     ]),
-    ...(shaft.length ? [table("All orders with gas and friction, over a turn of the shaft", heads, shaft)] : []),
+    ...(shaft.length ? [table("All orders with gas and friction, over a revolution of the shaft", heads, shaft)] : []),
   ];
 }

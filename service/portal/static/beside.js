@@ -8,7 +8,7 @@ const GOALS = { external: "force and moment", bearings: "bearing loads", bending
 export function beside({ certificate, worst_case: worst, price_of_robustness: price, sensitivity }) {
   const found = [];
   if (certificate?.goals?.length) {
-    found.push(table("Goals in their order, before the last", ["goal", "came to", "proved to be at least", "allowance", "kept below"],
+    found.push(table("Goals in their order, before the last", ["goal", "value", "lower bound", "allowance", "kept below"],
       certificate.goals.map((one) => [GOALS[one.goal], number(one.value), number(one.lower_bound), number(one.limit - one.value), number(one.limit)])));
   }
   if (worst) {

@@ -29,11 +29,11 @@ _EMPTY = {
 
 def measured(_: AccuracyRequest, answer: AccuracyAnswer) -> Iterator[Chapter]:
     """The ladders, and what stands behind the figures."""
-    yield Chapter("What the smallest objective costs (least mass is off)", tuple(_ladder(answer)))
+    yield Chapter("What the smallest objective costs (minimum mass is off)", tuple(_ladder(answer)))
     if answer.effects_ladder:
-        yield Chapter("What the figures of the turn cost", (_effects(answer.effects_ladder),))
+        yield Chapter("What the figures of the cycle cost", (_effects(answer.effects_ladder),))
     if answer.peaks_ladder:
-        yield Chapter("What the peaks of the turn cost", (_peaks(answer.peaks_ladder),))
+        yield Chapter("What the peaks of the cycle cost", (_peaks(answer.peaks_ladder),))
     yield Chapter("Measured with", (Paragraph(_measured_with(answer)),))
 
 

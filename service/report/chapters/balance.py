@@ -32,14 +32,14 @@ from service.report.stage_scheme import stage_scheme
 
 _FIRST_ORDER = (
     ("peak force, N", "force", "peak_N"),
-    ("smallest force over the turn, N", "force", "minor_N"),
+    ("smallest force over a revolution, N", "force", "minor_N"),
     ("direction of the peak force, deg", "force", "major_axis_deg"),
     ("peak force along x, N", "force", "peak_x_N"),
     ("peak force along y, N", "force", "peak_y_N"),
     ("turning with the shaft |f|, N", "force", "co_rotating_N"),
     ("turning against the shaft |b|, N", "force", "counter_rotating_N"),
     ("peak moment, N m", "moment", "peak_Nm"),
-    ("smallest moment over the turn, N m", "moment", "minor_Nm"),
+    ("smallest moment over a revolution, N m", "moment", "minor_Nm"),
     ("direction of the peak moment, deg", "moment", "major_axis_deg"),
     ("peak moment in the x plane, N m", "moment", "peak_x_Nm"),
     ("peak moment in the y plane, N m", "moment", "peak_y_Nm"),
@@ -217,10 +217,10 @@ def _prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Block]
         yield Paragraph(f"There are no shadow prices {untold}.")
     elif answer.shadow_prices:
         yield Paragraph(
-            "A shadow price says by how much the smallest objective falls per unit by which a limit is raised, the "
-            "others kept. The objective is taken as a force, which is to say divided by the weight of the force; as a "
-            "moment where the force has no weight, and where neither has one as a bearing load, a bending moment or a "
-            "roll moment. A sector is opened to both sides. What the certificate cannot tell from 0 is given as 0."
+            "A shadow price is the fall of the smallest objective per unit by which one limit is raised. The objective "
+            "is stated as a force: divided by the weight of the force. Where the force has no weight it is stated as a "
+            "moment, then as a bearing load, a bending moment or a roll moment. A sector is opened to both sides. A "
+            "price that the certificate cannot distinguish from 0 is given as 0."
         )
         yield table(
             "Shadow prices of the limits",
@@ -284,7 +284,7 @@ def first_order(
             beside,
             Figure(
                 hodographs(machine, was, left, floor, label),
-                "Hodographs: the tips of first-order force and moment run along these ellipses once a turn. No "
+                "Hodographs: the tips of first-order force and moment run along these ellipses once a revolution. No "
                 "counterweight on the shaft brings a peak below the floor circle. Moments are couples in the plane of "
                 "the forces about the reference plane.",
             ),

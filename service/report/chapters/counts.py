@@ -4,7 +4,7 @@ from schemas.front.counts import CountFront, CountPoint
 from service.report.blocks import Block, Cell, Number, table
 
 _COUNTED = {"weights": "counterweights", "part_numbers": "part numbers"}
-_VALUE = {"objective": "#objective", "mass": "#least mass, kg"}
+_VALUE = {"objective": "#objective", "mass": "#minimum mass, kg"}
 
 
 def counted(front: CountFront) -> Block:

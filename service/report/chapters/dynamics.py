@@ -99,7 +99,7 @@ def _gas(machine: Machine, found: Gas) -> Chapter:
     forces = _lines(machine, found.rows, lambda row: row.force_N)
     heads = [
         "row", "side", "#lowest, Pa", "#highest, Pa", "#suction opens, deg", "#discharge opens, deg",
-        "#indicated work a turn, J",
+        "#indicated work per revolution, J",
     ]  # fmt: skip
     words = "Indicator diagrams: absolute pressure over the travel of the piston."
     if len(found.rows) > MAX_ROWS:
@@ -189,14 +189,14 @@ def _torque(machine: Machine, found: Torque) -> Chapter:
     return Chapter(
         "Torque",
         (
-            Equation(formula("T_m = 1/(2π) ∫ T dθ,   P = T_m omega,   ΔE = range of ∫ (T - T_m) dθ over the turn")),
+            Equation(formula("T_m = 1/(2π) ∫ T dθ,   P = T_m omega,   ΔE = range of ∫ (T - T_m) dθ over the cycle")),
             facts(
                 "",
                 [
                     ("mean torque, N m", found.mean_torque_Nm),
                     ("estimate of its error, N m", found.mean_torque_error_Nm),
                     ("rotating friction, N m", found.rotating_friction_Nm),
-                    ("largest torque over the turn, N m", found.peak_Nm),
+                    ("largest torque over the cycle, N m", found.peak_Nm),
                     ("indicated power, W", found.indicated_power_W),
                     ("friction power, W", found.friction_power_W),
                     ("shaft power, W", found.shaft_power_W),
@@ -229,7 +229,7 @@ def _overturning(machine: Machine, found: Overturning) -> Chapter:
         "Overturning couple",
         (
             Paragraph(words),
-            facts("", [("largest couple over the turn, N m", found.peak_Nm)]),
+            facts("", [("largest couple over the cycle, N m", found.peak_Nm)]),
             extremes(f"{_EXTREMES}, N m", found.angle_deg, [*rows, Line("machine", found.couple_Nm)]),
             figure("overturning couple", "N m", found.angle_deg, lines, "Overturning couple on the frame."),
         ),
@@ -268,11 +268,11 @@ def _main_bearings(machine: Machine, found: MainBearings) -> Chapter:
     drawn = chart("bending moment", "N m", "plane along the shaft z, m", found.bending.position_m, bending)
     blocks: list[Block] = [
         Paragraph(f"Taken as {shaft[found.shaft]}; loads from rows, rotating masses and counterweights."),
-        table("Peaks over the turn", heads, rows),
+        table("Peaks over the cycle", heads, rows),
         table("Root mean square, and what counterweights cannot go below", smooth_heads, smooth),
         table("Largest bending moment", ["", "#moment, N m", "#in the plane z, m"], largest),
         figure("bearing load", "N", found.angle_deg, lines, f"Magnitude of the load of the main bearings, {which}."),
-        Figure((drawn,), "Largest bending moment inside the shaft over the turn, plane by plane."),
+        Figure((drawn,), "Largest bending moment inside the shaft over the cycle, plane by plane."),
     ]
     blocks += bearing_loci(machine, found)
     return Chapter("Main bearings", tuple(blocks))

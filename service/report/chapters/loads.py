@@ -34,7 +34,7 @@ def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
             for name, row in named
         ],
     )  # fmt: skip
-    heads = ["row", "#at the outer dead centre, N", "#at the inner dead centre, N", "#over the turn, N"]
+    heads = ["row", "#at the outer dead centre, N", "#at the inner dead centre, N", "#over the cycle, N"]
     yield table(
         "Sudden stop: gas alone",
         heads,
@@ -60,7 +60,7 @@ def _blocks(machine: Machine, found: Loads) -> Iterator[Block]:
         if row.guide is not None
     ]
     if guides:
-        heads = ["row", "#weight, N", "#largest, N", "#smallest, N", "#off the lower guide, % of the turn"]
+        heads = ["row", "#weight, N", "#largest, N", "#smallest, N", "#off the lower guide, % of the cycle"]
         yield table("Crossheads on their lower guides, with their weight", heads, guides)
     yield facts(
         "Base",

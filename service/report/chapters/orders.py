@@ -14,7 +14,7 @@ _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N
 def two_orders(found: ResidualOrders) -> Table:
     """What shakes once and what shakes twice a turn; counterweights change the first alone."""
     left: tuple[Order | None, ...] = found.after or (None, None)
-    names = ("1, once a turn", "2, twice a turn")
+    names = ("1, once a revolution", "2, twice a revolution")
     rows = [_row(*each) for each in zip(names, found.before, left, strict=True)]
     return table("Orders 1 and 2", _HEADS, rows)
 
@@ -45,7 +45,7 @@ def _hodographs(was: Order, left: Order | None) -> Figure | None:
         if any(one.major > 0.0 for one in ellipses):
             drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses))
     times = "once" if was.order == 1 else f"{was.order} times"
-    caption = f"Order {was.order}: the tip of the vector runs along its ellipse {times} a turn."
+    caption = f"Order {was.order}: the tip of the vector runs along its ellipse {times} a revolution."
     return Figure(tuple(drawings), caption) if drawings else None
 
 

@@ -12,7 +12,7 @@ from service.report.chapters.verdict import reachable
 
 _REASONS: dict[Reason, str] = {
     "reached_together": "Force and moment are both smallest at the same counterweights: nothing has to be traded.",
-    "resolution": "Points that rounding could not tell apart were left out.",
+    "resolution": "Points that rounding could not separate were left out.",
     "undecided": "The ceilings are on the very boundary of what can be reached; the point comes closest to them.",
     "complete": "These are all: no set that can be chosen is better by more than the asked gap.",
     "time": "The time limit ended the search: there may be further points between these.",

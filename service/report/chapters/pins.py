@@ -34,7 +34,7 @@ def _blocks(found: PinLoads) -> Iterator[Block]:
         "",
         [
             ("largest load of any pin, N", found.peak_N),
-            ("the same if members bore for half a turn only, N", found.half_turn_mechanism_peak_N),
+            ("the same if members bore for half a revolution only, N", found.half_turn_mechanism_peak_N),
             ("largest error of the moment, N m", held.max_moment_error_Nm),
             ("largest net force, N", held.max_net_force_N),
             *_of_drive(found),

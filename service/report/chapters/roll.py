@@ -15,4 +15,4 @@ def roll(_machine: Machine, found: Roll) -> Chapter:
         rows.append(("with balance shafts, N m", found.after.peak_Nm))
     words = "About the crankshaft on the frame, of all orders, with gas and friction and without the mean."
     drawn = figure("roll moment", "N m", found.angle_deg, lines, "Roll moment on the frame.")
-    return Chapter("Roll moment", (Paragraph(words), facts("Largest over the turn", rows), drawn))
+    return Chapter("Roll moment", (Paragraph(words), facts("Largest over the cycle", rows), drawn))

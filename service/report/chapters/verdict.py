@@ -36,7 +36,7 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         ("peak moment, N m", was.moment.peak_Nm, left.moment.peak_Nm if left else None, answer.floor.moment_Nm),
     ]
     heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
-    figures = table("First-order peaks over a turn", heads, rows)
+    figures = table("First-order peaks over a revolution", heads, rows)
     return Chapter("Result", (*words, figures, *_total(answer)))
 
 
@@ -54,20 +54,19 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
     proof = answer.certificate
     assert proof is not None  # only an infeasible answer has none
     if not request.machine.webs and not answer.balance_shafts:
-        return Paragraph("The machine has no place for counterweights, so that nothing can be chosen.", "key")
+        return Paragraph("The machine has no web for counterweights, so there is nothing to choose.", "key")
     if proof.lower_bound is None or proof.relative_gap is None:
         return Paragraph(f"Nothing is proven of the counterweights below. {answer.status_reason}", "warning")
     if answer.status == "inaccurate":
         return Paragraph(
-            "Not certified to the accuracy asked for. The counterweights below keep the limits; how far they may be "
-            f"from the best ones is proven: by at most {_percent(proof.relative_gap)} of the objective without "
-            f"counterweights, where {_percent(request.accuracy.relative_gap)} was asked for. {answer.status_reason} "
-            "See the certificate.",
+            "Inaccurate: the counterweights below keep the limits, and their gap to the optimum is proven. It is "
+            f"at most {_percent(proof.relative_gap)} of the objective without counterweights; "
+            f"{_percent(request.accuracy.relative_gap)} was requested. {answer.status_reason} See the certificate.",
             "warning",
         )
     return Paragraph(
-        "Optimal, and proven so: no counterweights within these limits can do better than an objective of "
-        f"{digits(proof.lower_bound)}; those below reach {digits(proof.objective)}. The difference is "
+        "Proven optimal: no counterweights within these limits bring the objective below "
+        f"{digits(proof.lower_bound)}, and those below reach {digits(proof.objective)}. The difference is "
         f"{_percent(proof.relative_gap)} of the objective without counterweights.",
         "key",
     )
@@ -82,27 +81,26 @@ def reachable(goal: Objective, why: Infeasibility) -> Iterator[Block]:
     names = " and ".join(f"the ceiling of the {_CEILINGS[name]}" for name in why.conflict)
     together = "cannot be met together" if len(why.conflict) > 1 else "cannot be met"
     yield Paragraph(
-        f"Infeasible, and proven so: {names} {together} by any counterweights within the limits of the webs. There is "
-        "therefore no answer; what follows shows the best compromise, whose largest excess over the ceilings is "
-        "smallest.",
+        f"Proven infeasible: {names} {together} by any counterweights within the limits of the webs. The report shows "
+        "the best compromise, whose largest excess over the ceilings is smallest.",
         "warning",
     )
     if why.scenarios:
-        yield Paragraph(f"Those of the scenarios {', '.join(why.scenarios)} conflict.", "warning")
+        yield Paragraph(f"The ceilings of the scenarios {', '.join(why.scenarios)} conflict.", "warning")
     closest = why.closest.first_order
     yield table(
-        "What can be reached",
+        "Smallest feasible peaks",
         ["case", "#peak force, N", "#peak moment, N m"],
         [
             ("ceiling", goal.force_ceiling_N, goal.moment_ceiling_Nm),
-            ("smallest, the other left free", why.smallest_force_N, why.smallest_moment_Nm),
+            ("smallest, without the other ceiling", why.smallest_force_N, why.smallest_moment_Nm),
             ("certified not below", why.smallest_force_lower_bound_N, why.smallest_moment_lower_bound_Nm),
             ("best compromise", closest.force.peak_N, closest.moment.peak_Nm),
         ],
     )
     if why.smallest:
         yield table(
-            "What else has a ceiling by itself",
+            "Other responses under a ceiling, each by itself",
             ["response", "ceiling of the", "unit", "#ceiling", "#smallest", "#certified not below"],
             [
                 (each.response, *_of_ceiling(each.ceiling_field), each.ceiling, each.smallest, each.lower_bound)
@@ -128,9 +126,9 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
             title,
             (
                 Paragraph(
-                    "That no counterweights satisfy the ceilings is proven by a lower bound in closed form on the "
-                    "smallest possible excess over them, which is above zero. The smallest peaks that can be reached, "
-                    "each with the other left free, are certified in the same way: the force is never below "
+                    "A lower bound in closed form on the smallest excess over the ceilings is above zero, which proves "
+                    "that no counterweights satisfy them. Bounds of the same kind certify the smallest peaks, each "
+                    "without the other ceiling: the force is never below "
                     f"{digits(why.smallest_force_lower_bound_N)} N and the moment never below "
                     f"{digits(why.smallest_moment_lower_bound_Nm)} N m."
                 ),
@@ -145,8 +143,8 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
     else:
         words += (
             f"{_what_bounds(proof)} bring it below "
-            f"{digits(proof.lower_bound)}: whatever else is tried, it gains at most {_percent(proof.relative_gap)} of "
-            "the objective without counterweights."
+            f"{digits(proof.lower_bound)}. Other counterweights gain at most {_percent(proof.relative_gap)} of the "
+            "objective without counterweights."
         )
     blocks: list[Block] = [Paragraph(words), _bound()]
     rows: list[tuple[str, float | str | None]] = [
@@ -172,13 +170,13 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
             ("relative gap of the mass", proof.mass_relative_gap),
             ("relative to, kg", proof.mass_yardstick_kg),
         ]
-    rows.append(("found by", proof.method))
+    rows.append(("method", proof.method))
     if proof.cuts is not None:
         rows += [("cuts", proof.cuts), ("programs solved", proof.rounds)]
     blocks.append(facts("", rows))
     if proof.goals:
         met = [(goal.goal, goal.value, goal.lower_bound, goal.limit, goal.limit - goal.value) for goal in proof.goals]
-        heads = ["goal", "#came to", "#proven at least", "#the later goals keep it below", "#so may use of it"]
+        heads = ["goal", "#value", "#lower bound", "#limit for the later goals", "#allowance left"]
         blocks.append(table("Goals before the last, in their order", heads, met))
     return Chapter(title, tuple(blocks))
 
@@ -186,8 +184,8 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
 def _what_bounds(proof: Certificate) -> str:
     if proof.nodes is None:
         return "A lower bound in closed form shows that no counterweights within these limits"
-    by = f"A tree of {proof.nodes} bounds over" if proof.nodes else "The comparison of"
-    return f"{by} all sets of counterweights that can be chosen shows that none"
+    by = f"Branch and bound with {proof.nodes} nodes over" if proof.nodes else "The comparison of"
+    return f"{by} all sets of counterweights shows that none"
 
 
 def _bound() -> Equation:

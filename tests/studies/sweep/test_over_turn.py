@@ -106,7 +106,7 @@ def test_a_row_that_asks_nothing_of_the_shaft_needs_none_of_its_data(
     plan(request)
     found = table(request).to_pylist()
     assert [assert_row_is_the_single_answer(request, row) for row in found] == ["optimal", "invalid"]
-    assert f"asked for by objective.{field}" in found[1]["message"]
+    assert f"needed by objective.{field}" in found[1]["message"]
     never = sweep(base, {"path": f"/objective/{field}", "values": values[1:]})
     with pytest.raises(MissingInput):
         plan(never)

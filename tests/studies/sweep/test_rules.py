@@ -63,8 +63,8 @@ CASES: dict[str, tuple[str, dict[str, Any], str, set[str]]] = {
             "the connecting rod must be longer than the crank radius",
             "must not be below the suction pressure",
             "must be smaller than the bore",
-            "with this clearance and pressure ratio the chamber never delivers; asked for by output 'gas'",
-            "gas forces need this field; asked for by output 'gas'",
+            "with this clearance and pressure ratio the chamber never delivers; needed by output 'gas'",
+            "gas forces need this field; needed by output 'gas'",
         },
     ),
     "one cylinder": (
@@ -91,8 +91,8 @@ CASES: dict[str, tuple[str, dict[str, Any], str, set[str]]] = {
         "/machine/rotation_torque_Nm",
         {
             "the angles must rise",
-            "360 ends the turn only if the table begins at 0",
-            "the value at 360 must be that at 0: the table is one turn",
+            "360 ends the revolution only if the table begins at 0",
+            "the value at 360 must be that at 0: the table is one revolution",
         },
     ),
     "force": ("analyze", FORCE, "/machine/(tangential|orbit)", {"the angles must rise"}),
@@ -101,8 +101,8 @@ CASES: dict[str, tuple[str, dict[str, Any], str, set[str]]] = {
         CONSTANT,
         "/machine/(tangential|orbit_)",
         {
-            "must be between 1e-06 and 1e+06 for pin loads; asked for by output 'pin_loads'",
-            "pin loads need the torque or the tangential gas force; asked for by output 'pin_loads'",
+            "must be between 1e-06 and 1e+06 for pin loads; needed by output 'pin_loads'",
+            "pin loads need the torque or the tangential gas force; needed by output 'pin_loads'",
         },
     ),
 }

@@ -133,7 +133,7 @@ def test_what_no_design_gives_is_refused_before_the_sweep() -> None:
     with pytest.raises(MissingInput) as caught:
         plan(sweep(base, {"path": SPEED["path"], "values": [300]}, task="analyze"))
     assert [problem.path for problem in caught.value.problems] == [("base", "machine", "flywheel")]
-    assert "asked for by output 'flywheel'" in caught.value.problems[0].message
+    assert "needed by output 'flywheel'" in caught.value.problems[0].message
 
 
 def test_an_axis_may_give_what_the_base_lacks() -> None:
@@ -145,6 +145,6 @@ def test_an_axis_may_give_what_the_base_lacks() -> None:
     rows = table(request).to_pylist()
     assert [row["status"] for row in rows] == ["analyzed", "invalid", "invalid", "invalid"]
     messages = [row["message"] for row in rows[1:]]
-    assert messages[0] == f"{path}: gas forces need this field; asked for by output 'gas'"
+    assert messages[0] == f"{path}: gas forces need this field; needed by output 'gas'"
     assert messages[1] == f"{path}: must not be below the suction pressure"
     assert "never delivers" in messages[2]

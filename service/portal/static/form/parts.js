@@ -212,7 +212,7 @@ export class Parts {
       const change = (given) => this.form.edit(at, given);
       const number = { ...description, kind: "number", text: true };
       const inside = tabled ? this.inside(description.object, at) : [field(name, at, number, value, false, change)];
-      const other = tabled ? "Give one constant instead" : "Give a table over the turn instead";
+      const other = tabled ? "Give one constant instead" : "Give a table over a revolution instead";
       return [...inside, h("button", { type: "button", click: () => switched(!tabled) }, other)];
     });
     return made;

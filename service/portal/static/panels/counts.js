@@ -5,7 +5,7 @@ import { h } from "../dom.js";
 // with none at all, and up to as many as are of use
 const POINTS = 12;
 const OF = { weights: "counterweights", part_numbers: "part numbers" };
-const LEAST = { objective: "least objective", mass: "least total mass, kg" };
+const LEAST = { objective: "least objective", mass: "minimum total mass, kg" };
 
 export const chosenFrom = (machine) => (machine.catalogue ?? machine.max_counterweights ?? null) !== null
   || (machine.webs ?? []).some((web) => web.catalogue_masses_kg || web.hole_angles_deg);

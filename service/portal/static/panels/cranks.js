@@ -19,6 +19,6 @@ export const cranks = {
     body.replaceChildren(rates.length
       ? table("Balance rates", ["throw", "balance rate", "sideways", "in words"], rates.map((one) => [nameOf(one, one.throw), number(one.rate, 3),
         { number: true, text: one.sideways === null ? "–" : beside(one.sideways, 1) }, words(one.rate)]))
-      : h("p", {}, "There are no counterweights whose rates could be told."));
+      : h("p", {}, "There are no counterweights to state a balance rate for."));
   },
 };

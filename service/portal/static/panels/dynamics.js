@@ -21,7 +21,7 @@ export const torque = {
   async draw(body, context) {
     const found = (await context.ask("v1/analyze", scene(context, ["torque"]))).torque;
     const [node] = places(body, 1);
-    body.replaceChildren(node, table("Over one turn", ["mean torque, N m", "indicated power, W", "friction power, W", "shaft power, W", "fluctuation energy, J"],
+    body.replaceChildren(node, table("Over one cycle", ["mean torque, N m", "indicated power, W", "friction power, W", "shaft power, W", "fluctuation energy, J"],
       [[figure(found.mean_torque_Nm), number(found.indicated_power_W), number(found.friction_power_W), number(found.shaft_power_W), number(found.fluctuation_energy_J)]]));
     await plot(node, () => ({
       traces: [
@@ -30,7 +30,7 @@ export const torque = {
         line(found.angle_deg, found.angle_deg.map(() => found.mean_torque_Nm), "mean", { color: colours().floor, dash: "dot", width: 1.5 }),
       ],
       layout: { height: 340, ...overTurn("torque against rotation, N m", found.angle_deg) },
-      label: `Torque over the turn, mean ${figure(found.mean_torque_Nm)} N m.`,
+      label: `Torque over the cycle, mean ${figure(found.mean_torque_Nm)} N m.`,
     }));
   },
 };
@@ -47,7 +47,7 @@ export const rodLoads = {
           number(one.compression_N), number(one.compression_deg), one.case === row.governing_case ? "yes" : ""]))));
     await Promise.all(nodes.map(({ name, title, node }) => plot(node, () => ({
       traces: found.rows.map((row, index) => line(found.angle_deg, row[name], rowName(row), series(index))),
-      layout: overTurn(title, found.angle_deg), label: `${title} over the turn; largest rod force ${figure(found.governing_load_N)} N.`,
+      layout: overTurn(title, found.angle_deg), label: `${title} over the cycle; largest rod force ${figure(found.governing_load_N)} N.`,
     }))));
   },
 };
@@ -101,7 +101,7 @@ export const mainBearings = {
       if (found.bending.after_Nm) traces.push(curve(found.bending.after_Nm, "after", { color: after }));
       traces.push({ ...curve(found.bending.position_m.map(() => found.bending.floor_Nm), "floor of the largest", { color: floor, dash: "dot", width: 1.5 }), mode: "lines" });
       return { traces, layout: { xaxis: { title: "plane along the shaft, m" }, yaxis: { title: "largest bending moment, N m", rangemode: "tozero" } },
-        label: `Largest bending moment inside the shaft over the turn, along the shaft: ${figure(found.bending.peak_Nm)} N m at ${figure(found.bending.peak_position_m)} m, `
+        label: `Largest bending moment inside the shaft over the cycle, along the shaft: ${figure(found.bending.peak_Nm)} N m at ${figure(found.bending.peak_position_m)} m, `
           + `never below ${figure(found.bending.floor_Nm)} N m.` };
     })]);
   },
@@ -149,6 +149,6 @@ function overTurnPlot(found, one) {
     traces: loads(one).map(([name, load, dash]) => line(found.angle_deg,
       load.force_x_N.map((x, step) => Math.hypot(x, load.force_y_N[step])), name, { color: colours()[name], dash })),
     layout: { height: 340, ...overTurn("force on the bearing, N", found.angle_deg) },
-    label: `Load of bearing ${one.name} over the turn, peak ${figure((one.after ?? one.before).peak_N)} N.`,
+    label: `Load of bearing ${one.name} over the cycle, peak ${figure((one.after ?? one.before).peak_N)} N.`,
   };
 }

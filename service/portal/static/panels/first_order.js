@@ -78,11 +78,11 @@ export const overAngle = {
   },
 };
 
-// what shakes once and what shakes twice a turn
+// what shakes once and what shakes twice a revolution
 function firstAndSecond({ before, after }) {
   const [was, left] = [before, after ?? [null, null]];
   return table("Orders 1 and 2", ["order", "force before, N", "after, N", "moment before, N m", "after, N m"],
-    ["1, once a turn", "2, twice a turn"].map((name, place) => [name, ...PARTS.flatMap((part) =>
+    ["1, once a revolution", "2, twice a revolution"].map((name, place) => [name, ...PARTS.flatMap((part) =>
       [was[place], left[place]].map((one) => number(one?.[part.name][part.peak])))]));
 }
 

@@ -16,7 +16,7 @@ const WORDS = { force: "peak force", moment: "peak moment", bearings: "largest b
 const NEEDS = { bearings: ["rods", "bearings"], bending: ["rods", "bearings"], roll: ["rods"] };
 const WHY = {
   reached_together: "Both are smallest at the same counterweights: there is nothing to trade.",
-  resolution: "Points that rounding could not tell apart were left out.",
+  resolution: "Points that rounding could not separate were left out.",
   undecided: "The ceilings are on the very boundary of what can be reached.",
   complete: "These are all: no set that can be chosen is better.",
   time: "The time limit ended the search: there may be more points between these.",

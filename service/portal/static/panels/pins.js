@@ -21,11 +21,11 @@ export const pins = {
       h("p", {}, found.equilibrium.holds
         ? `The pins hold the scroll at every angle; their moment differs from the torque by at most ${figure(found.equilibrium.max_moment_error_Nm, 2)} N m.`
         : `The pins do not hold the scroll at every angle: ${found.equilibrium.reason ?? "see the dead points"}.`),
-      h("p", {}, `A mechanism whose members bear for half a turn only would carry ${figure(found.half_turn_mechanism_peak_N)} N.`));
+      h("p", {}, `A mechanism whose members bear for half a revolution only would carry ${figure(found.half_turn_mechanism_peak_N)} N.`));
     await plot(node, () => ({
       traces: found.pins.map((pin, index) => line(found.angle_deg, pin.load_N, `pin ${pin.index}`, series(index))),
       layout: { height: 360, ...overTurn("load of the pin, N", found.angle_deg) },
-      label: `Pin loads over the turn; the largest is ${figure(found.peak_N)} N.`,
+      label: `Pin loads over a revolution; the largest is ${figure(found.peak_N)} N.`,
     }));
   },
 };

@@ -64,7 +64,7 @@ class Vectors {
     this.moving = s("g", {});
     const outlines = this.curves.map(([name, curve]) => s("polygon", { class: `curve ${name}`, points: points(curve[part.x].map((_, step) => this.end(curve, step))) }));
     const drawing = s("svg", { viewBox: `0 0 ${WIDTH} ${WIDTH}`, class: "drawing vectors", role: "img",
-      "aria-label": `The ${part.name} over the turn, at most ${figure(Math.max(...sizes))} ${part.unit}.` }, outlines, circle(MIDDLE, 3, { class: "shaft" }), this.moving);
+      "aria-label": `The ${part.name} over a revolution, at most ${figure(Math.max(...sizes))} ${part.unit}.` }, outlines, circle(MIDDLE, 3, { class: "shaft" }), this.moving);
     this.said = h("figcaption", {});
     this.figure = h("figure", {}, drawing, this.said);
   }

@@ -30,7 +30,7 @@ function newest() {
 
 export const whatIf = {
   id: "what-if", title: "What if: weights as fitted, limits, speed",
-  about: "Type the weights as they will be made; what remains is computed at every key stroke.",
+  about: "Type the weights as they will be made. The residual is computed at every key stroke.",
   draw(body, context) {
     const { answer } = context;
     if (!answer.counterweights.length || !answer.residual.after || (answer.balance_shafts ?? []).length) {

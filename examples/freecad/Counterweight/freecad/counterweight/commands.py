@@ -156,7 +156,7 @@ COMMANDS = {
     "Counterweight_Read": _Command("Read shaft", "Find axis, pins and webs of the selected bodies", _read, False),
     "Counterweight_Balance": _Command("Balance", "Ask the service and draw the counterweights", _balance),
     "Counterweight_Verify": _Command("Verify", "Hold the solids against the answer", _verify),
-    "Counterweight_Clearance": _Command("Clearance", "Find what is in the way over a turn", _clearance),
+    "Counterweight_Clearance": _Command("Clearance", "Find collisions over a revolution", _clearance),
     "Counterweight_Export": _Command("Export", "STEP, outlines, drawings, bill of material", _export),
     "Counterweight_Key": _Command("Key", "Key of the service, for this session", _ask_key, False),
 }
