@@ -26,12 +26,19 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
         raise InvalidRequest([FieldProblem(error.path, error.message)]) from None
 
 
+#: the files, each behind those that it imports
+_FILES = [
+    *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights")),
+    *(f"verify_{part}" for part in ("form", "orders", "quality", "answer", "program", "prices", "first")),
+    *(f"verify_{part}" for part in ("curves", "turn", "single", "many")),
+    "verify",
+]
+
+
 @cache
 def checker() -> ModuleType:
     """The file for answers of every kind; none of them belongs to a package or imports anything of this one."""
-    # each imports those before it by their names
-    parts = ("_numbers", "_machine", "_program", "_claims", "_weights", "_curves", "", "_turn", "_many")
-    return [_loaded(f"verify{part}") for part in parts][-1]
+    return [_loaded(name) for name in _FILES][-1]
 
 
 def _loaded(name: str) -> ModuleType:

@@ -20,6 +20,7 @@ from verify_numbers import (
     real,
     total,
 )
+from verify_plates import Plate, plate
 
 NOTHING = 1e-230  # in the unit of a figure: what doubles do not tell from 0
 NO_SPAN = 1e-250  # m: a machine that is no longer has no length, and 1 m counts as its span
@@ -43,6 +44,8 @@ class Web(NamedTuple):
     limit: Optional[Number]
     sector: Optional[Tuple[float, float]]  # centre and half-angle, degrees
     fixed: Optional[Tuple[Number, float]] = None  # mass and angle of a weight that is there already
+    limits: Tuple[Tuple[str, Number], ...] = ()  # those of its mass by their names [kg]
+    plate: Optional[Plate] = None  # from which it is cut: then its radius is what the answer says
 
 
 NAMES = {"force": "N", "moment": "Nm"}
@@ -63,7 +66,8 @@ class Machine:
         self.square, self.masses = omega * omega, masses
         fastest = (place / "overspeed_rpm") or (place / "speed_rpm")
         turning = fastest.number(least=0) * Number(PI, PI + 1) / Number(30 * 10**80, 30 * 10**80)
-        self.webs = [_web(web, turning * turning) for web in place / "webs"]
+        self.fastest = turning * turning
+        self.webs = [web_of(web, self.fastest) for web in place / "webs"]
         if len({web.name for web in self.webs}) < len(self.webs):
             raise Unreadable((*place.path, "webs"), "names must be unique")
         self.budget = budget.number(least=0) if budget else None
@@ -89,7 +93,7 @@ class Machine:
             for mass in (*self.masses, *weights):
                 arm = ONE if name == "force" else mass.position * self.wide - self.plane * self.wide
                 size = mass.product * self.wide * self.square * arm
-                co = co + (mass.co + self.blur) * size
+                co = co + (mass.co + self.blur) * size if mass.co is not ZERO else co
                 counter = counter + (mass.counter + self.blur) * size if mass.counter is not ZERO else counter
             found[name] = co, counter
         return found
@@ -127,22 +131,26 @@ def _groups(place: Place) -> list[list[tuple[int, float, bool]]]:
     return found
 
 
-def _web(place: Place, fastest: Number) -> Web:
+def web_of(place: Place, fastest: Number) -> Web:
     """``fastest``: square of the highest speed."""
     most, sector = place / "max_mass_kg", place / "sector"
     edges = ((sector / "centre_deg").double(), (sector / "half_angle_deg").double(least=0)) if sector else None
-    there = place / "fixed"
+    there, cut = place / "fixed", plate(place / "envelope") if place / "envelope" else None
     radius, limit = (there / "radius_m") or (place / "counterweight_radius_m"), most.number(least=0) if most else None
     weight = ((there / "mass_kg").number(least=0), (there / "angle_deg").double()) if there else None
+    name, where = (place / "name").text(), (place / "position_m").number()
     limit, bolts = ZERO if there else limit, place / "max_centrifugal_force_N"
+    given = [("max_mass", most.number(least=0))] if most else []
+    if cut is not None:
+        return Web(name, where, ZERO, limit, edges, weight, (*given, ("envelope", ZERO)), cut)
     if bolts:
         of_one_kg = radius.number(least=0) * fastest
         if of_one_kg.low <= 0:
             raise NotCovered(bolts)
         force = bolts.number(least=0) / of_one_kg
+        given.append(("max_centrifugal_force", force))
         limit = force if limit is None else min(limit, force, key=lambda one: one.high)
-    name, where = (place / "name").text(), (place / "position_m").number()
-    return Web(name, where, radius.number(least=0), limit, edges, weight)
+    return Web(name, where, radius.number(least=0), limit, edges, weight, tuple(given))
 
 
 def _unbalance(place: Place) -> list[Mass]:

@@ -1,42 +1,46 @@
-"""Checks fronts and the rows of sweeps as well: each point, and each row, by what verify.py does with one answer.
-
-    python verify_many.py request.json answer.json
-
-Of a sweep, the answer is its rows as a JSON list or as NDJSON. The other verify*.py have to lie beside this file.
-"""
+"""Fronts and the rows of sweeps: each point, and each row, by what is done with one answer."""
 
 from __future__ import annotations
 
 import json
-import sys
 from functools import partial
-from math import inf
 from typing import Any, Iterator, Sequence
 
-from verify import CEILING, before, ceilings, infeasible, light, lightest, optimum, priced_at, proven, smallest
-from verify_claims import Claim, Claims, covered, judged, main, near
-from verify_machine import NAMES, Machine
-from verify_numbers import ABOUT_ONE, ONE, SPECK, NotCovered, Place, Unreadable, largest, read, real
+from verify_answer import MASS_GAP, before, touched
+from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
+from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
+from verify_form import form
+from verify_leaves import Path
+from verify_machine import NAMES, Machine, Responses
+from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, NotCovered, Number, Place, Unreadable, largest, real
+from verify_orders import first_order
 from verify_program import CEILINGS, Statement
-from verify_turn import single
-from verify_weights import counterweights, usual_gap
+from verify_single import single
+from verify_weights import counterweights, listed, usual_gap
 
-__all__ = ["PLACES", "Unreadable", "main", "read", "verify"]
-
-#: numbers and texts, of all points or rows together, that a service looks at in one request
-PLACES = 200_000
+STATUSES = ("optimal", "inaccurate", "infeasible")
+STRAIGHT = 1e-4  # a front that lies nearer to the line between its ends has no knee
+UNSURE = 1e-9
 
 
 def front(request: Place, answer: Place) -> Claims:
     """Fronts of force and moment, one for each budget."""
+    yield from form(answer, ("pareto",))
     request.known()
     asked, goal = request / "machine", request / "objective"
-    yield from before(_machine(request, answer, asked / "max_total_mass_kg"), answer, answer / "without_counterweights")
+    plain = _machine(request, answer, asked / "max_total_mass_kg")
+    yield from before(request, plain, answer)
+    yield from first_order("before", answer / "without_counterweights", plain.before)
     fronts, budgets = list(answer / "fronts"), list(request / "total_mass_budgets_kg")
     if len(fronts) != max(1, len(budgets)):
         raise Unreadable((*answer.path, "fronts"), "must hold one front for each budget")
+    worst = max(fronts, key=lambda one: STATUSES.index((one / "status").text(*STATUSES)))
+    yield same("status", answer / "status", (worst / "status").value)
     for each, budget in zip(fronts, budgets or [asked / "max_total_mass_kg"]):
-        if (each / "status").text("optimal", "inaccurate", "infeasible") == "infeasible":
+        if each / "max_total_mass_kg" or budget:
+            yield near("max_total_mass", each / "max_total_mass_kg", budget.number(0.0))
+        if (each / "status").text(*STATUSES) == "infeasible":
+            yield "status", each / "status", ONE if each / "infeasibility" else -ONE, ONE
             yield from infeasible(request, answer, budget, each / "infeasibility")
             continue
         machine = _machine(request, answer, budget)
@@ -45,8 +49,37 @@ def front(request: Place, answer: Place) -> Claims:
             yield _scale(Statement(machine, goal, {name: {name: ONE}}), each / "scale" / f"{name}_{unit}")
         for one in each / "points":
             yield from covered(point(statement, request, each / "scale", one))
+        yield from _shape(each)
         ends, implied = each / "ends", each / "implied_max_mass_kg"
         yield from covered(smallest(machine, goal, ends, ends / "multipliers", implied))
+
+
+def _shape(each: Place) -> Claims:
+    """The ends are the first and the last point, and the knee is farthest below the line between them."""
+    points, ends = list(each / "points"), each / "ends"
+    worst = max(points, key=lambda one: STATUSES.index((one / "status").text(*STATUSES[:2])), default=each)
+    yield same("status", each / "status", (worst / "status").value)
+    peaks = [[one / f"weighted_{name}_peak_{unit}" for name, unit in NAMES.items()] for one in points]
+    names = (("smallest_force_N", "moment_at_smallest_force_Nm"), ("force_at_smallest_moment_N", "smallest_moment_Nm"))
+    for fields, point in zip(names, (peaks[0], peaks[-1])) if peaks else ():
+        for field, peak in zip(fields, point):
+            yield near("front", ends / field, peak.number() * ABOUT_ONE)
+    for one, other in zip(peaks, peaks[1:]):
+        # from the smallest force to the smallest moment
+        right = one[0].double() <= other[0].double() and one[1].double() > other[1].double()
+        yield "front", other[0], ONE if right else -ONE, ONE
+    (x, y), (far, low) = (
+        ([one.double() for one in point] for point in (peaks[0], peaks[-1])) if peaks else ((0, 0),) * 2
+    )
+    bent = peaks if len(peaks) > 2 and far > x and y > low else []
+    depths = [(y - m.double()) / (y - low) - (f.double() - x) / (far - x) for f, m in bent]
+    deepest = max(depths, default=0.0)
+    if not each / "knee":
+        yield "front", each, ONE if deepest <= STRAIGHT * (1 + UNSURE) else -ONE, ONE
+    else:
+        k = int((each / "knee").double())
+        there = depths[k] if k in range(len(depths)) else -1.0
+        yield "front", each / "knee", ONE if there >= deepest - UNSURE and deepest > 0 else -ONE, ONE
 
 
 def _scale(statement: Statement, place: Place) -> Claim:
@@ -71,24 +104,31 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     proof, multipliers, status = answer / "certificate", answer / "multipliers", answer / "status"
     implied, place = proof / "implied_max_mass_kg", answer / "counterweights"
     optimal = status.text("optimal", "inaccurate") == "optimal"
-    weights, mass = yield from counterweights(statement.machine, place)
+    weights, mass = yield from counterweights(statement.machine, place, request / "machine")
     yield near("total_mass", answer / "total_mass_kg", mass)
     yield from ceilings(statement, weights, place, optimal)
     after = statement.machine.responses(weights)
     peaks = statement.values(after)
-    relative = proof / "relative_gap"
+    relative, worst = proof / "relative_gap", ZERO
     for name, unit in NAMES.items():
         co, counter = after[name]
         yield near("after", answer / f"{name}_peak_{unit}", abs(co) + abs(counter))
         yield near("objective", answer / f"weighted_{name}_peak_{unit}", peaks[name])
         corner, size = proof / f"{name}_{unit}", (scale / f"{name}_{unit}").number()
+        yield near("yardstick", proof / "yardstick" / f"{name}_{unit}", size)
         if corner:
+            worst = largest(worst, (peaks[name] + SPECK * peaks[name] - corner.number()) * ABOUT_ONE / size)
             # the point is above its corner by no more than it says
             above = peaks[name] + SPECK * peaks[name] - corner.number()
             yield "gap", corner, relative.number() * size - above, peaks[name]
+    if relative:
+        yield near("gap", relative, worst)
+    if not optimal:
+        yield "status", status, ONE, ONE
     if optimal:
         asked = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
         yield "status", relative, asked - relative.number() if relative else None, ONE
+    yield from _active(request, machine=statement.machine, place=answer, left=after, mass=mass)
     slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
     priced = partial(priced_at, {name: (proof / f"{name}_{unit}").number(0.0) for name, unit in NAMES.items()})
     yield from proven("corner", proof / "force_N", statement, multipliers / "objective", implied, slack, priced)
@@ -96,18 +136,34 @@ def point(statement: Statement, request: Place, scale: Place, answer: Place) -> 
     if proof / "mass_lower_bound_kg":
         yield from lightest(statement, proof, multipliers, most, after, mass)
         sizes = {name: (scale / f"{name}_{unit}").number() for name, unit in NAMES.items()}
-        yield from light(statement, proof, sizes, mass, optimal)
+        yield from light(statement, proof, sizes, mass)
+        size, gap = (proof / "mass_yardstick_kg").number(0.0), mass - (proof / "mass_lower_bound_kg").number()
+        yield near("mass_gap", proof / "mass_relative_gap", gap * ABOUT_ONE / size if size.low > 0 else ZERO)
+        if optimal:
+            yield "status", status, size * real(MASS_GAP) - gap, size
+
+
+def _active(request: Place, machine: Machine, place: Place, left: Responses, mass: Number) -> Claims:
+    rooms = touched(request, machine, left, mass)
+    if rooms is not None:
+        yield from listed("active_limits", place / "active_limits", rooms)
 
 
 def sweep(request: Place, rows: Place) -> Iterator[Claim]:
     """Rows of a sweep, each as the answer to the base with the values of its axes."""
     paths = [(axis / "path").text() for axis in request / "axes"]
+    first = next(iter(rows), Place(None))
     for row in rows:
+        if isinstance(row.value, dict) and isinstance(first.value, dict) and {*row.value} != {*first.value}:
+            # all rows of a table have its columns
+            yield "form", row, -ONE, ONE
         if (row / "status").text() in ("optimal", "inaccurate", "infeasible"):
             body = (request / "base").value
             for path in paths:
                 body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
             yield from covered(_row(Place(body, "request", "base"), row))
+            # with other values the figures would be others
+            yield from (("axis", row / path, ONE, ONE) for path in paths)
 
 
 def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:
@@ -143,48 +199,25 @@ def _row(request: Place, row: Place) -> Claims:
     proofs = {**proof, **row.value, "multipliers": proof}
     found = {
         "status": status,
-        "counterweights": weights,
+        "counterweights": weights if status != "infeasible" else [],
         "total_mass_kg": (row / "total_mass_kg").value,
-        "residual": {"after": peaks},
-        "certificate": proofs,
-        "infeasibility": {**proofs, "conflict": given},
+        "residual": {"after": peaks if status != "infeasible" else None},
+        "certificate": proofs if status != "infeasible" else None,
+        "infeasibility": {**proofs, "conflict": given} if status == "infeasible" else None,
     }
-    yield from optimum(request, Place(found, *row.path))
+    for claim, place, room, size in single(request, Place(found, *row.path), whole=False):
+        yield claim, Place(place.value, *_column(place.path, len(row.path), found)), room, size
+    if row / "multipliers":
+        yield EVIDENCE, row / "multipliers", None, ONE
 
 
-def leaves(value: Any) -> int:
-    """Numbers and texts in a JSON value."""
-    found, left = 0, [value]
-    while left:
-        one = left.pop()
-        if isinstance(one, (dict, list)):
-            left.extend(one.values() if isinstance(one, dict) else one)
-        found += 1
-    return found
-
-
-def verify(request: Any, answer: Any, most: float = inf) -> dict[str, Any]:
-    """Every claim of an answer, and the verdict on the whole.
-
-    Parameters
-    ----------
-    request, answer : what a JSON file holds: bodies of optimize or pareto with their answers, or the body of a sweep
-        with a list of its rows.
-    most : numbers and texts to look at, those of the request again for every point or row.
-
-    Raises
-    ------
-    Unreadable
-        naming the field that is not what the service takes or gives.
-    """
-    asked, given = Place(request, "request"), Place(answer, "answer")
-    many = "base" in request if isinstance(request, dict) else False
-    work = leaves(answer) + leaves(request) * (len(answer) if many and isinstance(answer, list) else 1)
-    if work > most:
-        raise Unreadable(given.path, f"holds more than is checked at a time: {work} of {most} numbers and texts")
-    kind = sweep if many else front if isinstance(answer, dict) and "fronts" in answer else single
-    return judged(covered(kind(asked, given)))
-
-
-if __name__ == "__main__":
-    sys.exit(main(verify, __doc__, sys.argv[1:]))
+def _column(path: Path, start: int, found: Any) -> Path:
+    """The column of a row in which a field of an answer stands."""
+    row, inner = path[:start], path[start:]
+    if inner[:1] == ("counterweights",) and len(inner) == 3:
+        return (*row, f"{inner[2]}.{found['counterweights'][inner[1]]['web']}")
+    if inner[:2] == ("residual", "after") and len(inner) == 4:
+        return (*row, f"{inner[2]}_{inner[3]}")
+    if inner[:1] in (("certificate",), ("infeasibility",)):
+        return (*row, *inner[1:2])
+    return path

@@ -1,22 +1,19 @@
-"""Checks answers whose goals look at the whole turn as well, and all others by what verify.py does.
-
-    python verify_turn.py request.json answer.json
+"""Goals over the whole turn: what their cuts prove.
 
 Of bearing loads, bending moments, and force and moment of all orders, the multipliers prove a bound by cuts: each is
 the response at one shaft angle, which is evaluated here from rods and masses. That no angle between is worse is not
 covered, nor are gas, friction, root mean squares, roll, continuous shafts, goals in their order, balance shafts,
 scenarios and tolerances.
-The other verify*.py, but for verify_many.py, have to lie beside this file.
 """
 
 from __future__ import annotations
 
-import sys
-from typing import Any, Dict, List, NamedTuple, Optional, Tuple
+from typing import Dict, List, NamedTuple, Optional, Tuple
 
-from verify import MASS_GAP, before, ceilings, first_order, optimum, searched
-from verify_claims import Claims, covered, judged, main, near
+from verify_answer import Fitted
+from verify_claims import EVIDENCE, Claims
 from verify_curves import Turn
+from verify_first import ceilings, searched
 from verify_machine import NAMES, NOTHING, Machine, Mass, over
 from verify_numbers import (
     ABOUT_ONE,
@@ -32,7 +29,6 @@ from verify_numbers import (
     total,
 )
 from verify_program import CEILINGS, Statement, support
-from verify_weights import counterweights, usual_gap
 
 #: fields of an objective that look at the whole turn and are known here
 FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
@@ -208,24 +204,17 @@ def looks_at_the_turn(request: Place) -> bool:
     return loads or (goal / "orders").value == "all"
 
 
-def over_turn(request: Place, answer: Place) -> Claims:
-    """The answer to one request whose objective looks at the whole turn."""
+def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
+    """The proof of the answer to one request whose objective looks at the whole turn."""
     request.known(FIELDS)
-    asked, proof = request / "machine", answer / "certificate"
-    status = (answer / "status").text("optimal", "inaccurate", "infeasible")
-    machine = Machine(asked, answer / "reference_plane_m", asked / "max_total_mass_kg")
-    yield from before(machine, answer, answer / "residual" / "before")
-    if status == "infeasible":
-        raise NotCovered(answer / "infeasibility")
-    found, mass = yield from counterweights(machine, answer / "counterweights")
-    yield near("total_mass", answer / "total_mass_kg", mass)
-    yield from first_order("after", answer / "residual" / "after", machine.responses(found))
+    asked, proof, found = request / "machine", answer / "certificate", fitted.turning
     for web, one in zip(machine.webs, asked / "webs"):
         if web.fixed is not None:
             # the curves of the shaft are evaluated without it
             raise NotCovered(one / "fixed")
     program = Program(request, machine)
-    yield from ceilings(program.exact, found, answer / "counterweights", status == "optimal")
+    optimal = (answer / "status").text() == "optimal"
+    yield from ceilings(program.exact, found, answer / "counterweights", optimal)
     if program.limited:
         yield "ceilings", answer / "counterweights", None, ONE
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -236,50 +225,30 @@ def over_turn(request: Place, answer: Place) -> Claims:
     # not below what is there at the angles of the cuts; whether anything is above it is not told here
     terms = program.terms(multipliers / "objective")
     reached = program.reached(terms, found)
-    yield "cuts", objective, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
+    yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     yield "objective", objective, None, ONE
-    yield from _proven("lower_bound", of_any_mass, program.bound(multipliers / "objective", terms, implied), implied)
-    gap, size = value - lowest.number(0.0), (proof / "yardstick").number(0.0)
-    if lowest and proof / "yardstick":
-        yield near("gap", proof / "gap", gap + noise)
-        yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
-    least, light = proof / "mass_lower_bound_kg", (proof / "mass_yardstick_kg").number(0.0)
+    of_objective = multipliers / "objective"
+    yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
+    least = proof / "mass_lower_bound_kg"
     if least and multipliers / "mass" and least.number().high > 0:
         limit, of_mass = (proof / "mass_objective_limit").number(), multipliers / "mass"
         found_least = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
-        yield from _proven("mass_lower_bound", least, found_least, implied)
+        yield from _proven("mass_lower_bound", least, found_least, implied, of_mass)
         yield "mass_lower_bound", least, limit + noise - value, abs(value)
-    if least and status == "optimal":
-        yield "status", least, light * real(MASS_GAP) + SPECK * mass - (mass - least.number()), light
-    if status == "optimal":
-        wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
-        room = wide * size + noise - gap
-        yield "status", lowest, room if proof / "yardstick" else None, size
 
 
-def _proven(claim: str, said: Place, found: Tuple[Optional[Number], bool], implied: Place) -> Claims:
+def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
+    """No counterweights keep the ceilings of the whole turn."""
+    raise NotCovered(said)
+    yield
+
+
+def _proven(claim: str, said: Place, found: Tuple[Optional[Number], bool], implied: Place, proof: Place) -> Claims:
     least, believed = found
     if believed:
         yield "reach", implied, None, ONE
     room = None if least is None or not said else least - said.number()
     yield claim, said, room, largest(abs(said.number(0.0)), abs(least or ZERO))
-
-
-def single(request: Place, answer: Place) -> Claims:
-    """The answer to one request, whatever its objective looks at."""
-    yield from (over_turn if looks_at_the_turn(request) else optimum)(request, answer)
-
-
-def verify(request: Any, answer: Any) -> dict[str, Any]:
-    """Every claim of an answer, and the verdict on the whole; both are what a JSON file holds.
-
-    Raises
-    ------
-    Unreadable
-        naming the field that is not what the service takes or gives.
-    """
-    return judged(covered(single(Place(request, "request"), Place(answer, "answer"))))
-
-
-if __name__ == "__main__":
-    sys.exit(main(verify, __doc__, sys.argv[1:]))
+    if room is not None:
+        yield EVIDENCE, proof, None, ONE
+        yield EVIDENCE, implied, None, ONE

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from fractions import Fraction
+from math import radians
+from typing import Dict, Iterator, List, Optional, Tuple
 
-from verify_claims import Claims, near
-from verify_machine import Machine, Mass
+from verify_claims import Claim, Claims, near
+from verify_cranks import Crank, own_cranks
+from verify_machine import Machine, Mass, Web, web_of
 from verify_numbers import (
     ONE,
     ZERO,
@@ -14,37 +17,94 @@ from verify_numbers import (
     direction,
     real,
 )
+from verify_plates import FIGURE, Plate
 
 MASS = 1e-12  # of a limit: by which rounded masses may exceed it
 ANGLE = 1e-12  # degrees likewise
+ROUNDING = 1e-14  # share of an angle by which a remainder of doubles may be off
+TOUCHED, UNSURE = 1e-4, 1e-9  # a limit of which no more than this share is left is touched; what rounding may tell
+_NOWHERE, _NONE = Place(None), {"mass_kg": 0, "angle_deg": 0, "radius_m": 0}
 SAME = 1e-9  # of a mass, relative, and of an angle in degrees: by which they are those of a catalogue
 
 
-def counterweights(machine: Machine, place: Place) -> Claims:
-    """Their consistency and the limits of the webs; returns them as masses, and their total mass."""
+def counterweights(machine: Machine, place: Place, asked: Place = _NOWHERE) -> Claims:
+    """Their consistency and the limits of the webs; returns them as masses, and their total mass.
+
+    ``asked``: the machine in the request, by which the cranks are known; without it the cranks are not looked at.
+    """
     names = [(one / "web").text() for one in place]
     yield "counterweights", place, ONE if names == [web.name for web in machine.webs] else -ONE, ONE
-    by_name, turning, total_mass = dict(zip(names, place)), [], ZERO
+    by_name, turning, total_mass, cranks = dict(zip(names, place)), [], ZERO, own_cranks(asked)
     for web in machine.webs:
-        one = by_name.get(web.name, Place({"mass_kg": 0, "angle_deg": 0}, *place.path))
-        said, mass, angle = one / "mass_kg", (one / "mass_kg").number(), (one / "angle_deg").double()
-        u = (direction(angle) + machine.blur) * mass * web.radius * machine.wide
-        exactly = mass * web.radius * machine.wide, *u.parts(), web.position, web.radius
-        figures = zip(("mass_radius_kg_m", "x_kg_m", "y_kg_m", "position_m", "radius_m"), exactly)
-        yield from (near("counterweights", one / field, exact) for field, exact in figures if one / field)
-        yield "max_mass", said, mass, abs(mass)
-        if web.fixed is not None:
-            yield near("fixed", said, web.fixed[0])
-            off = (Fraction(angle) - Fraction(web.fixed[1]) + 180) % 360 - 180
-            yield "fixed", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if mass.high > 0 else ONE, ONE
-        elif web.limit is not None:
-            yield "max_mass", said, web.limit * real(1 + MASS) - mass, web.limit
-        if web.sector is not None and mass.high > 0:
-            turn, (centre, half) = Fraction(360), web.sector
-            off = abs((Fraction(angle) - Fraction(centre) + turn / 2) % turn - turn / 2)
-            yield "sector", one / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
-        total_mass = total_mass + mass
-        turning.append(Mass(mass * web.radius, direction(angle), ZERO, web.position))
+        one = by_name.get(web.name, Place({**_NONE, "web": web.name}, *place.path))
+        turns = yield from counterweight(machine, web, one, machine.fastest)
+        yield from _crank(cranks.get(web.name), one) if asked else ()
+        total_mass = total_mass + (one / "mass_kg").number()
+        turning.append(turns)
+    yield from _alike(machine, by_name)
+    if machine.budget is not None:
+        yield "max_total_mass", place, machine.budget * real(1 + MASS) - total_mass, machine.budget
+    return turning, total_mass * machine.wide
+
+
+def counterweight(machine: Machine, web: Web, one: Place, fastest: Number) -> Claims:
+    """A counterweight within the limits of its web; returns it as a mass. ``fastest``: square of its highest speed."""
+    yield "counterweights", one / "web", ONE, ONE
+    said, mass, angle = one / "mass_kg", (one / "mass_kg").number(), (one / "angle_deg").double()
+    radius = web.radius
+    if web.plate is not None:
+        radius = (one / "radius_m").number(least=0)
+        yield from _cut(web.plate, one)
+    u = (direction(angle) + machine.blur) * mass * radius * machine.wide
+    exactly = mass * radius * machine.wide, *u.parts(), web.position, radius, mass * radius * fastest * machine.wide
+    fields = "mass_radius_kg_m", "x_kg_m", "y_kg_m", "position_m", "radius_m", "centrifugal_force_N"
+    figures = zip(fields, exactly)
+    yield from (near("counterweights", one / field, exact) for field, exact in figures if one / field)
+    yield "max_mass", said, mass, abs(mass)
+    if (mass.high <= 0 and angle != 0) or not 0 <= angle < 360:
+        # no weight has no angle, and an angle is told within one turn
+        yield "counterweights", one / "angle_deg", -ONE, ONE
+    yield "counterweights", one / "angle_deg", ONE, ONE
+    if web.fixed is not None:
+        yield near("fixed", said, web.fixed[0])
+        off = (Fraction(angle) - Fraction(web.fixed[1]) + 180) % 360 - 180
+        yield "fixed", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if mass.high > 0 else ONE, ONE
+    elif web.limit is not None:
+        yield "max_mass", said, web.limit * real(1 + MASS) - mass, web.limit
+    if one / "fixed":
+        there = (one / "fixed").read((bool,), "true or false")
+        yield "fixed", one / "fixed", ONE if there == (web.fixed is not None) else -ONE, ONE
+    if web.sector is not None and mass.high > 0:
+        turn, (centre, half) = Fraction(360), web.sector
+        off = abs((Fraction(angle) - Fraction(centre) + turn / 2) % turn - turn / 2)
+        yield "sector", one / "angle_deg", real(Fraction(half) + Fraction(ANGLE) - off), ONE
+    if one / "active_limits":
+        yield from listed("active_limits", one / "active_limits", dict(_touched(web, one)))
+    return Mass(mass * radius, direction(angle), ZERO, web.position)
+
+
+def _crank(crank: Optional[Crank], one: Place) -> Claims:
+    """The crank that a counterweight belongs to, and the angle from it: what a fitter drills by."""
+    throw, said = one / "throw", one / "angle_from_crank_deg"
+    if crank is None:
+        yield "crank", one, -ONE if throw or said else ONE, ONE
+        return
+    yield "crank", throw, ONE if throw and throw.double() == crank.throw else -ONE, ONE
+    if (one / "mass_kg").double() == 0:
+        yield "crank", said, -ONE if said else ONE, ONE
+        return
+    if not said:
+        yield "crank", said, -ONE, ONE
+        return
+    angle = said.double()
+    off = (Fraction((one / "angle_deg").double()) - Fraction(crank.degrees) - Fraction(angle) + 180) % 360 - 180
+    # a remainder of doubles: off by the rounding of the larger of both angles
+    allowed = Fraction(ROUNDING) * (360 + abs(Fraction(crank.degrees)))
+    yield "crank", said, real(allowed - abs(off)) if 0 <= angle < 360 else -ONE, ONE
+
+
+def _alike(machine: Machine, by_name: Dict[str, Place]) -> Claims:
+    """Identical castings: the same mass and the same angle from the own crank, or mirrored."""
     for group in machine.groups:
         (first, crank, _), *others = group
         same = by_name[machine.webs[first].name]
@@ -56,9 +116,87 @@ def counterweights(machine: Machine, place: Place) -> Claims:
             off = (there + (asked if mirrored else -asked) + 180) % 360 - 180
             fitted = (one / "mass_kg").number().high > 0
             yield "web_groups", one / "angle_deg", real(Fraction(ANGLE) - abs(off)) if fitted else ONE, ONE
-    if machine.budget is not None:
-        yield "max_total_mass", place, machine.budget * real(1 + MASS) - total_mass, machine.budget
-    return turning, total_mass * machine.wide
+
+
+def _touched(web: Web, one: Place) -> Iterator[Tuple[str, float]]:
+    """Limits of a web, and by which share of each a counterweight stays below it; a limit of 0 is touched."""
+    mass, angle = (one / "mass_kg").double(), (one / "angle_deg").double()
+    if web.fixed is not None:
+        return
+    for name, most in web.limits:
+        largest = float(most) if web.plate is None or name == "max_mass" else web.plate.unbalance(web.plate.most)
+        size = mass * (one / "radius_m").double() if name == "envelope" else mass
+        yield name, 1 - size / largest if largest > 0 else 0.0
+    if web.sector is not None:
+        off = abs((angle - web.sector[0] + 180) % 360 - 180)
+        yield "sector", 1 - off / web.sector[1] if mass > 0 and web.sector[1] > 0 else 1.0
+
+
+def listed(claim: str, place: Place, rooms: Dict[str, float]) -> Claims:
+    """A list of the limits that are touched, those of which less than a share is left, each once."""
+    names = [one.text() for one in place]
+    must = [name for name, room in rooms.items() if room <= TOUCHED - UNSURE]
+    may = [name for name, room in rooms.items() if room <= TOUCHED + UNSURE]
+    right = {*must} <= {*names} <= {*may} and len({*names}) == len(names)
+    yield claim, place, ONE if right else -ONE, ONE
+    yield from ((claim, one, ONE, ONE) for one in place)
+
+
+def _cut(of: Plate, one: Place) -> Claims:
+    """The outline of a counterweight that is cut from a plate."""
+    mass, radius, shape = (one / "mass_kg").double(least=0), (one / "radius_m").double(least=0), one / "shape"
+    if mass == 0:
+        yield _close("shape", one / "radius_m", of.lever(0.0))
+        yield "shape", shape, -ONE if shape else ONE, ONE
+        return
+    angle = radians((shape / "half_angle_deg").double(least=0))
+    yield "shape", shape / "half_angle_deg", real(of.most * (1 + ROUNDING) - angle), ONE
+    # the opening is what its unbalance takes: of a full plate it is no better known than its own rounding
+    away = abs(of.unbalance(min(angle, of.most)) - mass * radius) - FIGURE * of.unbalance(of.most)
+    yield "shape", shape / "half_angle_deg", real(-away), ONE
+    opening = min(angle, of.most)
+    yield _close("shape", one / "mass_kg", of.mass(opening), of.mass(of.most) * SAME)
+    yield _close("shape", one / "radius_m", of.unbalance(opening) / max(of.mass(opening), 1e-300), of.outer * 1e-6)
+    yield _close("shape", shape / "inertia_kg_m2", of.inertia(opening))
+    yield _close("shape", shape / "outer_radius_m", of.outer)
+    if of.chord:
+        yield _close("shape", shape / "chord_height_m", of.lever(opening), of.outer * SAME)
+    else:
+        yield "shape", shape / "chord_height_m", -ONE if shape / "chord_height_m" else ONE, ONE
+
+
+def _close(claim: str, place: Place, figure: float, more: float = 0.0) -> Claim:
+    """A figure in doubles."""
+    if not place:
+        return claim, place, -ONE, ONE
+    return claim, place, real(FIGURE * abs(figure) + more - abs(place.double() - figure)), real(abs(figure))
+
+
+def shafts(machine: Machine, asked: Place, place: Place) -> Claims:
+    """The unbalances of the balance shafts; returns what they add, by order, and their total mass."""
+    given, said = list(asked / "balance_shafts"), list(place)
+    names = [(one / "name").text() for one in said]
+    yield "balance_shafts", place, ONE if names == [(one / "name").text() for one in given] else -ONE, ONE
+    found: List[Tuple[int, Mass]] = []
+    mass = ZERO
+    for shaft, one in zip(given, said):
+        ratio = int((shaft / "speed_ratio").double())
+        yield near("balance_shafts", one / "speed_ratio", real(ratio))
+        yield "balance_shafts", one / "name", ONE, ONE
+        webs = [web_of(web, machine.fastest * real(ratio * ratio)) for web in shaft / "webs"]
+        fitted = [(each / "web").text() for each in one / "counterweights"]
+        right = fitted == [web.name for web in webs]
+        yield "balance_shafts", one / "counterweights", ONE if right else -ONE, ONE
+        on_shaft = ZERO
+        for web, each in zip(webs, one / "counterweights") if right else ():
+            turns = yield from counterweight(machine, web, each, machine.fastest * real(ratio * ratio))
+            yield from _crank(None, each)
+            on_shaft = on_shaft + (each / "mass_kg").number()
+            back = Mass(turns.product, ZERO, turns.co, turns.position)
+            found.append((abs(ratio), turns if ratio > 0 else back))
+        yield near("total_mass", one / "total_mass_kg", on_shaft * machine.wide)
+        mass = mass + on_shaft
+    return found, mass * machine.wide
 
 
 def heavy_enough(asked: Place, place: Place) -> Claims:

@@ -40,7 +40,18 @@ class VerifyAnswer(Answer):
     """The claims of an answer."""
 
     claims: tuple[Claim, ...] = Field(description="the claims", examples=[[{"claim": "lower_bound"}]])
+    leaves: int = Field(
+        description="numbers and texts of the answer that claim something, without those that tell how it was found",
+        examples=[212],
+    )
+    checked: int = Field(description="those of them that were looked at", examples=[212])
+    not_covered: tuple[str, ...] = Field(
+        description="JSON pointers (RFC 6901) of the others, * for all of a list, a part of which nothing was looked at"
+        " as one; the first 200",
+        examples=[["/answer/main_bearings"]],
+    )
     verdict: Verdict = Field(
-        description="broken: a claim is; held: values, limits and bounds are; not covered: some of these are not",
+        description="broken: a claim is; held: every claim was looked at and holds; not covered: nothing is broken, but"
+        " there are claims that were not looked at",
         examples=["held"],
     )

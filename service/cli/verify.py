@@ -28,4 +28,4 @@ def verify(file: File, answer: Answer, as_json: AsJson = False) -> None:
         from service.report.chapters.verification import verified
 
         show(verified(found), "answer", found.verdict)
-    raise typer.Exit(1 if found.verdict == "broken" else 0)
+    raise typer.Exit(checker().CODES[found.verdict])

@@ -20,8 +20,8 @@ from service.documents.examples import bodies
 from service.verification import checker
 
 CLIENT = Path(__file__).parents[2] / "examples" / "client"
-#: what has to lie beside one another for one answer
-FILES = [CLIENT / f"verify{part}.py" for part in ("", "_claims", "_machine", "_numbers", "_program", "_weights")]
+#: what has to lie beside one another
+FILES = sorted(CLIENT.glob("verify*.py"))
 BODY = bodies("")["2d12"]
 
 
@@ -106,6 +106,30 @@ def test_files_that_are_not_there(files: tuple[Path, Path]) -> None:
     assert alone(files[0].parent, str(files[0]), "nowhere.json").returncode == 2
     assert alone(files[0].parent).returncode == 2
     assert command(str(files[0]), "nowhere.json").exit_code == 2
+
+
+def test_what_is_not_covered_has_an_exit_code_of_its_own(tmp_path: Path) -> None:
+    """Nothing is broken, and what nobody looked at is named."""
+    body = {**BODY, "outputs": ["residual", "hodograph"]}
+    answer = optimize(OptimizeRequest.model_validate(body)).model_dump(mode="json")
+    files = tmp_path / "request.json", tmp_path / "answer.json"
+    for file, held in zip(files, (body, answer), strict=True):
+        file.write_text(json.dumps(held))
+    by_file, by_command = alone(tmp_path, *map(str, files)), command(*map(str, files))
+    assert (by_file.returncode, by_command.exit_code) == (3, 3)
+    found = json.loads(command(*map(str, files), "--json").stdout)
+    assert found["verdict"] == "not covered"
+    assert found["not_covered"] == ["/answer/hodograph"]
+    assert found["checked"] < found["leaves"]
+    for told in (by_file.stdout, by_command.stdout):
+        assert "/answer/hodograph" in told
+        assert f"{found['checked']} of {found['leaves']}" in told
+
+
+def test_every_claim_of_an_answer_is_counted(answer: dict[str, Any]) -> None:
+    found = checker().verify(BODY, answer)
+    assert found["checked"] == found["leaves"] > 150
+    assert found["not_covered"] == []
 
 
 def test_file_command_and_route_say_the_same(client: TestClient, files: tuple[Path, Path], answer: Any) -> None:

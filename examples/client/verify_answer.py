@@ -1,0 +1,154 @@
+"""What an answer of any kind says of its counterweights, of what they leave, and of how far from the best they are."""
+
+from __future__ import annotations
+
+from typing import Dict, List, NamedTuple, Optional, Tuple
+
+from verify_claims import Claims, near, same
+from verify_cranks import balance_rates
+from verify_machine import NAMES, Machine, Mass, Responses
+from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, real
+from verify_orders import first_order, floor, orders, second_order
+from verify_quality import quality
+from verify_weights import counterweights, listed, shafts, usual_gap
+
+MASS_GAP = 1e-4  # largest mass_relative_gap of an optimal answer
+
+
+class Fitted(NamedTuple):
+    """What is chosen or there: what turns with the crankshaft, what with balance shafts by its order, and masses."""
+
+    turning: List[Mass]
+    on_shafts: List[Tuple[int, Mass]]
+    mass: Number
+    on_shafts_mass: Number
+
+    @property
+    def first(self) -> List[Mass]:
+        """All that turns once, with or against the crankshaft."""
+        return [*self.turning, *(mass for order, mass in self.on_shafts if order == 1)]
+
+
+NOTHING_FITTED = Fitted([], [], ZERO, ZERO)
+
+
+def fitted(request: Place, machine: Machine, place: Place, on_shafts: Place, whole: bool = True) -> Claims:
+    """Counterweights of crankshaft and balance shafts; returns them. ``whole``: whether they have all their fields."""
+    turning, mass = yield from counterweights(machine, place, request / "machine" if whole else Place(None))
+    turning_there, mass_there = yield from shafts(machine, request / "machine", on_shafts)
+    return Fitted(turning, turning_there, mass, mass_there)
+
+
+def before(request: Place, machine: Machine, answer: Place) -> Claims:
+    """The machine as it is: its plane, its first two orders, and what is left of it whatever is fitted."""
+    if answer / "reference_plane_m":
+        yield near("reference_plane", answer / "reference_plane_m", machine.asked_plane * ABOUT_ONE)
+    shown = answer / "residual"
+    yield from first_order("before", shown / "before", machine.before)
+    if answer / "floor":
+        yield from floor(machine, request / "machine", answer / "floor")
+    if shown / "orders":
+        own = [(1, machine.before), (2, second_order(request, machine))]
+        yield from orders("orders", shown / "orders" / "before", own)
+
+
+def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Claims:
+    """What the counterweights leave."""
+    left, shown = machine.responses(there.first), answer / "residual"
+    yield from first_order("after", shown / "after", left)
+    if shown / "orders":
+        twice = second_order(request, machine, there.on_shafts)
+        yield from orders("orders", shown / "orders" / "after", [(1, left), (2, twice)])
+    yield near("total_mass", answer / "total_mass_kg", there.mass)
+    if answer / "balance_shafts_mass_kg":
+        yield near("total_mass", answer / "balance_shafts_mass_kg", there.on_shafts_mass)
+    if answer / "balance_rate":
+        yield from rates(request / "machine", machine, answer / "counterweights", answer / "balance_rate", there)
+    if answer / "balance_quality":
+        yield from quality(request / "machine", machine, answer / "balance_quality", there.turning)
+    if answer / "active_limits":
+        rooms = touched(request, machine, left, there.mass)
+        if rooms is None:
+            yield "active_limits", answer / "active_limits", None, ONE
+        else:
+            yield from listed("active_limits", answer / "active_limits", rooms)
+
+
+def rates(asked: Place, machine: Machine, place: Place, said: Place, there: Fitted) -> Claims:
+    """The balance rate of every throw."""
+    unbalances = {
+        (one / "web").text(): mass.product * (mass.co + machine.blur) for one, mass in zip(place, there.turning)
+    }
+    exact, told = balance_rates(asked, machine, unbalances), list(said)
+    yield "balance_rate", said, ONE if len(exact) == len(told) else -ONE, ONE
+    for one, rate in zip(told, exact):
+        yield same("balance_rate", one / "throw", rate.throw)
+        yield same("balance_rate", one / "name", rate.name)
+        for field, figure in (("rate", rate.rate), ("sideways", rate.sideways)):
+            if figure is None or not one / field:
+                yield "balance_rate", one, ONE if figure is None and not one / field else -ONE, ONE
+            else:
+                yield near("balance_rate", one / field, figure, ONE)
+
+
+def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> Optional[Dict[str, float]]:
+    """Limits of the machine, and the share of each that is left; None where some are of the turn or of other cases."""
+    goal = request / "objective"
+    rooms: Dict[str, float] = {}
+    if machine.budget is not None:
+        rooms["max_total_mass"] = _room(float(mass), float(machine.budget))
+    elsewhere = (goal / "orders").value == "all" or request / "scenarios" or request / "tolerances"
+    for name, unit in NAMES.items():
+        for axis in ("", "_x", "_y"):
+            most = goal / f"{name}_ceiling{axis}_{unit}"
+            if most and elsewhere:
+                return None
+            if most:
+                co, counter = left[name]
+                turned = counter.conjugate() * (ONE if axis == "_x" else -ONE)
+                peak = abs(co + turned) if axis else abs(co) + abs(counter)
+                rooms[f"{name}_ceiling{axis}"] = _room(float(peak), most.double())
+    over_the_turn = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
+    return None if any(goal / field for field in over_the_turn) else rooms
+
+
+def _room(size: float, most: float) -> float:
+    return 1 - size / most if most > 0 else 0.0
+
+
+def gaps(request: Place, answer: Place, mass: Number, chosen: bool = False) -> Claims:
+    """Gaps are the differences of what is printed, over their yardsticks, and `optimal` says that they are small."""
+    proof, optimal = answer / "certificate", (answer / "status").text() == "optimal"
+    objective, lowest, place = proof / "objective", proof / "lower_bound", proof / "yardstick"
+    if objective and lowest and place:
+        gap, size = objective.number() - lowest.number(), place.number(least=0)
+        noise = SPECK * (abs(objective.number()) + abs(lowest.number()))
+        yield near("gap", proof / "gap", gap + noise)
+        yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
+        wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+        if optimal:
+            yield "status", answer / "status", wide * size + noise - gap, size
+        rest = proof / "objective_without_counterweights"
+        if rest and rest.double() > 0 and not chosen:
+            yield near("yardstick", place, rest.number() * ABOUT_ONE)
+    elif optimal:
+        yield "status", answer / "status", -ONE, ONE
+    if not optimal:
+        yield "status", answer / "status", ONE, ONE
+    least, place = proof / "mass_lower_bound_kg", proof / "mass_yardstick_kg"
+    if least and place:
+        size, gap = place.number(least=0), mass - least.number()
+        noise = SPECK * (mass + abs(least.number()))
+        relative = (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO
+        yield near("mass_gap", proof / "mass_relative_gap", relative)
+        if optimal:
+            yield "status", answer / "status", size * real(MASS_GAP) + noise - gap, size
+
+
+def closest(request: Place, machine: Machine, place: Place) -> Claims:
+    """The best compromise with ceilings that cannot be kept, which does not keep them either."""
+    if not place:
+        return
+    there = yield from fitted(request, machine, place / "counterweights", place / "balance_shafts")
+    left = machine.responses(there.first)
+    yield from first_order("closest", place / "first_order", left)

@@ -1,0 +1,221 @@
+"""The first order: what multipliers prove of its peaks, that ceilings are kept, or that they cannot be."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import Callable, Iterator, Sequence
+
+from verify_answer import Fitted, closest
+from verify_claims import EVIDENCE, Claim, Claims, near, same
+from verify_machine import NAMES, Machine, Mass, Responses
+from verify_numbers import (
+    ABOUT_ONE,
+    ONE,
+    SPECK,
+    STEP,
+    ZERO,
+    NotCovered,
+    Number,
+    Place,
+    largest,
+    real,
+    total,
+)
+from verify_prices import prices, sensitivity
+from verify_program import CEILINGS, Statement, phasors
+from verify_weights import catalogue, heavy_enough, stocked
+
+CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights, likewise
+SMALLEST = 1e-5  # of what is there before: by which what is smallest may be above its bound
+MASS_SHARE = 1e-5  # of the least mass that could cancel something: masses below are not told apart any finer
+
+
+def proven(
+    claim: str,
+    place: Place,
+    statement: Statement,
+    proof: Place,
+    implied: Place,
+    slack: dict[str, Number],
+    price: Callable[[dict[str, Number]], Number],
+    cost: Number = ZERO,
+) -> Iterator[Claim]:
+    """What is said, by what its rows are multiplied with, is no more than multipliers prove."""
+    for believed in (False, True):
+        bound = statement.bound(proof, implied, slack, cost, believed)
+        said = price(bound.rows)
+        room = bound.least - said if place and proof and bound.least is not None else None
+        if room is not None and room.high >= 0:
+            break
+    if believed and room is not None and room.high >= 0:
+        yield "reach", implied, None, ONE
+    yield claim, place, room, largest(abs(said), abs(bound.least or ZERO))
+    if room is not None:
+        yield EVIDENCE, proof, None, ONE
+        yield EVIDENCE, implied, None, ONE
+
+
+def priced_at(values: dict[str, Number], rows: dict[str, Number], least: Number = ZERO) -> Number:
+    """Rows of these values, and a mass."""
+    return least + total(row * values[name] for name, row in rows.items())
+
+
+def ceilings(statement: Statement, weights: Sequence[Mass], place: Place, kept: bool) -> Claims:
+    """``kept``: whether the answer says that they are; returns by how much they are exceeded."""
+    machine, excess = statement.machine, {}
+    after = machine.responses(weights)
+    for name, cap in statement.caps.items():
+        size = statement.sizes[name]
+        excess[name] = largest(abs(phasors(after, name)[0]) - cap, ZERO)
+        room = size * real(CEILING) - excess[name]
+        yield "ceilings", place, room if kept or room.high >= 0 else None, size
+    return excess
+
+
+def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
+    """The proof of the answer to one request, with its counterweights."""
+    request.known()
+    asked, goal, proof = request / "machine", request / "objective", answer / "certificate"
+    if (goal / "orders").text("first", "all", default="first") == "all":
+        raise NotCovered(goal / "orders")
+    weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / machine.span}
+    if goal / "moment_weight":
+        weights["moment"] = (goal / "moment_weight").number(least=0)
+    weights = {name: weight for name, weight in weights.items() if weight.high > 0}
+    together = (goal / "combine").text("sum", "max", default="sum") == "sum"
+    rows = {"sum": weights} if together else {name: {name: weight} for name, weight in weights.items()}
+    statement = Statement(machine, goal, rows)
+    optimal = (answer / "status").text() == "optimal"
+    excess = yield from ceilings(statement, fitted.turning, answer / "counterweights", optimal)
+    after = machine.responses(fitted.turning)
+    value, rest = (largest(ZERO, *statement.values(responses).values()) for responses in (after, machine.laden))
+    objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
+    chosen = yield from searched(asked, answer / "counterweights", proof)
+    lowest = proof / "continuous_lower_bound" if chosen else lowest
+    yield near("objective", objective, value)
+    yield near("before", proof / "objective_without_counterweights", rest)
+    # nothing that exceeds no ceiling by more is better
+    multipliers, priced = proof / "multipliers", partial(priced_at, dict.fromkeys(rows, lowest.number(0.0)))
+    yield from proven("lower_bound", lowest, statement, multipliers / "objective", implied, excess, priced)
+    if proof / "yardstick":
+        yield yardstick(statement, proof / "yardstick", rest, implied)
+    asks_least = (goal / "least_mass").read((bool,), "true or false", True)
+    if asks_least and not chosen:
+        size = (proof / "yardstick").number(0.0)
+        most = dict.fromkeys(rows, (proof / "mass_objective_limit").number(0.0))
+        yield from lightest(statement, proof, multipliers, most, after, fitted.mass)
+        yield from light(statement, proof, dict.fromkeys(rows, size), fitted.mass)
+    yield from sensitivity(statement, fitted.turning, answer / "sensitivity")
+    yield from prices(statement, request, answer, fitted, chosen)
+
+
+def searched(asked: Place, place: Place, proof: Place) -> Claims:
+    """Returns whether counterweights are chosen by a search; the tree or the comparison behind it is not repeated."""
+    yield from heavy_enough(asked, place)
+    stock = (asked / "catalogue") or (asked / "max_counterweights") or any(map(stocked, asked / "webs"))
+    if stock:
+        yield from catalogue(asked, place)
+    chosen = bool(stock or proof / "continuous_lower_bound")
+    if chosen:
+        yield "lower_bound", proof / "lower_bound", None, ONE
+    return chosen
+
+
+def lightest(
+    statement: Statement, proof: Place, multipliers: Place, most: dict[str, Number], after: Responses, mass: Number
+) -> Claims:
+    """Nothing with rows up to these, which the answer keeps, and that counts as keeping the ceilings is lighter."""
+    place, implied = proof / "mass_lower_bound_kg", proof / "implied_max_mass_kg"
+    slack = {name: size * real(CEILING) for name, size in statement.sizes.items()}
+    least = place.number(0.0) - statement.machine.fixed
+    if least.high <= 0:
+        yield "mass_lower_bound", place, -least if place else None, ONE
+        yield EVIDENCE, multipliers / "mass", None, ONE
+    else:
+        priced = partial(priced_at, most, least=least)
+        yield from proven("mass_lower_bound", place, statement, multipliers / "mass", implied, slack, priced, ONE)
+    for name, value in statement.values(after).items():
+        for field in ("mass_objective_limit", f"mass_{name}_limit_{NAMES.get(name)}"):
+            if proof / field:
+                yield "mass_lower_bound", proof / field, most[name] - value, abs(value)
+
+
+def light(statement: Statement, proof: Place, sizes: dict[str, Number], mass: Number) -> Claims:
+    """The yardstick of the mass: the mass, or what makes no difference to rows of these sizes."""
+    least, place = proof / "mass_lower_bound_kg", proof / "mass_yardstick_kg"
+    size = place.number(0.0)
+    if least and place:
+        limited = Statement(statement.machine, Place({}), {name: {name: ONE} for name in statement.caps}, capped=False)
+        cancelling = (statement.lightest(sizes), limited.lightest(statement.sizes))
+        counts = min((one for one in cancelling if one is not None), key=lambda one: one.high, default=ZERO)
+        yield (
+            "yardstick",
+            place,
+            largest(mass - statement.machine.fixed, counts * real(MASS_SHARE)) * ABOUT_ONE - size,
+            size,
+        )
+
+
+def yardstick(statement: Statement, place: Place, rest: Number, implied: Place) -> Claim:
+    """The objective without counterweights, or where it is 0 to rounding at most what they could make it."""
+    if rest.low > 0:
+        return near("yardstick", place, rest)
+    most = statement.reachable(implied)
+    if most is None:
+        return "yardstick", place, None, ONE
+    return "yardstick", place, most * ABOUT_ONE - place.number(), most
+
+
+def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
+    """No counterweights within the limits keep the ceilings, and what can be reached without them."""
+    request.known()
+    goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
+    plain = Machine(request / "machine", answer / "reference_plane_m", budget)
+    exact = Machine(request / "machine", answer / "reference_plane_m", budget, exact=True)
+    statement = Statement(exact, goal, {})
+    given = {CEILINGS[name]: name for name in statement.caps}
+    named = [one.text(*given) for one in said / "conflict"]
+    yield from (("conflict", one, ONE, ONE) for one in said / "conflict")
+    if len({*named}) < len(named):
+        yield "conflict", said / "conflict", -ONE, ONE
+    if proofs / "conflict" and named:
+        # strictly above 0: what is at most 0 proves nothing
+        yield from proven("conflict", proofs / "conflict", statement, proofs / "conflict", implied, {}, lambda _: STEP)
+    else:
+        yield "conflict", proofs / "conflict", None if named else -ONE, ONE
+    yield from smallest(plain, Place({}), said, proofs, implied)
+    for name, unit in NAMES.items():
+        lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
+        if lowest and found:
+            yield from near_the_bound(f"smallest_{name}", found, lowest, plain, name)
+        if lowest and f"{name}_ceiling_{unit}" in named and len(named) < len(given):
+            # this ceiling alone is out of reach
+            yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
+    for one in said / "smallest":
+        name, lowest = (one / "response").text(*CEILINGS), one / "lower_bound"
+        alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
+        yield from proven("smallest", lowest, alone, one / "multipliers", implied, {}, priced)
+        yield "smallest", one / "response", ONE, ONE
+        yield same("smallest", one / "ceiling_field", CEILINGS[name])
+        yield near("smallest", one / "ceiling", (goal / CEILINGS[name]).number(0.0))
+        yield from near_the_bound("smallest", one / "smallest", lowest, plain, name.partition(":")[0])
+        if CEILINGS[name] in named and len(named) < len(given):
+            yield "conflict", lowest, lowest.number() - (goal / CEILINGS[name]).number(), lowest.number()
+    yield from closest(request, plain, said / "closest")
+
+
+def near_the_bound(claim: str, found: Place, lowest: Place, machine: Machine, name: str) -> Claims:
+    """What is smallest is no less than its bound, and above it by no more than a share of what is there before."""
+    co, counter = machine.laden[name]
+    above = found.number() - lowest.number()
+    size = abs(co) + abs(counter)
+    yield claim, found, above + SPECK * abs(found.number()), abs(found.number())
+    yield claim, found, size * real(SMALLEST) + SPECK * abs(found.number()) - above, size
+
+
+def smallest(machine: Machine, goal: Place, said: Place, proofs: Place, implied: Place) -> Claims:
+    """Bounds on either peak alone, under the ceilings of a goal."""
+    for name, unit in NAMES.items():
+        lowest = said / f"smallest_{name}_lower_bound_{unit}"
+        alone, priced = Statement(machine, goal, {name: {name: ONE}}), partial(priced_at, {name: lowest.number(0.0)})
+        yield from proven(f"smallest_{name}", lowest, alone, proofs / f"smallest_{name}", implied, {}, priced)

@@ -1,0 +1,104 @@
+"""The fields that an answer has: one that lacks a field of its form says less than it seems to, and is broken.
+
+Each line says of which objects, by the end of their places, and what they hold; a field may hold null.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Dict, Iterator, List, Tuple, Union
+
+from verify_claims import Claim
+from verify_numbers import ONE, Place
+
+_TABLE = """
+.: version status status_reason counterweights total_mass_kg balance_shafts balance_shafts_mass_kg active_limits
+  shadow_prices worst_case price_of_robustness sensitivity residual floor certificate infeasibility balance_rate
+  balance_quality warnings reference_plane_m effects timing
+counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg mass_radius_kg_m x_kg_m y_kg_m
+  centrifugal_force_N active_limits fixed shape
+shape: half_angle_deg chord_height_m outer_radius_m inertia_kg_m2
+balance_shafts: name speed_ratio gearing total_mass_kg counterweights
+shadow_prices: limit web value unit
+worst_case: force_peak_N moment_peak_Nm bearing_peak_N objective
+price_of_robustness: nominal nominal_optimum nominal_optimum_worst_case
+sensitivity: objective_rise_per_deg objective_rise_per_percent
+residual: before after orders turn
+residual/before residual/after first_order without_counterweights: force moment
+residual/before/force residual/after/force first_order/force without_counterweights/force: peak_N minor_N
+  major_axis_deg peak_x_N peak_y_N co_rotating_N counter_rotating_N
+residual/before/moment residual/after/moment first_order/moment without_counterweights/moment: peak_Nm minor_Nm
+  major_axis_deg peak_x_Nm peak_y_Nm co_rotating_Nm counter_rotating_Nm
+orders turn: before after
+orders/before orders/after: order force moment
+orders/before/force orders/after/force: co_rotating counter_rotating peak_N
+force/co_rotating force/counter_rotating: real_N imag_N magnitude_N phase_deg
+orders/before/moment orders/after/moment: co_rotating counter_rotating peak_Nm
+moment/co_rotating moment/counter_rotating: real_Nm imag_Nm magnitude_Nm phase_deg
+turn/before turn/after: force_peak_N moment_peak_Nm
+floor yardstick scale: force_N moment_Nm
+certificate: objective lower_bound gap relative_gap yardstick objective_without_counterweights mass_lower_bound_kg
+  mass_relative_gap mass_yardstick_kg mass_objective_limit implied_max_mass_kg method cuts rounds
+  continuous_lower_bound nodes goals multipliers
+goals: goal value lower_bound limit
+certificate/multipliers points/multipliers: objective mass
+objective mass smallest/multipliers conflict smallest_force smallest_moment: terms rows budget ceilings
+terms: response part row angle_deg scenario x y
+rows: name value
+ceilings: response part angle_deg scenario x y
+infeasibility: conflict smallest_force_N smallest_moment_Nm smallest_force_lower_bound_N
+  smallest_moment_lower_bound_Nm scenarios smallest implied_max_mass_kg closest multipliers
+smallest: response ceiling_field ceiling smallest lower_bound multipliers
+closest: counterweights balance_shafts first_order
+infeasibility/multipliers: conflict smallest_force smallest_moment
+balance_rate: throw name rate sideways
+balance_quality: permissible_kg_m before after
+balance_quality/before balance_quality/after: grade_mm_s plane_a plane_b
+plane_a plane_b: position_m permissible_kg_m unbalance_kg_m angle_deg
+warnings: code message pointer
+timing: total_ms solve_ms mechanics_ms certificate_ms report_ms
+pareto: version status fronts trades counts without_counterweights floor reference_plane_m effects timing
+fronts: max_total_mass_kg status points reason knee ends scale implied_max_mass_kg infeasibility
+points: status status_reason force_peak_N moment_peak_Nm weighted_force_peak_N weighted_moment_peak_Nm total_mass_kg
+  counterweights active_limits certificate multipliers
+points/certificate: force_N moment_Nm relative_gap yardstick mass_lower_bound_kg mass_relative_gap mass_yardstick_kg
+  mass_force_limit_N mass_moment_limit_Nm implied_max_mass_kg method
+ends: smallest_force_N smallest_force_lower_bound_N moment_at_smallest_force_Nm smallest_moment_Nm
+  smallest_moment_lower_bound_Nm force_at_smallest_moment_N multipliers
+ends/multipliers: smallest_force smallest_moment
+"""
+
+
+def _read(table: str) -> Dict[Tuple[str, ...], Tuple[str, ...]]:
+    found = {}
+    for line in table.replace("\n  ", " ").strip().splitlines():
+        ends, _, names = line.partition(": ")
+        for end in ends.split():
+            found[tuple(end.split("/")) if end != "." else ()] = tuple(names.split())
+    return found
+
+
+FORM = _read(_TABLE)
+
+
+def names(parts: Tuple[str, ...]) -> Tuple[str, ...]:
+    """Fields of the object at a place, without the numbers of lists; none where nothing is said of it."""
+    if not parts:
+        return FORM[()]
+    return next((FORM[parts[n:]] for n in range(len(parts)) if parts[n:] in FORM), ())
+
+
+def form(answer: Place, kind: Tuple[str, ...] = ()) -> Iterator[Claim]:
+    """No object lacks a field. ``kind``: what places begin with, where it is not the answer to one request."""
+    yield "form", answer, ONE, ONE
+    left: List[Tuple[Any, Tuple[Union[str, int], ...]]] = [(answer.value, ())]
+    while left:
+        value, path = left.pop()
+        parts = (*kind, *(part for part in path if isinstance(part, str)))
+        if isinstance(value, list):
+            left.extend((one, (*path, k)) for k, one in enumerate(value))
+        elif isinstance(value, dict):
+            known = names(parts)
+            missing = [name for name in known if name not in value]
+            if missing:
+                yield "form", Place(value, *answer.path, *path, missing[0]), -ONE, ONE
+            left.extend((value[name], (*path, name)) for name in known if name in value)

@@ -1,0 +1,124 @@
+"""What shakes the frame: ellipses of the first order, phasors of orders 1 and 2, and what no counterweight removes."""
+
+from __future__ import annotations
+
+from math import inf, sqrt
+from typing import Callable, Dict, Iterable, List, Optional, Sequence, Tuple
+
+from verify_claims import Claims, near, same
+from verify_machine import NAMES, NOTHING, Machine, Mass, Responses, row_masses
+from verify_numbers import BLUR, HALF, ONE, ZERO, Number, Place, direction, real
+
+_EITHER_WAY = Number((-ONE).low, ONE.high)
+SERIES = 1e-12  # share by which the sum of a series in doubles may be off
+_FIGURES: Dict[str, Callable[[Number, Number], Number]] = {
+    "peak": lambda co, counter: abs(co) + abs(counter),
+    "minor": lambda co, counter: abs(abs(co) - abs(counter)),
+    "peak_x": lambda co, counter: abs(co + counter.conjugate()),
+    "peak_y": lambda co, counter: abs(co - counter.conjugate()),
+    "co_rotating": lambda co, counter: abs(co),
+    "counter_rotating": lambda co, counter: abs(counter),
+}
+
+
+def first_order(claim: str, place: Place, responses: Responses) -> Claims:
+    """Both ellipses."""
+    for name, pair in responses.items():
+        for figure, evaluate in _FIGURES.items():
+            said = place / name / f"{figure}_{NAMES[name]}"
+            if said:
+                yield near(claim, said, evaluate(*pair))
+        axis, product = place / name / "major_axis_deg", pair[0] * pair[1]
+        if axis:
+            # along e^{ja} both phasors point the same way: their product is along e^{2ja}
+            degrees = axis.double()
+            way = direction(degrees) + BLUR
+            yield claim, axis, -abs(product - way * way * abs(product)) if 0 <= degrees <= 180 else -ONE, abs(product)
+
+
+def second_order(request: Place, machine: Machine, shafts: Sequence[Tuple[int, Mass]] = ()) -> Optional[Responses]:
+    """Phasors that turn twice; None where a row has no rod."""
+    asked = request / "machine"
+    # the series cut off behind its second term
+    cut_off = (request / "fidelity" / "kinematics").text(default="exact") == "order_2"
+    found = {name: [ZERO, ZERO] for name in NAMES}
+    parts: List[Tuple[Number, Number, Number, Number]] = []
+    for throw in asked / "throws":
+        radius, crank = (throw / "crank_radius_m").number(), direction((throw / "crank_angle_deg").double())
+        for row in throw / "rows":
+            rod, axis = row / "connecting_rod", direction((row / "axis_deg").double())
+            if not rod:
+                return None
+            length = (rod / "length_m").double(least=1e-300) if rod / "length_m" else inf
+            ratio = min((throw / "crank_radius_m").double() / length, 1.0)
+            share = real(ratio if cut_off else harmonic(ratio))
+            size = row_masses(row)[0] * radius * HALF * (share + real(SERIES) * _EITHER_WAY)
+            twice = crank * axis.conjugate() * crank * axis.conjugate()
+            where = (throw / "position_m").number() + (row / "offset_m").number(0.0)
+            parts.append((size, axis * twice, axis * twice.conjugate(), where))
+    for order, mass in shafts:
+        if order == 2:
+            four = mass.product * real(4)
+            parts.append((four, mass.co, mass.counter, mass.position))
+    for size, co, counter, where in parts:
+        for name, pair in found.items():
+            arm = ONE if name == "force" else where * machine.wide - machine.plane * machine.wide
+            force = size * machine.wide * machine.square * arm
+            for k, way in enumerate((co, counter)):
+                if way is not ZERO:
+                    pair[k] = pair[k] + (way + machine.blur) * force
+    return {name: (co, counter) for name, (co, counter) in found.items()}
+
+
+def harmonic(ratio: float) -> float:
+    """What cos 2 phi has in the acceleration of a piston over r omega^2, of crank radius over rod length up to 1.
+
+    With k = sqrt(1 - ratio^2) and q = (1 - k) / (1 + k) the rod adds sqrt(1 - ratio^2 sin^2 phi) =
+    (1 + k) / 2 |1 + q e^{2j phi}|, whose Fourier coefficients are hypergeometric series in q^2.
+    """
+    root = sqrt(max((1 - ratio) * (1 + ratio), 0.0))
+    over_ratio = ratio / (1 + root) ** 2
+    square, term, series, n = (ratio * over_ratio) ** 2, 1.0, 0.0, 0
+    while abs(term) > 1e-18 and n < 20_000:
+        series += term
+        term *= (n + 0.5) * (n - 0.5) / ((n + 2.0) * (n + 1.0)) * square
+        n += 1
+    return 2 * (1 + root) * over_ratio * series
+
+
+def orders(claim: str, place: Place, by_order: Iterable[Tuple[int, Optional[Responses]]]) -> Claims:
+    """Phasors of force and moment by order."""
+    by_order, said = list(by_order), list(place)
+    yield claim, place, ONE if len(said) == len(by_order) else -ONE, ONE
+    for (order, responses), one in zip(by_order, said):
+        if responses is None or not one:
+            yield claim, one, -ONE if (responses is None) != (one.value is None) else ONE, ONE
+            continue
+        yield same(claim, one / "order", order)
+        for name, unit in NAMES.items():
+            pair = responses[name]
+            yield near(claim, one / name / f"peak_{unit}", abs(pair[0]) + abs(pair[1]))
+            for sense, phasor in zip(("co_rotating", "counter_rotating"), pair):
+                yield from _phasor(claim, one / name / sense, unit, phasor)
+
+
+def _phasor(claim: str, place: Place, unit: str, phasor: Number) -> Claims:
+    along, across = phasor.parts()
+    yield near(claim, place / f"real_{unit}", along, abs(phasor))
+    yield near(claim, place / f"imag_{unit}", across, abs(phasor))
+    yield near(claim, place / f"magnitude_{unit}", abs(phasor))
+    phase = (place / "phase_deg").double()
+    way = direction(phase) + BLUR
+    off = abs(phasor - way * abs(phasor)) - real(NOTHING)
+    yield claim, place / "phase_deg", -off if -180 <= phase <= 180 else -ONE, abs(phasor)
+
+
+def floor(machine: Machine, asked: Place, place: Place) -> Claims:
+    """The phasors that turn against the shaft, but where a balance shaft does."""
+    backwards = [shaft for shaft in asked / "balance_shafts" if (shaft / "speed_ratio").double() == -1]
+    planes = [(web / "position_m").number() for shaft in backwards for web in shaft / "webs"]
+    arms = any(abs(plane - machine.plane).low > 0 for plane in planes)
+    taken = {"force": bool(planes), "moment": arms}
+    for name, unit in NAMES.items():
+        figure = ZERO if taken[name] else abs(machine.before[name][1])
+        yield near("floor", place / f"{name}_{unit}", figure)

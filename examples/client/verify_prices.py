@@ -1,0 +1,205 @@
+"""What limits cost, by the multipliers of the bound, and what the objective rises by where weights are off."""
+
+from __future__ import annotations
+
+from cmath import phase, rect
+from math import cos, pi, radians, sin
+from typing import Dict, Iterator, List, NamedTuple, Sequence, Tuple
+
+from verify_answer import Fitted
+from verify_claims import Claims
+from verify_machine import NAMES, Machine, Mass
+from verify_numbers import BITS, ONE, NotCovered, Number, Place, real
+from verify_program import CEILINGS, Statement
+
+FIGURE = 1e-9  # share of a figure in doubles, of all that it is made of
+WORTH = 1e-6  # share of the objective without counterweights: what a whole limit has to be worth to be listed
+ACROSS = 1e-3  # rad: by which what pulls at a web may be off a right angle to the edge of its sector
+UNITS = {"max_mass": "kg", "max_total_mass": "kg", "envelope": "(kg m)", "max_centrifugal_force": "N", "sector": "deg"}
+
+
+def double(number: Number) -> complex:
+    """The middle."""
+    return complex((number.low + number.high) / (1 << BITS + 1), (number.y[0] + number.y[1]) / (1 << BITS + 1))
+
+
+# ---- where weights are off
+
+
+def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> Claims:
+    """What the objective rises by where all counterweights are off together, each whichever way is worst."""
+    if not said:
+        return
+    machine, rounding = statement.machine, 0.0
+    webs = [mass for mass, web in zip(turning, machine.webs) if web.fixed is None]
+    sums: Dict[str, List[float]] = {row: [float(floor)] * 3 for row, floor in statement.floor.items()}
+    for term in statement.terms.values():
+        arms = [ONE if term.moves == "force" else mass.position - machine.plane for mass in webs]
+        vectors = [double(mass.product * mass.co * arm * term.factor * machine.square) for mass, arm in zip(webs, arms)]
+        start = double(term.start)
+        worst = worst_by_angle(start, vectors, radians(1)), worst_by_mass(start, vectors, 0.01)
+        sums[term.row] = [one + more for one, more in zip(sums[term.row], (abs(start + sum(vectors)), *worst))]
+        rounding += 1e-14 * (abs(start) + sum(map(abs, vectors)))
+    as_it_is, by_angle, by_mass = (max(one[k] for one in sums.values()) for k in range(3))
+    for field, worse in (("objective_rise_per_deg", by_angle), ("objective_rise_per_percent", by_mass)):
+        figure, place = max(worse - as_it_is, 0.0), said / field
+        off = FIGURE * (as_it_is + worse) + rounding if place else -1.0
+        yield "sensitivity", place, real(off - abs(place.double(0.0) - figure)), real(abs(figure) + off)
+
+
+def worst_by_mass(start: complex, vectors: Sequence[complex], share: float) -> float:
+    """Largest |start + sum of (1 + e) v|, |e| up to a share: the corners of a zonotope, in the order of their edges."""
+    ahead = sorted((v if (v.imag, v.real) >= (0.0, 0.0) else -v for v in vectors), key=phase)
+    middle, corner = start + sum(vectors), sum(ahead)
+    found = [abs(middle + share * corner), abs(middle - share * corner)]
+    for v in ahead:
+        corner -= 2 * v
+        found += [abs(middle + share * corner), abs(middle - share * corner)]
+    return max(found)
+
+
+def worst_by_angle(start: complex, vectors: Sequence[complex], angle: float) -> float:
+    """Largest |start + sum of v e^{j psi}|, |psi| up to an angle.
+
+    Along a direction phi every v is worth |v| cos(max(|phi - arg v| - angle, 0)); between the directions at which these
+    change their form the sum is a sine and a constant.
+    """
+    there = [(abs(v), phase(v)) for v in vectors if v]
+    edges = sorted({(way + off) % (2 * pi) for _, way in there for off in (-angle, angle, pi)}) or [0.0]
+    found = abs(start + sum(vectors))
+    for low, high in zip(edges, [*edges[1:], edges[0] + 2 * pi]):
+        middle = (low + high) / 2
+        constant, turned = 0.0, start
+        for size, way in there:
+            off = (middle - way + pi) % (2 * pi) - pi
+            if abs(off) <= angle:
+                constant += size
+            else:
+                turned += rect(size, way + (angle if off > 0 else -angle))
+        best = low + min(max((phase(turned) - middle + pi) % (2 * pi) - pi + (middle - low), 0.0), high - low)
+        for way in (low, high, best):
+            found = max(found, constant + (turned * complex(cos(way), -sin(way))).real)
+    return found
+
+
+# ---- what limits cost
+
+
+class Priced(NamedTuple):
+    """A limit that is stated, what a unit of it is worth, how large it is, its unit, and whether it is touched."""
+
+    limit: str
+    web: str
+    price: float
+    size: float
+    unit: str
+    touched: bool
+    edge: bool = False  # whether rounding tells if it costs anything
+
+
+def prices(statement: Statement, request: Place, answer: Place, there: Fitted, chosen: bool) -> Claims:
+    """The slope of the bound at the limits: none of choices and of groups, where one web does not give way alone."""
+    place, goal, proof = answer / "shadow_prices", request / "objective", answer / "certificate"
+    machine, gap = statement.machine, proof / "gap"
+    told = list(place)
+    if chosen or machine.groups or not gap:
+        yield "shadow_prices", place, -ONE if told else ONE, ONE
+        return
+    weight, unit = (goal / "force_weight").double(1.0), "N"
+    if weight <= 0:
+        weight, unit = (goal / "moment_weight").double(float(ONE / machine.span)), "N m"
+    multipliers = proof / "multipliers" / "objective"
+    touched = {(one.text()) for one in answer / "active_limits"}
+    slopes, ceilings = slope(statement, multipliers)
+    stated = list(_stated(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
+    for name, length in ceilings.items():
+        field = CEILINGS[name]
+        limit = field.rpartition("_")[0]
+        per = "N" if field.endswith("_N") else "(N m)"
+        stated.append(Priced(limit, "", length, (goal / field).double(), per, limit in touched))
+    rest = (proof / "objective_without_counterweights").double(0.0)
+    yield from listed_prices(place, stated, weight, unit, gap.double(), rest)
+
+
+def listed_prices(place: Place, stated: Sequence[Priced], weight: float, unit: str, gap: float, rest: float) -> Claims:
+    """Prices of what is touched, or holds the objective up, each once, and 0 where the gap is worth more."""
+    by_name = {(one.limit, one.web): one for one in stated}
+    names = [((one / "limit").text(), (one / "web").text() if one / "web" else "") for one in place]
+    least = WORTH * rest * (1 + 1e-6) + 1e-200
+    counts = {key: one.touched or (one.price * one.size > least and not one.edge) for key, one in by_name.items()}
+    must = {key for key, one in counts.items() if one}
+    right = len({*names}) == len(names) and must <= {*names} <= {*by_name}
+    yield "shadow_prices", place, ONE if right else -ONE, ONE
+    for one, key in zip(place, names):
+        yield "shadow_prices", one / "limit", ONE if key in by_name else -ONE, ONE
+        yield "shadow_prices", one / "web", ONE, ONE
+        if key not in by_name:
+            continue
+        exact = by_name[key]
+        yield "shadow_prices", one / "unit", ONE if (one / "unit").value == f"{unit}/{exact.unit}" else -ONE, ONE
+        value, said = exact.price / weight, (one / "value").double(least=0)
+        worth = exact.price * exact.size
+        # a whole limit that is worth less than the gap has no price that can be told
+        near_it = abs(said - value) <= 1e-6 * value + 1e-9 * rest / weight / max(exact.size, 1e-300) * (exact.size > 0)
+        held = near_it if said > 0 else exact.size > 0 and worth <= gap * (1 + 1e-3) + 1e-12 * rest
+        held = held or (said == 0 and (exact.edge or value <= 1e-12 * (rest / weight)))
+        yield "shadow_prices", one / "value", ONE if held else -ONE, ONE
+
+
+def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, float]]:
+    """What the bound falls by per kg m on each web, and the lengths of the multipliers of ceilings."""
+    machine, slopes = statement.machine, dict.fromkeys(NAMES, 0j)
+    lengths: Dict[str, float] = dict.fromkeys(statement.caps, 0.0)
+    for one in proof / "terms":
+        key = (one / "response").text(), (one / "part").text("co", "counter")
+        if key not in statement.terms or one / "angle_deg" or one / "scenario":
+            raise NotCovered(one)
+        term, y = statement.terms[key], complex((one / "x").double(), (one / "y").double())
+        slopes[term.moves] += y * double(term.factor)
+    for one in proof / "ceilings":
+        name, y = (one / "response").text(), complex((one / "x").double(), (one / "y").double())
+        if name not in lengths or one / "angle_deg" or one / "scenario":
+            raise NotCovered(one)
+        slopes[name.partition(":")[0]] += y
+        lengths[name] += abs(y)
+    square, plane = double(machine.square).real, double(machine.plane).real
+    arms = [double(web.position).real - plane for web in machine.webs]
+    return [-(slopes["force"] + slopes["moment"] * arm) * square for arm in arms], lengths
+
+
+def _stated(
+    machine: Machine, fitted: Place, pulls: Sequence[complex], proof: Place, budget_touched: bool
+) -> Iterator[Priced]:
+    """Every limit of webs and of the total mass."""
+    beta = (proof / "budget").double(0.0, least=0)
+    for web, one, pull in zip(machine.webs, fitted, pulls):
+        if web.fixed is not None:
+            continue
+        names = {each.text() for each in one / "active_limits"}
+        radius = (one / "radius_m").double() if web.plate else double(web.radius).real
+        worth = max(radius * _support(pull, web.sector) - beta, 0.0)
+        sizes = {name: float(most) for name, most in web.limits}
+        least = min(sizes.values(), default=0.0)
+        for name, most in sizes.items():
+            binds = worth if most <= least * (1 + 1e-12) else 0.0
+            per = 1.0
+            if name == "max_centrifugal_force":
+                per = radius * double(machine.fastest).real
+            yield Priced(name, web.name, binds / per, most * per, UNITS[name], name in names)
+        if web.sector is not None:
+            centre, half = web.sector
+            off = abs((phase(pull) - radians(centre) + pi) % (2 * pi) - pi) - radians(half)
+            u = (one / "mass_kg").double() * radius
+            # across the edge a web between its limits gains nothing, on either side of 0
+            opening = abs(pull) * sin(off) if 0 < off < pi / 2 + ACROSS else 0.0
+            edge = abs(off - pi / 2) < ACROSS
+            yield Priced("sector", web.name, radians(u * opening), half, "deg", "sector" in names, edge)
+    if machine.budget is not None:
+        yield Priced("max_total_mass", "", beta, double(machine.budget).real, "kg", budget_touched)
+
+
+def _support(pull: complex, sector: object) -> float:
+    if not isinstance(sector, tuple):
+        return abs(pull)
+    off = max(abs((phase(pull) - radians(sector[0]) + pi) % (2 * pi) - pi) - radians(sector[1]), 0.0)
+    return abs(pull) * max(cos(off), 0.0)

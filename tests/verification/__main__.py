@@ -1,0 +1,59 @@
+"""``python -m tests.verification``: what the checker knows of every kind of answer.
+
+Of each kind every number is falsified in seven ways, one at a time: times 1.001, 0.999 and 1000, 0, the other sign,
+swapped with the next number, deleted. Prints kind | claims | covered | tampered | caught | named; exit code 1 where
+something was falsified and neither caught nor named as not covered, or where the answer as it is was broken.
+"""
+
+import argparse
+import sys
+import time
+from collections import Counter
+from typing import Any
+
+from service.verification import checker
+from tests.verification.answers import names, pair
+from tests.verification.falsified import Falsified, falsified, numbers, outcome, silent
+
+
+def tally(request: Any, answer: Any, every: int) -> tuple[Counter[str], list[Falsified]]:
+    """What became of every n-th number of an answer, and what was missed."""
+    found, missed = Counter[str](), []
+    places = list(numbers(answer))
+    for n, path in enumerate(places):
+        if n % every == 0:
+            for one in falsified(answer, path, places[n + 1] if n + 1 < len(places) else None):
+                what = outcome(request, one, silent())
+                found[what] += 1
+                if what == "missed":
+                    missed.append(one)
+    return found, missed
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(prog="python -m tests.verification", description=__doc__)
+    parser.add_argument("--every", type=int, default=1, help="falsify every n-th number")
+    parser.add_argument("--kinds", default="", help="those whose name holds this")
+    parser.add_argument("--missed", action="store_true", help="print what was missed")
+    arguments = parser.parse_args()
+    faults, together = 0, Counter[str]()
+    print(f"{'kind':<32} verdict       claims covered tampered  caught   named  missed      ms")
+    for name in (one for one in names() if arguments.kinds in one):
+        request, answer = pair(name)
+        begun = time.process_time()
+        told = checker().verify(request, answer)
+        spent = time.process_time() - begun
+        found, missed = tally(request, answer, arguments.every)
+        together += found
+        faults += bool(found["missed"]) + (told["verdict"] == "broken")
+        line = (told["leaves"], told["checked"], found.total(), found["caught"], found["named"], found["missed"])
+        print(f"{name:<32} {told['verdict']:<12}", *(f"{one:7}" for one in line), f"{spent * 1e3:7.1f}", flush=True)
+        if arguments.missed:
+            for one in missed:
+                print("   missed:", "/".join(map(str, one.path)), one.way)
+    print("all:", dict(together))
+    return int(faults > 0)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,93 @@
+"""Requests of every kind of answer, by name, and their answers: what the table of tampering goes through."""
+
+import copy
+import json
+from functools import cache
+from typing import Any
+
+from optimizer.optimize import optimize
+from optimizer.studies.matching.match import match
+from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.sweep.rows import rows
+from optimizer.studies.sweep.table import result_schema, result_table
+from schemas.front.pareto import ParetoRequest
+from schemas.match.request import MatchRequest
+from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
+from service.documents.examples import bodies
+from tests.pairs.asking import body_of
+from tests.verification.kinds import SINGLE
+
+Body = dict[str, Any]
+
+#: pairs of tests/pairs that make a kind of their own: machine, features
+_FEATURES: dict[str, tuple[str, tuple[str, ...]]] = {
+    "groups": ("twin", ("mirrored group",)),
+    "orders of all": ("vee", ("orders all", "combine max")),
+    "bearings": ("twin", ("bearings alone",)),
+    "bearings, rms": ("twin", ("bearing rms",)),
+    "bearings, specific": ("twin", ("bearing specific", "clockwise")),
+    "bending": ("twin", ("bending weight", "three bearings")),
+    "continuous shaft": ("twin", ("bearing weight", "three bearings", "continuous shaft")),
+    "gas": ("twin", ("bearing weight", "gas")),
+    "indicated pressure": ("twin", ("bearing weight", "indicated pressure")),
+    "ceilings over the turn": ("twin", ("bearing_ceiling_N near",)),
+    "infeasible over the turn": ("twin", ("ceilings out of reach",)),
+    "priorities": ("twin", ("priorities",)),
+    "priorities of the first order": ("twin", ("external, then mass",)),
+    "scenarios": ("twin", ("scenario of masses",)),
+    "scenarios over the turn": ("vee", ("scenario of speed", "bearing weight")),
+    "tolerances": ("twin", ("tolerances of masses and angles", "tolerance of unbalance")),
+    "tolerances of rows": ("vee", ("tolerances of rows",)),
+    "tolerances over the turn": ("twin", ("tolerances of masses and angles", "bearing weight")),
+    "balance shaft": ("vee", ("balance shaft backwards",)),
+    "balance shaft, orders": ("vee", ("balance shaft of order 2", "orders all")),
+    "roll": ("vee", ("balance shaft backwards", "roll weight")),
+    "plates, sectors": ("twin", ("plates, sectors",)),
+    "plates, segments, budget": ("twin", ("plates, segments", "budget")),
+    "catalogue": ("twin", ("masses of a catalogue", "steps")),
+    "catalogue over the turn": ("twin", ("masses of a catalogue", "steps", "bearing weight")),
+    "least fitted": ("vee", ("least fitted",)),
+    "balance quality": ("twin", ("balance quality", "unbalances")),
+}
+
+
+@cache
+def _requests() -> dict[str, Body]:
+    found = {name: SINGLE[name] for name in ("sum", "max", "direction weights", "budget and ceiling", "infeasible")}
+    found |= {name: SINGLE[name] for name in ("no limits, max, sector", "2d12", "scroll-oldham")}
+    for name, (base, features) in _FEATURES.items():
+        body = body_of(base, features, 2.0)
+        assert body is not None
+        found[name] = body
+    found["front"] = {**SINGLE["sum"], "points": 3, "multipliers": True}
+    masses = {"path": "/machine/throws/0/rows/0/reciprocating_mass_kg", "values": [9.0, 14.0]}
+    found["sweep"] = {"base": SINGLE["ceilings"], "axes": [masses], "multipliers": True}
+    found["matching"] = bodies("match")["2d12"]
+    return found
+
+
+def names() -> tuple[str, ...]:
+    """All kinds."""
+    return tuple(_requests())
+
+
+@cache
+def _text(name: str) -> str:
+    body = _requests()[name]
+    if "parts" in body:
+        return match(MatchRequest.model_validate(body)).model_dump_json()
+    if "base" in body:
+        request = SweepRequest.model_validate(body)
+        from optimizer.program.reference.solver import Solver
+
+        table = result_table(rows(request, 0, request.total, Solver()), result_schema(request, b"{}"))
+        return json.dumps(table.to_pylist())
+    if "points" in body:
+        return pareto(ParetoRequest.model_validate(body)).model_dump_json()
+    return optimize(OptimizeRequest.model_validate(body)).model_dump_json()
+
+
+def pair(name: str) -> tuple[Body, Any]:
+    """Request and answer of a kind."""
+    return copy.deepcopy(_requests()[name]), json.loads(_text(name))

@@ -1,0 +1,103 @@
+"""Answers with one leaf falsified: every number of an answer, in every way, and what the checker makes of it."""
+
+import copy
+from collections.abc import Iterator
+from typing import Any, Literal, NamedTuple
+
+from service.verification import checker
+
+Path = tuple[str | int, ...]
+Outcome = Literal["caught", "named", "missed"]
+WAYS = ("x1.001", "x0.999", "x1000", "0", "sign", "swap", "deletion")
+
+
+class Falsified(NamedTuple):
+    """An answer with one thing changed."""
+
+    path: Path
+    way: str
+    answer: Any
+
+
+def numbers(answer: Any, path: Path = ()) -> Iterator[Path]:
+    """Places of all numbers; of long lists the first three."""
+    if isinstance(answer, dict):
+        for name, value in answer.items():
+            yield from numbers(value, (*path, name))
+    elif isinstance(answer, list):
+        for k, value in enumerate(answer[:3] if len(answer) > 12 else answer):
+            yield from numbers(value, (*path, k))
+    elif isinstance(answer, int | float) and not isinstance(answer, bool):
+        yield path
+
+
+def falsified(answer: Any, path: Path, other: Any) -> Iterator[Falsified]:
+    """Every way to falsify one number; ``other`` is the one that it is swapped with."""
+    value = at(answer, path)
+    ways = {"x1.001": value * 1.001, "x0.999": value * 0.999, "x1000": value * 1000.0, "0": 0.0, "sign": -value}
+    for way, wrong in ways.items():
+        if wrong != value:
+            yield Falsified(path, way, replaced(answer, path, wrong))
+    if other is not None and at(answer, other) != value:
+        swapped = replaced(replaced(answer, path, at(answer, other)), other, value)
+        yield Falsified(path, "swap", swapped)
+    yield Falsified(path, "deletion", deleted(answer, path))
+
+
+def at(answer: Any, path: Path) -> Any:
+    """What stands at a place."""
+    for part in path:
+        answer = answer[part]
+    return answer
+
+
+def replaced(answer: Any, path: Path, value: Any) -> Any:
+    """A copy with another value at a place; the rest is shared."""
+    if not path:
+        return value
+    found = copy.copy(answer)
+    found[path[0]] = replaced(answer[path[0]], path[1:], value)
+    return found
+
+
+def deleted(answer: Any, path: Path) -> Any:
+    """A copy without what stands at a place."""
+    found = copy.copy(answer)
+    if len(path) == 1:
+        del found[path[0]]
+    else:
+        found[path[0]] = deleted(answer[path[0]], path[1:])
+    return found
+
+
+def outcome(request: Any, one: Falsified, silent: tuple[str, ...]) -> Outcome:
+    """What becomes of it: broken or refused, its place named as one that is not looked at, or neither.
+
+    Parameters
+    ----------
+    silent : names of what claims nothing, or is evidence of what is claimed elsewhere.
+    """
+    try:
+        found = checker().verify(request, one.answer)
+    except checker().Unreadable:
+        return "caught"
+    if found["verdict"] == "broken":
+        return "caught"
+    pointer = "/answer" + "".join(f"/{'*' if isinstance(part, int) else escaped(part)}" for part in one.path)
+    names = [*found["not_covered"], *(claim["where"] for claim in found["claims"] if claim["verdict"] == "not covered")]
+    if any(pointer == name or pointer.startswith(f"{name}/") for name in names):
+        return "named"
+    return "named" if any(part in silent for part in one.path) else "missed"
+
+
+def escaped(part: str) -> str:
+    """A part of a JSON pointer."""
+    return part.replace("~", "~0").replace("/", "~1")
+
+
+def silent() -> tuple[str, ...]:
+    """Parts of an answer that claim nothing by themselves."""
+    from sys import modules
+
+    checker()
+    return (*modules["verify_leaves"].REMARKS, "multipliers", "implied_max_mass_kg")

@@ -1,0 +1,44 @@
+"""The form of an answer as its models have it: what the checker's own table, which knows no model, has to say."""
+
+from types import UnionType
+from typing import Annotated, Any, Union, get_args, get_origin
+
+from pydantic import BaseModel
+
+from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.outputs import OutputFields
+from schemas.front.pareto import ParetoAnswer
+
+#: parts of which nothing is looked at, whatever they hold
+_UNKNOWN = {"trades", "counts"}
+_OUTPUTS = {*OutputFields.model_fields}
+
+
+def fields(model: type[BaseModel] = OptimizeAnswer, path: str = "") -> dict[str, tuple[str, ...]]:
+    """Names of the fields of every object of an answer, by its place; `*` for all of a list."""
+    found = {path: tuple(name for name in model.model_fields if path or name not in _OUTPUTS)}
+    for name, field in model.model_fields.items():
+        if path or name not in _OUTPUTS:
+            for where, inner in _models(field.annotation, f"{path}/{name}"):
+                found |= fields(inner, where)
+    return found
+
+
+def _models(annotation: Any, path: str) -> list[tuple[str, type[BaseModel]]]:
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
+        return [(path, annotation)]
+    origin, inner = get_origin(annotation), get_args(annotation)
+    if origin is Annotated:
+        return _models(inner[0], path)
+    if origin in (Union, UnionType):
+        return [one for each in inner for one in _models(each, path)]
+    if origin is tuple or origin is list:
+        return [one for each in inner for one in _models(each, f"{path}/*")]
+    # of a map the names are free
+    return []
+
+
+def all_fields() -> dict[str, tuple[str, ...]]:
+    """Of single answers, and of fronts, whose places begin with `/pareto`, but for trades of other responses."""
+    fronts = fields(ParetoAnswer, "/pareto")
+    return fields() | {path: names for path, names in fronts.items() if not _UNKNOWN & {*path.split("/")}}

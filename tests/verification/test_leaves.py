@@ -1,0 +1,98 @@
+"""Every leaf of an answer is checked, or named as not covered; what is missing or no number is broken or refused."""
+
+import copy
+import json
+import sys
+from typing import Any
+
+import pytest
+
+from service.verification import checker
+from tests.verification.answers import names, pair
+from tests.verification.falsified import deleted, numbers, replaced
+from tests.verification.form import all_fields
+
+#: enough for what has to hold of every kind, and for a test
+KINDS = ("sum", "infeasible", "plates, sectors", "balance quality", "scenarios", "front")
+
+
+def test_the_form_is_that_of_the_models() -> None:
+    """Independent: the models, which the checker does not import."""
+    checker()
+    told = sys.modules["verify_form"]
+    for path, fields in all_fields().items():
+        parts = tuple(part for part in path.split("/") if part not in ("", "*"))
+        assert told.names(parts) == fields, path
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_an_answer_lacks_no_field(name: str) -> None:
+    request, answer = pair(name)
+    for path in list(numbers(answer))[::7]:
+        if not {"timing", "effects", "multipliers"} & {*path} and not isinstance(path[-1], int):
+            wrong = deleted(answer, path)
+            try:
+                verdict = checker().verify(request, wrong)["verdict"]
+            except checker().Unreadable:
+                continue
+            assert verdict == "broken", path
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), -float("inf")])
+def test_a_number_that_is_none_is_refused(number: float) -> None:
+    request, answer = pair("scenarios")
+    for path in list(numbers(answer))[::5]:
+        with pytest.raises(checker().Unreadable):
+            checker().verify(request, replaced(answer, path, number))
+
+
+@pytest.mark.parametrize("name", KINDS[:-1])
+def test_a_counterweight_twice_or_not_at_all_is_broken(name: str) -> None:
+    request, answer = pair(name)
+    there = answer if answer["counterweights"] else answer["infeasibility"]["closest"]
+    first = there["counterweights"][0]
+    for wrong in ([first, *there["counterweights"]], there["counterweights"][1:], there["counterweights"][::-1]):
+        kept, there["counterweights"] = there["counterweights"], wrong
+        assert checker().verify(request, answer)["verdict"] == "broken"
+        there["counterweights"] = kept
+
+
+def test_what_is_added_is_named() -> None:
+    request, answer = pair("sum")
+    answer["savings"] = {"per_year": 1000.0}
+    found = checker().verify(request, answer)
+    assert found["not_covered"] == ["/answer/savings"]
+    assert (found["verdict"], found["leaves"] - found["checked"]) == ("not covered", 1)
+
+
+@pytest.mark.parametrize("name", KINDS)
+def test_all_leaves_are_counted(name: str) -> None:
+    """Independent: every leaf below a name that is not covered, and all others."""
+    request, answer = pair(name)
+    found = checker().verify(request, answer)
+    checker()
+    silent = sys.modules["verify_leaves"].REMARKS
+    named = [one.split("/")[2:] for one in found["not_covered"]]
+    missed = counted = 0
+    for path in _leaves(answer):
+        if silent & {*path} or {"multipliers", "implied_max_mass_kg"} & {*path}:
+            continue
+        counted += 1
+        missed += any(["*" if part.isdecimal() else part for part in path[: len(one)]] == one for one in named)
+    assert (found["leaves"], found["checked"]) == (counted, counted - missed) or "multipliers" in str(named)
+    assert found["verdict"] == ("held" if missed == 0 and not named else "not covered")
+
+
+def _leaves(value: Any, path: tuple[str, ...] = ()) -> list[tuple[str, ...]]:
+    if isinstance(value, dict | list):
+        items = value.items() if isinstance(value, dict) else enumerate(value)
+        return [leaf for key, one in items for leaf in _leaves(one, (*path, str(key)))]
+    return [] if value is None else [path]
+
+
+def test_the_kinds_hold_as_they_are() -> None:
+    for name in KINDS:
+        request, answer = pair(name)
+        found = checker().verify(copy.deepcopy(request), json.loads(json.dumps(answer)))
+        assert found["verdict"] in ("held", "not covered"), (name, found["claims"])
+    assert len(names()) >= 26
