@@ -162,8 +162,28 @@ def sweep(request: Place, rows: Place) -> Iterator[Claim]:
             for path in paths:
                 body = with_value(body, path.split("/")[1:], (row / path).value, request / "axes")
             yield from covered(_row(Place(body, "request", "base"), row))
-            # with other values the figures would be others
-            yield from (("axis", row / path, ONE, ONE) for path in paths)
+            yield from (_on_axis(axis, row) for axis in request / "axes")
+
+
+def _on_axis(axis: Place, row: Place) -> Claim:
+    """A value of the axis: one of those that are listed, or between its ends."""
+    path = (axis / "path").text()
+    where, said = path.split("/")[1:], row / path
+    if axis / "values":
+        allowed = [
+            None if one.value is None else Place(one.value, "request", *where).double() for one in axis / "values"
+        ]
+    else:
+        allowed = [Place((axis / name).value, "request", *where).double() for name in ("start", "stop")]
+    if not said:
+        return "axis", said, None if None in allowed else -ONE, ONE
+    value, numbers = Place(said.value, "request", *where).double(), [one for one in allowed if one is not None]
+    slack = UNSURE * max(map(abs, numbers), default=0.0)
+    if axis / "values":
+        held = any(abs(value - one) <= slack for one in numbers)
+    else:
+        held = min(numbers) - slack <= value <= max(numbers) + slack
+    return "axis", said, ONE if held else -ONE, ONE
 
 
 def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:

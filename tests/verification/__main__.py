@@ -1,8 +1,9 @@
 """``python -m tests.verification``: what the checker knows of every kind of answer.
 
 Of each kind every number is falsified in seven ways, one at a time: times 1.001, 0.999 and 1000, 0, the other sign,
-swapped with the next number, deleted. Prints kind | claims | covered | tampered | caught | named; exit code 1 where
-something was falsified and neither caught nor named as not covered, or where the answer as it is was broken.
+swapped with the next number, deleted. Prints kind | claims | covered | tampered | caught | named | rounding | missed
+and milliseconds. Rounding is what is left of figures that cancel, below 1e-9 of them. Exit code 1 where something was
+missed, neither caught nor named as not covered, or where the answer as it is was broken.
 """
 
 import argparse
@@ -37,7 +38,7 @@ def main() -> int:
     parser.add_argument("--missed", action="store_true", help="print what was missed")
     arguments = parser.parse_args()
     faults, together = 0, Counter[str]()
-    print(f"{'kind':<32} verdict       claims covered tampered  caught   named  missed      ms")
+    print(f"{'kind':<32} verdict       claims covered tampered  caught   named rounding missed      ms")
     for name in (one for one in names() if arguments.kinds in one):
         request, answer = pair(name)
         begun = time.process_time()
@@ -46,8 +47,13 @@ def main() -> int:
         found, missed = tally(request, answer, arguments.every)
         together += found
         faults += bool(found["missed"]) + (told["verdict"] == "broken")
-        line = (told["leaves"], told["checked"], found.total(), found["caught"], found["named"], found["missed"])
-        print(f"{name:<32} {told['verdict']:<12}", *(f"{one:7}" for one in line), f"{spent * 1e3:7.1f}", flush=True)
+        line = (told["leaves"], told["checked"], found.total(), found["caught"], found["named"])
+        print(
+            f"{name:<32} {told['verdict']:<12}",
+            *(f"{one:7}" for one in (*line, found["rounding"], found["missed"])),
+            f"{spent * 1e3:7.1f}",
+            flush=True,
+        )
         if arguments.missed:
             for one in missed:
                 print("   missed:", "/".join(map(str, one.path)), one.way)

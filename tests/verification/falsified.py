@@ -7,7 +7,9 @@ from typing import Any, Literal, NamedTuple
 from service.verification import checker
 
 Path = tuple[str | int, ...]
-Outcome = Literal["caught", "named", "missed"]
+Outcome = Literal["caught", "named", "rounding", "missed"]
+#: share of the largest figure of the same unit below which one is what rounding leaves
+_DUST = 1e-9
 WAYS = ("x1.001", "x0.999", "x1000", "0", "sign", "swap", "deletion")
 
 
@@ -17,6 +19,7 @@ class Falsified(NamedTuple):
     path: Path
     way: str
     answer: Any
+    whole: Any  # as it was
 
 
 def numbers(answer: Any, path: Path = ()) -> Iterator[Path]:
@@ -36,12 +39,13 @@ def falsified(answer: Any, path: Path, other: Any) -> Iterator[Falsified]:
     value = at(answer, path)
     ways = {"x1.001": value * 1.001, "x0.999": value * 0.999, "x1000": value * 1000.0, "0": 0.0, "sign": -value}
     for way, wrong in ways.items():
-        if wrong != value:
-            yield Falsified(path, way, replaced(answer, path, wrong))
+        # 180 degrees are -180 degrees
+        if wrong != value and not (way == "sign" and str(path[-1]) == "phase_deg" and abs(value) == 180.0):
+            yield Falsified(path, way, replaced(answer, path, wrong), answer)
     if other is not None and at(answer, other) != value:
         swapped = replaced(replaced(answer, path, at(answer, other)), other, value)
-        yield Falsified(path, "swap", swapped)
-    yield Falsified(path, "deletion", deleted(answer, path))
+        yield Falsified(path, "swap", swapped, answer)
+    yield Falsified(path, "deletion", deleted(answer, path), answer)
 
 
 def at(answer: Any, path: Path) -> Any:
@@ -87,7 +91,30 @@ def outcome(request: Any, one: Falsified, silent: tuple[str, ...]) -> Outcome:
     names = [*found["not_covered"], *(claim["where"] for claim in found["claims"] if claim["verdict"] == "not covered")]
     if any(pointer == name or pointer.startswith(f"{name}/") for name in names):
         return "named"
-    return "named" if any(part in silent for part in one.path) else "missed"
+    if any(part in silent for part in one.path):
+        return "named"
+    return "rounding" if _dust(one.whole, one.path) else "missed"
+
+
+def _dust(answer: Any, path: Path) -> bool:
+    """Whether a number is what rounding leaves of the forces or moments of the answer, or the direction of that.
+
+    So it is beside what the same object and those around it hold: of a phasor and of an ellipse, both orders, before
+    and after.
+    """
+    if path[0] != "residual" and "first_order" not in path:
+        return False
+    here = at(answer, path[:-1])
+    kind = "_Nm" if "moment" in path else "_N"
+    figures = (one for one in numbers(answer["residual"], ("residual",)) if str(one[-1]).endswith(kind))
+    largest = max(abs(at(answer, one)) for one in figures)
+    value = at(answer, path)
+    if str(path[-1]).endswith("_deg"):
+        # along what is smallest of it: one of both phasors, or the phasor itself
+        sizes = [abs(one) for name, one in here.items() if name.startswith(("co_", "counter_", "magnitude"))]
+        return min(sizes) <= _DUST * largest
+    others = [one for name, one in here.items() if name.endswith(kind) and name != path[-1]]
+    return abs(value) <= _DUST * largest or any(abs(value - one) <= _DUST * largest for one in others)
 
 
 def escaped(part: str) -> str:

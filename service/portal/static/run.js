@@ -3,6 +3,7 @@
 import { showAnswer } from "./answer.js";
 import { post, Problem } from "./api.js";
 import { beginning } from "./beginning.js";
+import { showChecked } from "./checked.js";
 import { byId, h } from "./dom.js";
 
 const STEP = { step_deg: 2 };
@@ -55,7 +56,11 @@ export class Run {
       this.#answered(request, answer, work.changes === asked);
       if (work.changes === asked) progress.textContent = `Answered in ${Math.round(performance.now() - started)} ms.`;
       await panels.show({ ...this.page.context, request, answer, number, kept: work.kept, call: { method: "POST", path: "v1/optimize", body } });
-      if (number === this.count) Object.assign(results.dataset, { drawn: number, ms: Math.round(performance.now() - started) });
+      if (number !== this.count) return;
+      Object.assign(results.dataset, { drawn: number, ms: Math.round(performance.now() - started) });
+      // never before it is shown, and nobody waits for it
+      results.removeAttribute("aria-busy");
+      await showChecked(byId("answer").querySelector(".proof"), body, answer, this.#running.signal);
     } catch (error) {
       if (error.name === "AbortError" || number !== this.count) return;
       if (!(error instanceof Problem)) console.error(error);

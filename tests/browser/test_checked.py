@@ -1,0 +1,36 @@
+"""The page tells what the independent checker makes of an answer, after it is shown and never before."""
+
+import json
+import re
+from typing import Any
+
+from playwright.sync_api import Route, expect
+
+from tests.browser.portal import Portal
+
+
+def test_the_answer_is_checked_once_it_is_shown(portal: Portal) -> None:
+    asked: list[str] = []
+    portal.page.on("request", lambda request: asked.append(request.url.rpartition("/v1/")[2]))
+    portal.open("2d12")
+    note = portal.page.locator("#answer .checked")
+    expect(note).to_have_text(
+        re.compile(r"^checked: (\d+) of \d+ claims; nothing is broken\. Not covered: .*hodograph")
+    )
+    first = re.match(r"checked: (\d+) of (\d+)", note.inner_text())
+    assert first is not None
+    assert 150 < int(first[1]) < int(first[2])
+    assert asked.index("optimize") < asked.index("verify")
+
+
+def test_a_broken_claim_stands_out(portal: Portal) -> None:
+    def falsified(route: Route) -> None:
+        reply = route.fetch()
+        found: dict[str, Any] = reply.json()
+        found["total_mass_kg"] *= 1.001
+        route.fulfill(response=reply, body=json.dumps(found))
+
+    portal.page.route("**/v1/optimize", falsified)
+    portal.open("v8-cross-plane")
+    note = portal.page.locator('#answer .checked[data-verdict="broken"]')
+    expect(note).to_contain_text("Broken: total_mass (total_mass_kg)")
