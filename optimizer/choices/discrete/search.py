@@ -6,6 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
+from optimizer.choices.discrete.ample import lightened, offer_light_sets
 from optimizer.choices.discrete.branch import branch
 from optimizer.choices.discrete.clock import Clock
 from optimizer.choices.discrete.exchange import neighbourhoods, start
@@ -22,6 +23,8 @@ TREE = "branch and bound"
 _SUMS, _PAIRS = 300_000, 3_000_000
 #: sums of a half where they have so many coordinates that what is near is hardly found any quicker than by looking
 _FEW_SUMS, _COORDINATES = 10_000, 4
+#: share of the time for light sets near the optimum of any masses; where part numbers are few no tree closes soon
+_LIGHT, _LIGHT_OF_PARTS = 0.4, 0.7
 #: how long neighbourhoods are tried before a tree, and the nodes of that, whose roundings are better sooner
 _SEARCHES = ((0, 1), (0, 1_200.0), (6, np.inf))
 
@@ -94,6 +97,8 @@ def search(
     def enough() -> bool:
         return incumbent.least - at_least <= gap
 
+    light = Clock((_LIGHT_OF_PARTS if options.limits_parts else _LIGHT) * time_limit_s)
+    offer_light_sets(incumbent, relaxed, enough, light)
     for patience, most_nodes in _SEARCHES:
         neighbourhoods(incumbent, relaxed, patience, enough, half)
         tree = branch(options, incumbent, at_least, gap, lambda bound: False, clock, most_nodes, below)
@@ -106,7 +111,11 @@ def search(
         if closed or clock.spent():
             break
     ended = None if closed else "size" if tree.full else "time"
-    return _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
+    found = _found(incumbent, bound, nodes, TREE, closed and gap < 0, ended)
+    if closed and gap > 0 and known.below is None:
+        # all within the asked gap are as good, and what is light is cheap
+        return replace(found, chosen=lightened(incumbent, bound + gap))
+    return found
 
 
 def _most_sums(incumbent: Incumbent) -> int:

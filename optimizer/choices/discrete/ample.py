@@ -1,0 +1,280 @@
+"""Light sets near the optimum of any masses, of slots with many options.
+
+The lightest optimum of any masses is on few webs. Of their options those that are near to it, beside light ones on two
+or four other slots, are compared in halves: some ten thousand sums on either side, of each the nearest of the other.
+Force and moment have four real dimensions, in which so many sums lie close together.
+"""
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import replace
+from itertools import combinations, islice
+
+import numpy as np
+
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.halves import exhaust
+from optimizer.choices.discrete.options import Incumbent, Options
+from optimizer.numerics.arrays import Complex, Real
+from optimizer.program.methods.compiled import both_stages, suits_kernel
+from optimizer.program.solution import OPTIMUM_SHARE
+
+#: options of a slot near to the optimum, and light ones of another, pass by pass
+_COUNTS = ((40, 200), (60, 300))
+#: sums of a half, and pairs of them, that are compared
+_SUMS, _PAIRS = 20_000, 60_000
+#: sums of a half where sizes are tried
+_TRIED = 4_000
+#: pairs of slots that the optimum uses, and of others, that are looked at
+_MOVING, _OTHERS = 6, 28
+#: slots beside those of the optimum where few part numbers may be used
+_TRIMS = 4
+#: slots of the optimum that may take any angle
+_MAIN = 3
+#: further sizes, as shares of those of the optimum, and steps by which sizes are moved
+_SHARES, _STEPS = (0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.3, 0.5), (1, -1, 2, -2, 4, -4)
+#: options near to what a slot takes and to the optimum, where four slots change; changes in a row that lead nowhere
+_CLOSE, _PATIENCE = 30, 40
+_SEED = 20_261_123
+#: share of the largest unbalance of the optimum from which on a slot is used by it
+_USED = 1e-3
+
+Sizes = tuple[int, ...]
+
+
+def offer_light_sets(incumbent: Incumbent, relaxed: Complex, enough: Callable[[], bool], clock: Clock) -> None:
+    """Offer the sets that are found so.
+
+    Parameters
+    ----------
+    relaxed : (K,) kg m of first webs, an optimum of any masses.
+    enough : whether the best set is as good as asked.
+    """
+    light = _lightest(incumbent, relaxed)
+    used = np.flatnonzero(np.abs(light) > _USED * np.max(np.abs(light), initial=0.0)).tolist()
+    if not used:
+        return
+    if incumbent.options.limits_parts:
+        _PartSizes(incumbent, light, used, enough, clock).run()
+        return
+    for near, many in _COUNTS:
+        for which in _neighbourhoods(incumbent, light, used, near, many):
+            if enough() or clock.spent():
+                return
+            exhaust(incumbent.options, which, incumbent, _SUMS, _PAIRS, clock)
+
+    def close(slot: int) -> np.ndarray:
+        options, chosen = incumbent.options, incumbent.chosen
+        assert chosen is not None
+        about = (options.unbalance[slot, chosen[slot]], light[slot])
+        near = [_near(options, slot, complex(each), _CLOSE) for each in about]
+        return np.unique(np.concatenate([*near, _light(options, slot, _CLOSE // 2)]))
+
+    _improve(incumbent, incumbent.options, close, enough, clock)
+
+
+def _improve(
+    incumbent: Incumbent,
+    options: Options,
+    some: Callable[[int], np.ndarray],
+    enough: Callable[[], bool],
+    clock: Clock,
+) -> None:
+    """Change four slots of the best set at a time, until a while nothing is better.
+
+    Parameters
+    ----------
+    options : without limits that every choice keeps anyway.
+    some : options of a slot that are tried.
+    """
+    chance, free = np.random.default_rng(_SEED), np.flatnonzero(np.sum(options.exists, axis=-1) > 1)
+    left = min(math.comb(free.size, 4) + 1, _PATIENCE)
+    while left > 0 and not (enough() or clock.spent()):
+        assert incumbent.chosen is not None
+        which = [np.array([option]) for option in incumbent.chosen]
+        for k in chance.choice(free, min(free.size, 4), replace=False).tolist():
+            which[k] = np.union1d(which[k], some(k))
+        before = incumbent.least
+        exhaust(options, which, incumbent, _SUMS, _PAIRS, clock)
+        left = _PATIENCE if incumbent.least < before - incumbent.resolution else left - 1
+
+
+def lightened(incumbent: Incumbent, limit: float) -> np.ndarray:
+    """The best set (K,), and as long as one is there a lighter one that differs on one slot, no worse than a limit.
+
+    Parameters
+    ----------
+    limit : of the objective.
+    """
+    options, statement, chosen = incumbent.options, incumbent.statement, incumbent.chosen
+    assert chosen is not None
+    while True:
+        lighter = [
+            (float(options.mass[k, option] - options.mass[k, chosen[k]]), k, int(option))
+            for k in range(options.slots)
+            for option in np.flatnonzero(options.exists[k] & (options.mass[k] < options.mass[k, chosen[k]]))
+        ]
+        if not lighter:
+            return chosen
+        lighter.sort()
+        sets = np.repeat(chosen[None], len(lighter), axis=0)
+        sets[np.arange(len(lighter)), [k for _, k, _ in lighter]] = [option for _, _, option in lighter]
+        u = options.carried(sets)
+        kept = options.counts(statement, sets) & (statement.objective(u) <= limit)
+        kept &= np.all(statement.ceilings.excess(u) <= statement.ceilings.tolerance, axis=-1)
+        if not kept.any():
+            return chosen
+        chosen = sets[int(np.argmax(kept))]
+
+
+def _lightest(incumbent: Incumbent, relaxed: Complex) -> Complex:
+    """(K,) kg m: the lightest optimum of any masses, or the one that is known."""
+    statement = incumbent.statement
+    if not suits_kernel(statement) or not statement.at_rest > 0:
+        return relaxed
+    share = np.array([OPTIMUM_SHARE * float(statement.at_rest)])
+    stages = both_stages(statement.alone(), share, share, True)
+    return stages.unbalance[0] if stages.certified[0] else relaxed
+
+
+def _near(options: Options, slot: int, about: complex, count: int) -> np.ndarray:
+    """Nothing, and the options of a slot that are nearest to an unbalance."""
+    off = np.where(options.exists[slot], np.abs(options.unbalance[slot] - about), np.inf)
+    nearest = np.argsort(off, kind="stable")[: min(count, int(np.sum(options.exists[slot])))]
+    return np.union1d([0], nearest)
+
+
+def _light(options: Options, slot: int, count: int) -> np.ndarray:
+    """The lightest options of a slot, nothing first."""
+    mass = np.where(options.exists[slot], options.mass[slot], np.inf)
+    return np.argsort(mass, kind="stable")[: min(count, int(np.sum(options.exists[slot])))]
+
+
+def _neighbourhoods(
+    incumbent: Incumbent, light: Complex, used: Sequence[int], near: int, many: int
+) -> Iterator[list[np.ndarray]]:
+    """Options of every slot: near ones of two that the optimum uses, light ones of two others, and of the rest one."""
+    options = incumbent.options
+    base = options.nearest(light)
+    largest = sorted(used, key=lambda k: -abs(light[k]))
+    moving: list[tuple[int, ...]] = list(islice(combinations(largest, 2), _MOVING)) or [tuple(largest)]
+    rest = [k for k in range(options.slots) if k not in used]
+    others: list[tuple[int, ...]] = list(islice(combinations(rest, 2), _OTHERS)) or [tuple(rest)]
+    for slots in moving:
+        for trims in others:
+            which = [np.array([option]) for option in base]
+            for k in slots:
+                which[k] = _near(options, k, light[k], near)
+            for k in trims:
+                which[k] = _light(options, k, many)
+            yield which
+
+
+def _half_of(which: Sequence[np.ndarray]) -> float:
+    """Sums of a half, about."""
+    return float(np.sqrt(np.prod([float(each.size) for each in which])))
+
+
+class _PartSizes:
+    """Which part numbers to use, where fewer may be used than there are: sizes moved up and down, one at a time."""
+
+    def __init__(
+        self, incumbent: Incumbent, light: Complex, used: list[int], enough: Callable[[], bool], clock: Clock
+    ) -> None:
+        self.incumbent, self.enough, self.clock = incumbent, enough, clock
+        options = incumbent.options
+        self.used = sorted(used, key=lambda k: -abs(light[k]))
+        self.light, self.near = light, options.nearest(light)
+        # what is left of the choice by its sizes is not to be counted again
+        self.loose = replace(options, most_parts=None)
+        parts = np.unique(options.part[options.exists & (options.part >= 0)])
+        mass = np.array([np.min(options.mass[options.part == part]) for part in parts])
+        order = np.argsort(mass, kind="stable")
+        self.parts, self.mass = parts[order], mass[order]
+        rest = [k for k in range(options.slots) if k not in used]
+        # every second first: trims on either end
+        self.trims = [rest[::2] + rest[1::2], rest[1::2] + rest[::2]]
+
+    def run(self) -> None:
+        """Offer the best sets of so few sizes."""
+        most = self.incumbent.options.most_parts or 0
+        if not most or not self.mass.size:
+            return
+        own = np.array([self._nearest(self._mass_of(k)) for k in self.used])
+        main = (
+            np.unique(own) if np.unique(own).size < most else np.unique([self._nearest(float(np.mean(self.mass[own])))])
+        )
+        sizes = tuple(main.tolist())
+        small = sizes[-1]
+        self._better(sizes, small)
+        if own.size > most > 1:
+            # sizes in so many heaps, where the optimum is on many slots
+            heaps = np.array_split(np.sort(self.mass[own]), most)
+            several = tuple(np.unique([self._nearest(float(np.mean(heap))) for heap in heaps]).tolist())
+            if self._better(several, several[0]):
+                sizes, small = several, several[0]
+        if len(sizes) < most:
+            for size in dict.fromkeys(self._nearest(share * float(self.mass[sizes[-1]])) for share in _SHARES):
+                small = size if self._better(sizes, size) else small
+        moved: tuple[Sizes, int] | None = (sizes, small)
+        while moved is not None and not self._over():
+            sizes, small = moved
+            moved = self._moved(sizes, small)
+        self._better(sizes, small, _SUMS)
+        _improve(self.incumbent, self.loose, self._in_use, self.enough, self.clock)
+
+    def _in_use(self, slot: int) -> np.ndarray:
+        """Nothing, and the options of a slot of the sizes that the best set has."""
+        options, chosen = self.incumbent.options, self.incumbent.chosen
+        assert chosen is not None
+        parts = options.of(options.part, chosen)
+        return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts[parts >= 0])))
+
+    def _over(self) -> bool:
+        return self.enough() or self.clock.spent()
+
+    def _moved(self, main: Sizes, small: int) -> tuple[Sizes, int] | None:
+        """Sizes of which one is some steps up or down, with which a better set was found; None where there are none."""
+        for step in _STEPS:
+            for n in range(len(main) + 1):
+                moved = main if n == len(main) else (*main[:n], main[n] + step, *main[n + 1 :])
+                other = small + step if n == len(main) else small
+                inside = all(0 <= size < self.mass.size for size in (*moved, other))
+                if inside and not self._over() and self._better(moved, other):
+                    return moved, other
+        return None
+
+    def _better(self, main: Sizes, small: int, sums: int = _TRIED) -> bool:
+        """Whether slots of the optimum with the main sizes, and others with the small one, make a better set."""
+        before = self.incumbent.least
+        for trims in self.trims:
+            which = [np.array([0]) for _ in range(self.incumbent.options.slots)]
+            for k in self.used:
+                which[k] = self._of_sizes(k, main)
+            for k in self.used[_MAIN:]:
+                which[k] = self._closest(k, which[k])
+            for k in trims[:_TRIMS]:
+                some = self._of_sizes(k, (small,))
+                if _half_of(which) * np.sqrt(some.size) <= sums:
+                    which[k] = some
+            if not self._over():
+                exhaust(self.loose, which, self.incumbent, _SUMS, _PAIRS, self.clock)
+        return self.incumbent.least < before - self.incumbent.resolution
+
+    def _closest(self, slot: int, some: np.ndarray) -> np.ndarray:
+        """Of some options of a slot the one nearest to the optimum."""
+        options = self.incumbent.options
+        off = np.abs(options.unbalance[slot, some] - self.light[slot])
+        return some[[int(np.argmin(off))]]
+
+    def _of_sizes(self, slot: int, sizes: Sizes) -> np.ndarray:
+        """Nothing, and the options of a slot that have these sizes."""
+        parts: Real = self.parts[list(sizes)]
+        options = self.incumbent.options
+        return np.union1d([0], np.flatnonzero(options.exists[slot] & np.isin(options.part[slot], parts)))
+
+    def _mass_of(self, slot: int) -> float:
+        return float(self.incumbent.options.mass[slot, self.near[slot]])
+
+    def _nearest(self, mass: float) -> int:
+        return int(np.argmin(np.abs(self.mass - mass)))
