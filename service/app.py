@@ -35,7 +35,7 @@ from service.http.direct import Direct
 from service.http.errors import ErrorAnswers, joined
 from service.http.openapi import Documented
 from service.jobs import faults as job_faults
-from service.jobs.desk import Desk
+from service.jobs.desk import JobService
 from service.jobs.events import Watch
 from service.routes import computations, effects, examples, health, portal, reference_page, sweeps
 from service.routes import metrics as metrics_route
@@ -106,7 +106,7 @@ unit as a suffix; a number is in that unit, a string such as `"140 mm"` is read 
 """
 
 
-def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk | None = None) -> FastAPI:
+def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobService | None = None) -> FastAPI:
     """The service as an ASGI application.
 
     Parameters
@@ -123,7 +123,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: Desk |
         address that other machines reach.
     """
     chosen = settings or Settings()
-    desk = jobs or Desk(chosen)
+    desk = jobs or JobService(chosen)
     table = shares(chosen)
     pool = Pool(
         table,

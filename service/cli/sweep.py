@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     import pyarrow as pa
 
     from schemas.sweep.request import SweepRequest
-    from service.jobs.desk import Desk
+    from service.jobs.desk import JobService
     from service.jobs.job import Job
     from service.jobs.owner_jobs import OwnerJobs
 
@@ -130,14 +130,14 @@ def _require_fits(output: Path, asked: "SweepRequest") -> None:
             fail(f"{output}: {error}")
 
 
-def _desk(place: Path, workers: int | None, engine: str | None) -> "Desk":
-    from service.jobs.desk import Desk
+def _desk(place: Path, workers: int | None, engine: str | None) -> "JobService":
+    from service.jobs.desk import JobService
     from service.settings import Settings
 
     given: dict[str, Any] = {} if workers is None else {"sweep_workers": workers}
     settings = Settings(data_dir=place, database_url=None, engine=engine or "processes", **_ALONE, **given)
     try:
-        return Desk(settings)
+        return JobService(settings)
     except ValueError as error:
         fail(str(error))
 

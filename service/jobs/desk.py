@@ -26,7 +26,7 @@ _DAY_S = 86_400.0
 _RESULTS = "results"
 
 
-class Desk:
+class JobService:
     """The jobs of a service.
 
     Parameters

@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.table import Table
 
 from schemas.sweep.request import SweepRequest
-from service.jobs.desk import Desk
+from service.jobs.desk import JobService
 from service.jobs.formats import FORMATS, Name
 from service.settings import Settings
 from tests.benchmarks.sweep_case import sweep
@@ -37,7 +37,9 @@ def measure(console: Console, request: SweepRequest, processes: int, formats: It
     for heading in ("designs", "service", "largest worker", "results on disk", "designs/s"):
         table.add_column(heading, justify="right")
     with tempfile.TemporaryDirectory() as folder:
-        desk = Desk(Settings(data_dir=Path(folder), database_url=None, engine="processes", sweep_workers=processes))
+        desk = JobService(
+            Settings(data_dir=Path(folder), database_url=None, engine="processes", sweep_workers=processes)
+        )
         try:
             jobs = desk.of()
             job, _ = jobs.sweep(request)

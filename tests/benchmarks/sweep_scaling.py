@@ -22,7 +22,7 @@ from rich.table import Table
 from optimizer.studies.sweep.plan import plan
 from schemas.sweep.request import SweepRequest
 from service.jobs import worker
-from service.jobs.desk import Desk
+from service.jobs.desk import JobService
 from service.jobs.engines import NICENESS
 from service.settings import Settings
 from tests.benchmarks.sweep_case import sweep
@@ -36,7 +36,7 @@ _NO_FLAG = "no flag"
 def through_the_service(kind: str, request: SweepRequest, workers: int) -> float:
     """From handing the sweep in to its last row on disk, with workers that are warm, s."""
     with tempfile.TemporaryDirectory() as folder, _engine(kind, workers) as engine:
-        desk = Desk(Settings(data_dir=Path(folder), database_url=None, engine=engine, sweep_workers=workers))
+        desk = JobService(Settings(data_dir=Path(folder), database_url=None, engine=engine, sweep_workers=workers))
         try:
             _run(desk, sweep(2000 * workers, seed=1))
             return _run(desk, request)
@@ -57,7 +57,7 @@ def _engine(kind: str, workers: int) -> Iterator[str]:
         yield f"dask:{cluster.scheduler_address}"
 
 
-def _run(desk: Desk, request: SweepRequest) -> float:
+def _run(desk: JobService, request: SweepRequest) -> float:
     """By the clock of the job, s: who asks often whether it is done takes time from those who do it."""
     jobs = desk.of()
     job, _ = jobs.sweep(request)

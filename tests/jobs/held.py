@@ -23,5 +23,5 @@ if __name__ == "__main__":
     from service.jobs import desk
     from tests.jobs import held as importable
 
-    desk.Desk = partial(desk.Desk, run=importable.held)  # type: ignore[assignment,misc]
+    desk.JobService = partial(desk.JobService, run=importable.held)  # type: ignore[assignment,misc]
     main()

@@ -32,7 +32,7 @@ def serve(**given: Any) -> None:
     # workers import this module as well, and need none of these
     from optimizer.studies.sweep import plan
     from service.app import create_app
-    from service.jobs.desk import Desk
+    from service.jobs.desk import JobService
     from service.jobs.pace import Pace
     from service.settings import Settings
     from service.wire.server import listen, run, url
@@ -40,7 +40,9 @@ def serve(**given: Any) -> None:
     # a sweep of some thousand designs in hundreds of chunks instead of 16
     plan._FEWEST_CHUNKS = 400
     settings = Settings(port=0, **given)
-    jobs = Desk(settings, Pace(poll_s=0.05, lease_s=settings.lease_s, tidy_s=float(os.environ.get(TIDY, "60"))), slow)
+    jobs = JobService(
+        settings, Pace(poll_s=0.05, lease_s=settings.lease_s, tidy_s=float(os.environ.get(TIDY, "60"))), slow
+    )
     socket = listen(settings)
     print(url(socket), flush=True)
     run(create_app(settings, warm=False, jobs=jobs), settings, socket)

@@ -110,7 +110,7 @@ def test_an_interrupted_sweep_goes_on(tmp_path: Path, ending: signal.Signals) ->
 @pytest.mark.parametrize(
     ("where", "during"),
     [
-        ("service.jobs.desk", "Desk"),
+        ("service.jobs.desk", "JobService"),
         ("service.jobs.owner_jobs", "OwnerJobs.sweep"),
         ("service.cli.sweep", "_watch"),
         ("service.jobs.export", "export"),

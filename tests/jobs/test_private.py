@@ -13,7 +13,7 @@ from schemas.sweep.request import SweepRequest
 from service.common.private import close, make_folder
 from service.jobs import worker
 from service.jobs.database import Database
-from service.jobs.desk import Desk
+from service.jobs.desk import JobService
 from service.jobs.files import JobFiles
 from service.settings import Settings
 from tests.jobs.routes import finished, ready
@@ -59,7 +59,7 @@ def test_what_an_earlier_version_left_open_is_closed(tmp_path: Path) -> None:
     (data / "keys.jsonl").touch()
     for path in (data, data / "results", data / "results" / "job"):
         path.chmod(0o755)
-    Desk(Settings(data_dir=data)).close()
+    JobService(Settings(data_dir=data)).close()
     assert (mode(data), mode(data / "results"), mode(data / "jobs.sqlite")) == (0o700, 0o700, 0o600)
     # what this user wrote beside it is his
     assert mode(data / "keys.jsonl") == 0o644
@@ -69,7 +69,7 @@ def test_a_folder_for_other_things_too_stays_as_it_is(tmp_path: Path) -> None:
     (tmp_path / "site").mkdir()
     (tmp_path / "results").mkdir()
     tmp_path.chmod(0o755)
-    Desk(Settings(data_dir=tmp_path)).close()
+    JobService(Settings(data_dir=tmp_path)).close()
     database = Database(tmp_path / "jobs.sqlite")
     database.check()
     database.close()

@@ -15,7 +15,7 @@ from optimizer.studies.sweep import run_chunk
 from schemas.sweep.request import SweepRequest
 from service.cli import app
 from service.jobs.database import Database, DatabaseUnavailable
-from service.jobs.desk import Desk
+from service.jobs.desk import JobService
 from service.jobs.housekeeping import Housekeeping
 from service.jobs.kinds import table_bytes
 from service.jobs.pace import Pace
@@ -79,7 +79,7 @@ def write_1(settings: Settings) -> None:
 
 def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
     write_1(settings)
-    desk = Desk(settings, Pace(poll_s=0.05))
+    desk = JobService(settings, Pace(poll_s=0.05))
     desk.open()
     try:
         jobs = desk.of()
@@ -104,14 +104,14 @@ def test_a_database_of_the_first_release_goes_on(settings: Settings) -> None:
     finally:
         desk.close()
     # and once more, as of today's schema
-    again = Desk(settings)
+    again = JobService(settings)
     assert again.of().get(DONE).done == 400
     again.close()
 
 
 def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -> None:
     write_1(settings)
-    old = Desk(settings)
+    old = JobService(settings)
     old.of().get(DONE)
     old.close()
     engine = engine_of(settings)
@@ -120,7 +120,7 @@ def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -
             connection.execute(text(f"ALTER TABLE {table} DROP COLUMN invalid"))
         connection.execute(text("UPDATE schema SET number = 2"))
         connection.execute(text("UPDATE jobs SET failed = 7"))
-    desk = Desk(settings)
+    desk = JobService(settings)
     found = desk.of().get(DONE)
     desk.close()
     # what was counted together stays so
@@ -133,7 +133,7 @@ def test_a_database_without_counts_of_invalid_rows_goes_on(settings: Settings) -
 def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypatch: pytest.MonkeyPatch) -> None:
     write_1(settings)
     # not opened, so that only what is called here runs
-    desk = Desk(settings)
+    desk = JobService(settings)
     jobs, parts = desk.of(), desk._parts
     done = jobs.get(DONE)
     schema = jobs.schema(done)
@@ -169,7 +169,7 @@ def test_a_file_is_named_while_others_read_and_tidy(settings: Settings, monkeypa
 
 def test_a_crash_between_a_name_and_its_record_costs_nothing(settings: Settings) -> None:
     write_1(settings)
-    desk = Desk(settings)
+    desk = JobService(settings)
     jobs, parts = desk.of(), desk._parts
     done = jobs.get(DONE)
     for piece in parts.store.pieces(DONE):
@@ -190,7 +190,7 @@ def test_a_crash_between_a_name_and_its_record_costs_nothing(settings: Settings)
     ],
 )
 def test_another_schema_refuses_to_start(settings: Settings, change: str, said: str) -> None:
-    desk = Desk(settings)
+    desk = JobService(settings)
     desk.of().page(1, None)
     desk.close()
     engine = engine_of(settings)
@@ -198,11 +198,11 @@ def test_another_schema_refuses_to_start(settings: Settings, change: str, said: 
         connection.execute(text(change))
     engine.dispose()
     with pytest.raises(ValueError, match=said):
-        Desk(settings)
+        JobService(settings)
 
 
 def test_tables_that_are_changed_while_it_runs(settings: Settings) -> None:
-    desk = Desk(settings)
+    desk = JobService(settings)
     desk.of().page(1, None)
     assert desk.counts() == {}
     engine = engine_of(settings)
