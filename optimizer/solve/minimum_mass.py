@@ -1,12 +1,11 @@
 """Of the sets that can be chosen and keep the ceilings the lightest, with a certified gap."""
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from optimizer.choices.construction import feasible_set
-from optimizer.choices.feasible_set import Subproblem
+from optimizer.choices.feasible_set import Choice, SearchResult, Subproblem
 from optimizer.formulation.demand import demand
 from optimizer.formulation.goals import cone_program
 from optimizer.formulation.simulation import Prepared
@@ -14,13 +13,13 @@ from optimizer.numerics.arrays import Real
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import METHOD, Unkept, over_turn
 from optimizer.program.cuts.semi_infinite import Goal
+from optimizer.program.limits import Limits
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.norms import Norms
 from optimizer.program.reference.solver import Solver
 from optimizer.program.rows import total_mass
 from optimizer.program.statement import Names, Statement, Term
-from optimizer.responses.response import Response
 from optimizer.solve.cutting_plane_rounds import in_rounds
 from optimizer.solve.search_claims import ended, told_ample
 from optimizer.solve.uncertain_program import Robust
@@ -43,38 +42,32 @@ class Lightest:
     method: str
 
 
-def certified_light(
-    request: OptimizeRequest, responses: Sequence[Response], omega_squared: Real, solver: Solver
-) -> Lightest:
-    """The lightest set that can be chosen and keeps the ceilings.
-
-    Parameters
-    ----------
-    omega_squared : (1,) rad^2/s^2.
+def certified_light(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
+    """The lightest set that can be chosen and keeps the ceilings, of the first order or over the turn.
 
     Raises
     ------
     OutOfRange
         where the options of a web cannot be told.
     """
-    gap = request.accuracy.relative_gap
-    program = within_reach(cone_program(request.machine, request.objective, responses, omega_squared), solver)
+    return (_over_turn if request.objective.over_the_turn else _of_first_order)(request, scene, solver)
+
+
+def _of_first_order(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
+    square = np.array([scene.omega_squared])
+    program = within_reach(cone_program(request.machine, request.objective, scene.responses, square), solver)
     weighed = _weighed(program.chosen(0))
     choices = feasible_set(request, weighed.limits, solver)
     assert choices is not None  # else there would be nothing to search
     best = optima(weighed.alone(), _SHARP, False, solver)
     if best.unreachable[0]:
-        nothing = np.zeros(weighed.limits.radius.shape)
-        return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, str(best.method[0]))
-    least = float(best.lower_bound[0])
+        return _none(weighed.limits, str(best.method[0]))
+    least, wanted = float(best.lower_bound[0]), demand(request)
     size = max(float(best.objective[0]), least)
-    subproblem = Subproblem(weighed, best.unbalance[:1], least, gap, size, request.accuracy.time_limit_s)
-    mass, angle, _, found = choices.best(subproblem)
-    bound = max(least, found.lower_bound)
-    status = "optimal" if found.kept and float(np.sum(mass)) - bound <= gap * float(np.sum(mass)) else "inaccurate"
-    if not found.kept and bound == np.inf:
-        status = "infeasible"
-    return Lightest(mass, angle, bound, status, ended(found), found.nodes, found.method)
+    subproblem = Subproblem(weighed, best.unbalance[:1], least, wanted.relative_gap, size, wanted.time_limit_s)
+    choice = choices.best(subproblem)
+    bound, reason = max(least, choice.found.lower_bound), ended(choice.found)
+    return _lightest(choice, choice.found, bound, wanted.relative_gap, reason)
 
 
 def _weighed(program: Statement) -> Statement:
@@ -90,29 +83,38 @@ def _weighed(program: Statement) -> Statement:
     )
 
 
-def certified_light_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
-    """The same under ceilings over the whole turn.
-
-    Raises
-    ------
-    OutOfRange
-        where the options of a web cannot be told.
-    """
+def _over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> Lightest:
     gap = request.accuracy.relative_gap
     robust = Robust(request, scene, demand(request))
     program = robust.asked().program
     weighed = program.changed(goals=(Goal("mass", (Group((total_mass(program.limits),)),)),))
     best = over_turn(weighed, _SHARP, False, robust.left_s)
     if isinstance(best, Unkept):
-        nothing = np.zeros(program.limits.radius.shape)
-        return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, METHOD)
+        return _none(program.limits, METHOD)
     size = max(best.point.mass, best.proof.bound) or 1.0
     choices = feasible_set(request, best.limits, solver)
     assert choices is not None  # else there would be nothing to search
-    picked, found = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
-    value = float(np.sum(picked.mass))
-    status = "optimal" if found.kept and value - found.lower_bound <= gap * value else "inaccurate"
-    if not found.kept and found.lower_bound == np.inf:
-        status = "infeasible"
+    choice, found = in_rounds(weighed, best, choices, gap, size, lambda: robust.left_s)
     reason = told_ample(ended(found), found, best.proof.bound)
-    return Lightest(picked.mass, picked.angle, found.lower_bound, status, reason, found.nodes, found.method)
+    return _lightest(choice, found, found.lower_bound, gap, reason)
+
+
+def _none(limits: Limits, method: str) -> Lightest:
+    """Where no counterweights of any mass keep the ceilings."""
+    nothing = np.zeros(limits.radius.shape)
+    return Lightest(nothing, nothing, np.inf, "infeasible", ended(None), 0, method)
+
+
+def _lightest(choice: Choice, found: SearchResult, bound: float, gap: float, reason: str) -> Lightest:
+    """What may be said of a choice.
+
+    Parameters
+    ----------
+    bound : kg, proven of all choices.
+    gap : relative, that is wanted.
+    """
+    value = float(np.sum(choice.mass))
+    status = "optimal" if found.kept and value - bound <= gap * value else "inaccurate"
+    if not found.kept and bound == np.inf:
+        status = "infeasible"
+    return Lightest(choice.mass, choice.angle, bound, status, reason, found.nodes, found.method)

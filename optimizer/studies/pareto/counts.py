@@ -16,9 +16,8 @@ from optimizer.numerics.arrays import Real
 from optimizer.outputs.requirements import missing
 from optimizer.program.reference.solver import Solver
 from optimizer.program.verdict import CONTRADICTED
-from optimizer.solve.choice import certified_choice
-from optimizer.solve.design import certified_one
-from optimizer.solve.minimum_mass import certified_light, certified_light_over_turn
+from optimizer.solve.minimum_mass import certified_light
+from optimizer.solve.solve import solve
 from schemas.answer.answers import Certificate
 from schemas.answer.counterweights import Counterweight
 from schemas.front.counts import Counted, CountFront, CountPoint, CountTrade
@@ -133,26 +132,7 @@ def _chosen(machine: Machine) -> np.ndarray:
 
 def _smallest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The smallest objective, as a single answer has it."""
-    if request.objective.over_the_turn:
-        return _smallest_over_turn(request, scene, solver)
-    _, best = certified_one(request, scene.responses, np.array([scene.omega_squared]), solver)
-    mass, angle = beside(request.machine, best.mass_kg[0], best.angle_deg[0])
-    figures = {name: column[0] for name, column in best.certificate.items()}
-    return _Best(
-        mass,
-        angle,
-        float(figures["objective"]),
-        float(figures["lower_bound"]),
-        float(figures["relative_gap"]),
-        str(best.status[0]),
-        str(best.reason[0]),
-        int(figures.get("nodes", 0)),
-        str(figures["method"]),
-    )
-
-
-def _smallest_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
-    best = certified_choice(request, scene, solver, in_full=False)
+    best = solve(request, scene, solver, in_full=False)
     proof, fitted = best.fields["certificate"], cast(tuple[Counterweight, ...], best.fields["counterweights"])
     if not isinstance(proof, Certificate):
         nothing = np.zeros(len(request.machine.webs))
@@ -172,10 +152,7 @@ def _smallest_over_turn(request: OptimizeRequest, scene: Prepared, solver: Solve
 
 def _lightest(request: OptimizeRequest, scene: Prepared, solver: Solver) -> _Best:
     """The least total mass of all that keep the ceilings."""
-    if request.objective.over_the_turn:
-        best = certified_light_over_turn(request, scene, solver)
-    else:
-        best = certified_light(request, scene.responses, np.array([scene.omega_squared]), solver)
+    best = certified_light(request, scene, solver)
     mass, angle = beside(request.machine, best.mass_kg, best.angle_deg)
     value, fixed = float(np.sum(mass)), float(np.sum(fixed_masses(request.machine)))
     bound, status, reason = best.lower_bound + fixed, best.status, best.reason
