@@ -97,7 +97,7 @@ def touched(request: Place, machine: Machine, left: Responses, mass: Number) -> 
     rooms: Dict[str, float] = {}
     if machine.budget is not None:
         rooms["max_total_mass"] = _room(float(mass), float(machine.budget))
-    elsewhere = (goal / "orders").value == "all" or request / "scenarios" or request / "tolerances"
+    elsewhere = (goal / "orders").value == "all" or list(request / "scenarios") or request / "tolerances"
     for name, unit in NAMES.items():
         for axis in ("", "_x", "_y"):
             most = goal / f"{name}_ceiling{axis}_{unit}"

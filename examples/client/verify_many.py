@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import json
 from functools import partial
-from typing import Any, Iterator, Sequence
+from typing import Any, Iterator
 
 from verify_answer import MASS_GAP, before, touched
+from verify_cases import with_value
 from verify_claims import EVIDENCE, Claim, Claims, covered, near, same
 from verify_first import CEILING, ceilings, infeasible, light, lightest, priced_at, proven, smallest
 from verify_form import form
@@ -184,19 +185,6 @@ def _on_axis(axis: Place, row: Place) -> Claim:
     else:
         held = min(numbers) - slack <= value <= max(numbers) + slack
     return "axis", said, ONE if held else -ONE, ONE
-
-
-def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:
-    """A copy of a body with another value at a JSON pointer (RFC 6901)."""
-    if not parts:
-        return value
-    name = parts[0].replace("~1", "/").replace("~0", "~")
-    if isinstance(body, list) and name.isdecimal() and len(name) < 6 and int(name) < len(body):
-        k = int(name)
-        return [*body[:k], with_value(body[k], parts[1:], value, place), *body[k + 1 :]]
-    if not isinstance(body, (dict, type(None))) or len(parts) > 32:
-        raise Unreadable(place.path, "an axis leads to no field of the base")
-    return {**(body or {}), name: with_value((body or {}).get(name), parts[1:], value, place)}
 
 
 def _row(request: Place, row: Place) -> Claims:

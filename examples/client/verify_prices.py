@@ -111,6 +111,11 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     multipliers = proof / "multipliers" / "objective"
     touched = {(one.text()) for one in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
+    arms = [1 + abs(double(web.position - machine.plane)) for web in machine.webs]
+    widest = max((abs(double(web.radius)) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
+    lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
+    factor = max((abs(double(term.factor)) for term in statement.terms.values()), default=0.0)
+    dust = 1e-12 * widest * double(machine.square).real * (sum(lengths) * factor + sum(ceilings.values()))
     stated = list(_stated(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
     for name, length in ceilings.items():
         field = CEILINGS[name]
@@ -118,11 +123,16 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
         per = "N" if field.endswith("_N") else "(N m)"
         stated.append(Priced(limit, "", length, (goal / field).double(), per, limit in touched))
     rest = (proof / "objective_without_counterweights").double(0.0)
-    yield from listed_prices(place, stated, weight, unit, gap.double(), rest)
+    yield from listed_prices(place, stated, weight, unit, gap.double(), rest, dust)
 
 
-def listed_prices(place: Place, stated: Sequence[Priced], weight: float, unit: str, gap: float, rest: float) -> Claims:
-    """Prices of what is touched, or holds the objective up, each once, and 0 where the gap is worth more."""
+def listed_prices(
+    place: Place, stated: Sequence[Priced], weight: float, unit: str, gap: float, rest: float, dust: float
+) -> Claims:
+    """Prices of what is touched, or holds the objective up, each once, and 0 where the gap is worth more.
+
+    ``dust``: of a price, what rounding leaves where what pulls at a web cancels.
+    """
     by_name = {(one.limit, one.web): one for one in stated}
     names = [((one / "limit").text(), (one / "web").text() if one / "web" else "") for one in place]
     least = WORTH * rest * (1 + 1e-6) + 1e-200
@@ -140,9 +150,11 @@ def listed_prices(place: Place, stated: Sequence[Priced], weight: float, unit: s
         value, said = exact.price / weight, (one / "value").double(least=0)
         worth = exact.price * exact.size
         # a whole limit that is worth less than the gap has no price that can be told
-        near_it = abs(said - value) <= 1e-6 * value + 1e-9 * rest / weight / max(exact.size, 1e-300) * (exact.size > 0)
+        near_it = abs(said - value) <= 1e-6 * value + dust / weight + 1e-9 * rest / weight / max(exact.size, 1e-300) * (
+            exact.size > 0
+        )
         held = near_it if said > 0 else exact.size > 0 and worth <= gap * (1 + 1e-3) + 1e-12 * rest
-        held = held or (said == 0 and (exact.edge or value <= 1e-12 * (rest / weight)))
+        held = held or (said == 0 and (exact.edge or value <= 1e-12 * (rest / weight) + dust / weight))
         yield "shadow_prices", one / "value", ONE if held else -ONE, ONE
 
 

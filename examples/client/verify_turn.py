@@ -8,17 +8,19 @@ scenarios and tolerances.
 
 from __future__ import annotations
 
-from typing import Dict, List, NamedTuple, Optional, Tuple
+from typing import Dict, List, Optional, Tuple
 
-from verify_answer import Fitted
-from verify_claims import EVIDENCE, Claims
-from verify_curves import Turn
-from verify_first import ceilings, searched
+from verify_answer import Fitted, closest
+from verify_cases import FIELDS as CASES
+from verify_cases import cases, goals, nominal, peak, scatter
+from verify_claims import EVIDENCE, Claims, near
+from verify_cuts import FIELDS, Group, Part, Term
+from verify_first import ceilings, near_the_bound, searched, smallest
 from verify_machine import NAMES, NOTHING, Machine, Mass, over
 from verify_numbers import (
-    ABOUT_ONE,
     ONE,
     SPECK,
+    STEP,
     ZERO,
     J,
     NotCovered,
@@ -28,102 +30,79 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import CEILINGS, Statement, support
+from verify_program import CEILINGS, support
 
-#: fields of an objective that look at the whole turn and are known here
-FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]
+#: ceilings of loads over the turn
+LOADED = ("bearing_ceiling_N", "specific_load_ceiling_Pa", "bending_ceiling_Nm")
 #: products of cuts with rows, masses and webs that are evaluated at a time
 MOST = 30_000
 
 
-class Term(NamedTuple):
-    """|start + sum of factors times unbalances|, in a row of the objective; or what a ceiling limits."""
+class Pulls:
+    """What multipliers prove before counterweights, and what they pull at every web with, and scatter it by."""
 
-    row: str
-    group: str
-    start: Number
-    factors: List[Number]  # of every web, per kg m
-    y: Number  # its multiplier
+    def __init__(self, least: Number, machine: Machine) -> None:
+        self.least = least
+        self.slopes, self.spread = [ZERO for _ in machine.webs], [ZERO for _ in machine.webs]
 
 
 class Program:
-    """The objective by its cuts, and what multipliers prove of it."""
+    """The objective by its cuts, in every case, and what multipliers prove of it."""
 
-    def __init__(self, request: Place, machine: Machine) -> None:
+    def __init__(self, request: Place, machine: Machine, answer: Place) -> None:
         goal = request / "objective"
-        self.machine, self.goal = machine, goal
-        self.all = (goal / "orders").text("first", "all", default="first") == "all"
-        self.apart = (goal / "combine").text("sum", "max", default="sum") == "sum"
+        self.machine, self.off, self.named = machine, scatter(request), goals(request)
+        self.scattered = self.off.share.high > 0 or self.off.besides.high > 0
         weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / machine.span}
         if goal / "moment_weight":
             weights["moment"] = (goal / "moment_weight").number(least=0)
-        self.weights = {name: weight for name, weight in weights.items() if weight.high > 0}
+        weights = {name: weight for name, weight in weights.items() if weight.high > 0}
         for kind in ("bearing", "bending"):
-            self.weights[kind] = (goal / f"{kind}_weight").number(0.0, least=0)
-        if self.weights["bearing"].high > 0 and (goal / "bearing_measure").value == "rms":
-            raise NotCovered(goal / "bearing_measure")
-        self.area = {}
-        if (goal / "bearing_measure").value == "specific":
-            for one in request / "machine" / "bearings":
-                self.area[(one / "name").text()] = (one / "diameter_m").number() * (one / "length_m").number()
-        names = FIELDS.split()[1:]
-        loads = any((goal / name).value not in (None, 0) for name in names)
-        self.turn = Turn(request, machine, loads)
-        limits = [*names, *(CEILINGS.values() if self.all else ())]
-        self.limited = any("_ceiling_" in name and goal / name for name in limits)
-        external = {name: self.weights[name] for name in NAMES if name in self.weights and not self.all}
-        rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
-        self.exact = Statement(machine, goal, rows if external else {}, capped=not self.all)
+            weights[kind] = (goal / f"{kind}_weight").number(0.0, least=0)
+        external = {name: weights[name] for name in NAMES if name in weights}
+        together = (goal / "combine").text("sum", "max", default="sum") == "sum"
+        self.rows = {"sum": external} if together else {name: {name: weight} for name, weight in external.items()}
+        every = cases(request, machine, answer / "reference_plane_m")
+        self.parts = {case.name: Part(case, weights, self.named) for case in every}
+        self.first = next(iter(self.parts.values()))
+        self.levels = [(one / "limit").number() for one in answer / "certificate" / "goals"]
+        if answer and len(self.levels) != len(self.named) - 1:
+            raise NotCovered(answer / "certificate" / "goals")
+
+    def _part(self, one: Place) -> Part:
+        name = (one / "scenario").text() if one / "scenario" else None
+        if name not in self.parts:
+            raise NotCovered(one)
+        return self.parts[name]
 
     def terms(self, proof: Place) -> List[Term]:
         """Terms of the objective with their multipliers."""
-        found = list(proof / "terms")
-        if len(found) * (len(self.turn.rows) + len(self.machine.masses) + len(self.machine.webs)) > MOST:
+        found, size = list(proof / "terms"), self.first
+        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.machine.webs)) > MOST:
             raise NotCovered(proof / "terms")
-        return [self._term(one) for one in found]
-
-    def _term(self, one: Place) -> Term:
-        response, row = (one / "response").text(), (one / "row").text()
-        kind, _, name = response.partition(":")
-        y = (one / "x").number() + J * (one / "y").number()
-        if one / "scenario" or kind not in self.weights or not self.turn.knows(response):
-            raise NotCovered(one)
-        if not one / "angle_deg":
-            exact = self.exact.terms.get((response, (one / "part").text("co", "counter")))
-            if exact is None:
-                raise NotCovered(one)
-            return Term(row, self._group("first"), exact.start, self._factors(response, exact.factor), y)
-        weight = self.weights[kind] * ABOUT_ONE
-        weight = over(weight, self.area[name], one) if kind == "bearing" and self.area else weight
-        start = self.turn.seen(response, (one / "angle_deg").double()) * weight
-        return Term(row, self._group(kind), start, self._factors(response, weight), y)
-
-    def _group(self, kind: str) -> str:
-        return kind if self.apart else "all"
-
-    def _factors(self, response: str, factor: Number) -> List[Number]:
-        square = self.machine.square
-        return [self.turn.factor(response, web.position) * square * factor for web in self.machine.webs]
+        return [self._part(one).term(one) for one in found]
 
     def reached(self, terms: List[Term], weights: List[Mass]) -> Number:
-        """What counterweights come to at the angles of the cuts."""
-        rows: Dict[Tuple[str, str], Number] = {}
+        """What counterweights come to of the last goal, at the angles of the cuts."""
+        rows: Dict[Tuple[Group, str], Number] = {}
+        sizes = [weight.product for weight in weights]
         for one in terms:
             moved = one.start
             for weight, factor in zip(weights, one.factors):
                 moved = moved + weight.product * weight.co * factor
-            before = rows.get((one.group, one.row), self.exact.floor.get(one.row, ZERO))
-            rows[one.group, one.row] = before + abs(moved)
-        groups = {group for group, _ in rows}
-        return total(largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups)
+            before = rows.get((one.group, one.row), one.floor)
+            rows[one.group, one.row] = before + abs(moved) + self.off.of(one.factors, sizes)
+        groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
+        most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
+        every = {group[0] for group in groups}
+        return largest(ZERO, *(total(value for group, value in most.items() if group[0] == case) for case in every))
 
     def bound(
         self, proof: Place, terms: List[Term], implied: Place, cost: Number = ZERO, most: Number = ZERO
     ) -> Tuple[Optional[Number], bool]:
-        """Of the objective, or of the mass with objectives up to ``most``, and whether implied limits are believed."""
-        machine = self.machine
+        """Of the last goal, or of the mass with goals up to ``most``, and whether implied limits are believed."""
         rows = {(one / "name").text(): (one / "value").number(least=0) for one in proof / "rows"}
         group_of = {one.row: one.group for one in terms}
         rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
@@ -131,91 +110,128 @@ class Program:
                 for group in {group_of[name] for name in rows}}  # fmt: skip
         if cost is ZERO and not sums:
             return None, False
-        # every group by the price of the objective: 1, or in the bound of a mass the largest of their sums
-        price = ONE if cost is ZERO else max(sums.values(), key=lambda one: one.high, default=ZERO)
-        share = {group: over(price, each, proof) for group, each in sums.items()}
-        least = total(value * share[group_of[name]] * self.exact.floor.get(name, ZERO) for name, value in rows.items())
-        slopes = [ZERO for _ in machine.webs]
+        share, charge = self._shares(sums, cost, most, proof)
+        floors = {one.row: one.floor for one in terms}
+        pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.machine)
+        pulls.least = pulls.least - charge
         for one in terms:
-            allowed, size = rows.get(one.row, ZERO), abs(one.y)
-            if size.low <= 0 or allowed.low <= 0:
-                continue
-            # |y| <= lambda holds by shortening
-            shorter = share[one.group] * (allowed / size if size.high > allowed.low else ONE)
-            shorter = Number(min(shorter.low, share[one.group].low), min(shorter.low, share[one.group].low))
-            least = least + one.y.along(one.start) * shorter
-            slopes = [slope + factor * one.y * shorter for slope, factor in zip(slopes, one.factors)]
+            if one.row in rows:
+                self._add(pulls, one, rows[one.row], share[one.group])
+        self._add_ceilings(pulls, proof)
+        return self._within_limits(pulls, proof, implied, cost)
+
+    def conflict(self, proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
+        """What the ceilings are exceeded by at least, each by its price, and whether implied limits are believed."""
+        if self.scattered or None not in self.parts:
+            raise NotCovered(proof)
+        pulls = Pulls(ZERO, self.machine)
+        self._add_ceilings(pulls, proof)
+        lengths: Dict[str, Number] = {}
+        for one in proof / "ceilings":
+            named = (one / "response").text() + (f" in {(one / 'scenario').text()}" if one / "scenario" else "")
+            if not one / "angle_deg":
+                lengths[named] = lengths.get(named, ZERO) + abs((one / "x").number() + J * (one / "y").number())
+        for row in proof / "rows":
+            name, _, case = (row / "name").text().partition(" in ")
+            part = self.parts.get(case or None)
+            cap = part.exact.caps.get(name) if part else None
+            if cap is not None and cap.high < 0:
+                # below what turns against the shaft: the more is paid for it the more is proven
+                more = (row / "value").number(least=0) - lengths.get((row / "name").text(), ZERO)
+                pulls.least = pulls.least - largest(more, ZERO) * cap
+        return self._within_limits(pulls, proof, implied, ZERO)
+
+    def _add(self, pulls: Pulls, one: Term, allowed: Number, share: Number) -> None:
+        """A term with its multiplier; |y| <= lambda holds by shortening."""
+        size = abs(one.y)
+        if self.scattered:
+            grown = allowed * share
+            pulls.spread = [
+                old + grown * self.off.share * abs(factor) for old, factor in zip(pulls.spread, one.factors)
+            ]
+            pulls.least = pulls.least + grown * self.off.besides * total(map(abs, one.factors))
+        if size.low > 0:
+            shorter = share * (allowed / size if size.high > allowed.low else ONE)
+            shorter = Number(min(shorter.low, share.low), min(shorter.low, share.low))
+            pulls.least = pulls.least + one.y.along(one.start) * shorter
+            pulls.slopes = [slope + factor * one.y * shorter for slope, factor in zip(pulls.slopes, one.factors)]
+
+    def _add_ceilings(self, pulls: Pulls, proof: Place) -> None:
         for limit in proof / "ceilings":
             p = (limit / "x").number() + J * (limit / "y").number()
             if abs(p).high <= 0:
                 continue
-            start, factors, cap = self._capped(limit)
+            if self.scattered or None not in self.parts:
+                raise NotCovered(limit)
+            start, factors, cap = self._part(limit).capped(limit)
             if limit / "angle_deg" and (limit / "response").text() in ALONG:
                 p = (limit / "x").number()
-            least = least + p.along(start) - abs(p) * cap
-            slopes = [slope + factor * p for slope, factor in zip(slopes, factors)]
+            pulls.least = pulls.least + p.along(start) - abs(p) * cap
+            pulls.slopes = [slope + factor * p for slope, factor in zip(pulls.slopes, factors)]
+
+    def _within_limits(self, pulls: Pulls, proof: Place, implied: Place, cost: Number) -> Tuple[Optional[Number], bool]:
+        """Less what counterweights take off at most."""
+        machine, least, believed = self.machine, pulls.least, False
         beta = (proof / "budget").number(0.0, least=0) if machine.budget else ZERO
-        believed, least = False, least - (price * most if cost is not ZERO else ZERO)
-        for web, pull in zip(machine.webs, machine.together([-slope for slope in slopes])):
-            gain = web.radius * support(pull, web.sector) - cost - beta
+        for web, pull, wide in zip(machine.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
+            gain = web.radius * (support(pull, web.sector) - wide) - cost - beta
             if gain.high <= 0:
                 continue
-            carries = self.exact.reach(web, Place(None))
+            carries = self.first.exact.reach(web, Place(None))
             if carries is None or implied / web.name:
-                believed, carries = True, self.exact.reach(web, implied)
+                believed, carries = True, self.first.exact.reach(web, implied)
             if carries is None:
                 return None, True
             least = least - Number(max(gain.low, 0), gain.high) * carries
         return least - (beta * machine.budget if machine.budget else ZERO), believed
 
-    def _capped(self, one: Place) -> Tuple[Number, List[Number], Number]:
-        """What a ceiling limits, and how much it allows."""
-        response, goal = (one / "response").text(), self.goal
-        kind, _, name = response.partition(":")
-        along = bool(name) and kind in NAMES
-        if one / "scenario" or (one / "angle_deg" and not self.turn.knows(kind if along else response)):
-            raise NotCovered(one)
-        if not one / "angle_deg":
-            if response not in self.exact.caps:
-                raise NotCovered(one)
-            co, counter = self.machine.before[kind]
-            start = co if not name else co + counter.conjugate() * (ONE if name == "x" else -ONE)
-            return start, self._factors(kind, ONE), self.exact.caps[response]
-        degrees = (one / "angle_deg").double()
-        if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
-            # the real part of what is turned to the frame and to the axis
-            back = self.turn.turned(degrees) * (ONE if name == "x" else -J)
-            factors = [factor * back.conjugate() for factor in self._factors(kind, ONE)]
-            return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
-        start = self.turn.seen(response, degrees)
-        if kind == "bearing" and goal / "specific_load_ceiling_Pa":
-            raise NotCovered(goal / "specific_load_ceiling_Pa")
-        field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")
-        cap = goal / (field or "bending_ceiling_Nm")
-        if not cap:
-            raise NotCovered(one)
-        return start, self._factors(response, ONE), cap.number(least=0)
+    def _shares(
+        self, sums: Dict[Group, Number], cost: Number, most: Number, proof: Place
+    ) -> Tuple[Dict[Group, Number], Number]:
+        """What the rows of every group are multiplied by, and what the levels of goals are charged with.
+
+        The largest of several cases is no less than their mean with prices that sum to 1, and a goal that is kept below
+        a level takes the price times the level off. A price is the largest sum of the groups of a case.
+        """
+        prices: Dict[Tuple[Optional[str], int], Number] = {}
+        for (case, goal, _), each in sums.items():
+            prices[case, goal] = largest(prices.get((case, goal), ZERO), each)
+        last = len(self.named) - 1
+        if len(prices) == 1 and last == 0:
+            (price,) = prices.values()
+            price = ONE if cost is ZERO else price
+            return {group: over(price, each, proof) for group, each in sums.items()}, price * most
+        whole = total(price for (_, goal), price in prices.items() if goal == last)
+        share = ONE if cost is not ZERO else over(ONE, whole, proof)
+        share = Number(share.low, share.low)
+        levels = [*self.levels, most]
+        charge = total(price * levels[goal] for (_, goal), price in prices.items() if goal < last or cost is not ZERO)
+        return dict.fromkeys(sums, share), charge * share
 
 
 def looks_at_the_turn(request: Place) -> bool:
     """Whether an objective asks for more than the first order, in a way that is known here."""
     goal = request / "objective"
     loads = any((goal / name).value not in (None, 0) for name in FIELDS.split()[1:])
-    return loads or (goal / "orders").value == "all"
+    several = list(request / "scenarios") or request / "tolerances" or list(goal / "priorities")
+    return loads or (goal / "orders").value == "all" or bool(several)
 
 
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
-    request.known(FIELDS)
+    request.known(FIELDS + CASES)
     asked, proof, found = request / "machine", answer / "certificate", fitted.turning
     for web, one in zip(machine.webs, asked / "webs"):
         if web.fixed is not None:
             # the curves of the shaft are evaluated without it
             raise NotCovered(one / "fixed")
-    program = Program(request, machine)
+    program = Program(request, machine, answer)
     optimal = (answer / "status").text() == "optimal"
-    yield from ceilings(program.exact, found, answer / "counterweights", optimal)
-    if program.limited:
+    if None in program.parts and not program.scattered:
+        yield from ceilings(program.first.exact, found, answer / "counterweights", optimal)
+    elif program.first.exact.caps:
+        yield "ceilings", answer / "counterweights", None, ONE
+    if program.first.limited:
         yield "ceilings", answer / "counterweights", None, ONE
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
     chosen = yield from searched(asked, answer / "counterweights", proof)
@@ -226,7 +242,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     terms = program.terms(multipliers / "objective")
     reached = program.reached(terms, found)
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
-    yield "objective", objective, None, ONE
+    yield from _exactly(request, answer, program, found)
     of_objective = multipliers / "objective"
     yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
     least = proof / "mass_lower_bound_kg"
@@ -234,13 +250,59 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         limit, of_mass = (proof / "mass_objective_limit").number(), multipliers / "mass"
         found_least = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
         yield from _proven("mass_lower_bound", least, found_least, implied, of_mass)
-        yield "mass_lower_bound", least, limit + noise - value, abs(value)
+        yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
+    size = proof / "mass_yardstick_kg"
+    if size and size.double() == answer.value.get("total_mass_kg"):
+        yield near("yardstick", size, fitted.mass)
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
-    """No counterweights keep the ceilings of the whole turn."""
-    raise NotCovered(said)
-    yield
+    """No counterweights keep the ceilings, at the angles of the cuts."""
+    request.known(FIELDS + CASES)
+    goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
+    machine = Machine(request / "machine", answer / "reference_plane_m", budget)
+    given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
+    named = [one.text(*given) for one in said / "conflict"]
+    yield from (("conflict", one, ONE, ONE) for one in said / "conflict")
+    if not named or len({*named}) < len(named):
+        yield "conflict", said / "conflict", -ONE, ONE
+    program = Program(request, machine, Place(None))
+    least, believed = program.conflict(proofs / "conflict", implied)
+    if believed:
+        yield "reach", implied, None, ONE
+    yield "conflict", proofs / "conflict", least - STEP if least is not None else None, ONE
+    if least is not None:
+        yield EVIDENCE, proofs / "conflict", None, ONE
+        yield EVIDENCE, implied, None, ONE
+    yield from closest(request, machine, said / "closest")
+    if len(program.parts) == 1 and not program.scattered and not program.first.all:
+        yield from smallest(machine, Place({}), said, proofs, implied)
+        for name, unit in NAMES.items():
+            lowest, found = (said / f"smallest_{name}{part}_{unit}" for part in ("_lower_bound", ""))
+            yield from near_the_bound(f"smallest_{name}", found, lowest, machine, name)
+
+
+def _exactly(request: Place, answer: Place, program: Program, found: List[Mass]) -> Claims:
+    """Values of goals of the first order; that no angle of the turn is worse is not told."""
+    proof, worst, price = answer / "certificate", answer / "worst_case", answer / "price_of_robustness"
+    if program.first.loads or len(program.named) > 1:
+        yield "objective", proof / "objective", None, ONE
+        return
+    sizes, nothing = [mass.product for mass in found], [ZERO for _ in found]
+    parts = [(part, part.machine.responses(found)) for part in program.parts.values()]
+    value = largest(ZERO, *(part.value(responses, program.off, sizes) for part, responses in parts))
+    rest = largest(ZERO, *(part.value(part.machine.laden, program.off, nothing) for part, _ in parts))
+    yield near("objective", proof / "objective", value)
+    yield near("before", proof / "objective_without_counterweights", rest)
+    if worst:
+        yield near("worst_case", worst / "objective", value)
+        for name, unit in NAMES.items():
+            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
+            yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks))
+    if price:
+        responses = program.machine.responses(found)
+        as_given = nominal(program.machine, request / "objective", program.rows, responses)
+        yield near("price", price / "nominal", as_given)
 
 
 def _proven(claim: str, said: Place, found: Tuple[Optional[Number], bool], implied: Place, proof: Place) -> Claims:

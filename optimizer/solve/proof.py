@@ -34,6 +34,16 @@ class PhysicalMultipliers:
     ceiling: Complex  # (..., I)
     budget: Real  # (...)
 
+    def of_groups(self, statement: Statement, scale: Real | None) -> "PhysicalMultipliers":
+        """Those of the groups as they are, from those of a statement whose groups are multiplied by a scale (groups,).
+
+        So the rows of a goal, or of a scenario, sum to its price, and a bound is evaluated from what is printed alone.
+        """
+        if scale is None:
+            return self
+        of_row = scale[statement.group]
+        return PhysicalMultipliers(self.term * of_row[statement.row], self.row * of_row, self.ceiling, self.budget)
+
     def chosen(self, program: int) -> "PhysicalMultipliers":
         """Those of one program of one leading axis."""
         return PhysicalMultipliers(self.term[program], self.row[program], self.ceiling[program], self.budget[program])

@@ -33,6 +33,7 @@ class Proof:
         statement, whose groups are those of all goals times their prices, less this.
     cuts : of every quantity, in the order of the statement.
     price : of a bound of the mass, by which it falls where the last goal may come to one more, kg.
+    scale : (groups,) what the groups of the statement are multiplied by; None where they are as they are.
     """
 
     bound: float
@@ -41,6 +42,7 @@ class Proof:
     charge: float
     cuts: tuple[int, ...]
     price: float = 0.0
+    scale: Real | None = None
 
     def up_to(self, more: float) -> "Proof":
         """That of the mass of all whose last goal comes to so much more."""
@@ -57,10 +59,11 @@ def resting_proof(program: Problem, cuts: Cuts, statement: Statement) -> Proof:
     last = np.flatnonzero(program.goal_of_case == len(program.goals) - 1)
     proofs = []
     for case in last:
-        alone = times(statement, (program.case_of == case).astype(float))
+        scale = (program.case_of == case).astype(float)
+        alone = times(statement, scale)
         each = (*resting_multipliers(alone), floor_multipliers(program, cuts, alone))
         bound, best = best_proof(alone, each)
-        proofs.append(Proof(float(bound), alone, best, 0.0, tuple(map(len, cuts))))
+        proofs.append(Proof(float(bound), alone, best, 0.0, tuple(map(len, cuts)), scale=scale))
     return max(proofs, key=lambda proof: proof.bound)
 
 
@@ -77,10 +80,10 @@ def proofs(
     counted : levels that the bound counts with, of all goals but the last; of all where the mass is to be small.
     """
     of_mass = counted.size == len(program.goals)
-    charge, prices = float(np.sum(counted)), 1.0
+    charge, prices, scale = float(np.sum(counted)), 1.0, None
     if program.goal_of_case.size > 1:
         statement, dual, charges = _charged(program, of_mass, statement, dual)
-        kept = program.goal_of_case < counted.size
+        kept, scale = program.goal_of_case < counted.size, charges[program.case_of]
         charge = float(np.sum(charges[kept] * counted[program.goal_of_case[kept]]))
         prices = float(np.sum(charges[program.goal_of_case == len(program.goals) - 1]))
     sharper = mass_multipliers if of_mass else objective_multipliers
@@ -93,7 +96,7 @@ def proofs(
         else:
             bound = float(objective_lower_bound(statement, multipliers)) - charge
         if np.isfinite(bound):
-            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)), price)
+            yield Proof(bound, statement, multipliers, charge, tuple(map(len, cuts)), price, scale)
 
 
 def _charged(

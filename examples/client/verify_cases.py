@@ -1,0 +1,106 @@
+"""The machines that one set of counterweights is to suit, what may be off, and goals in their order."""
+
+from __future__ import annotations
+
+from math import radians, sin, sqrt
+from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence
+
+from verify_machine import Machine, Responses
+from verify_numbers import ABOUT_ONE, ONE, ZERO, NotCovered, Number, Place, Unreadable, largest, real, total
+from verify_program import Statement
+
+#: fields of a request that are known here
+FIELDS = (
+    " scenarios weight changes path value tolerances mass_relative unbalance_kg_m reciprocating_mass_relative"
+    " priorities goal allowance "
+)
+#: the goal that a part of the objective belongs to
+GOALS = {"bearing": "bearings", "bending": "bending"}
+
+
+class Scatter(NamedTuple):
+    """What every unbalance may be off by, in any direction: a share of itself, and kg m besides."""
+
+    share: Number
+    besides: Number
+
+    def of(self, factors: Sequence[Number], sizes: Sequence[Number]) -> Number:
+        """What |start + sum of factors times unbalances| grows by at most."""
+        return total(abs(one) * (self.share * size + self.besides) for one, size in zip(factors, sizes))
+
+
+def scatter(request: Place) -> Scatter:
+    """A mass off by up to d and an angle by up to a move an unbalance by max |(1 + d) e^{ja} - 1| of itself."""
+    said = request / "tolerances"
+    if (said / "reciprocating_mass_relative").double(0.0) > 0:
+        raise NotCovered(said / "reciprocating_mass_relative")
+    mass, angle = (said / "mass_relative").double(0.0, least=0), (said / "angle_deg").double(0.0, least=0)
+    if mass == 0 and angle == 0:
+        return Scatter(ZERO, (said / "unbalance_kg_m").number(0.0, least=0))
+    share = sqrt(mass**2 + 4 * (1 + mass) * sin(radians(min(angle, 180.0) / 2)) ** 2)
+    return Scatter(real(share) * ABOUT_ONE, (said / "unbalance_kg_m").number(0.0, least=0))
+
+
+class Case(NamedTuple):
+    """A machine, what its objective is multiplied by, and its name; none where there are no scenarios."""
+
+    request: Place
+    machine: Machine
+    weight: Number
+    name: Optional[str]
+
+
+def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
+    """One of every scenario, or the machine as it is."""
+    given = list(request / "scenarios")
+    if not given:
+        yield Case(request, machine, ONE, None)
+    for one in given:
+        body = request.value
+        for change in one / "changes":
+            path = (change / "path").text().split("/")[1:]
+            if path[-1:] == ["position_m"] or path[:1] != ["machine"]:
+                # planes and default weights are those of the machine as it is
+                raise NotCovered(change / "path")
+            body = with_value(body, path, (change / "value").value, request)
+        changed = Place(body, *request.path)
+        budget = changed / "machine" / "max_total_mass_kg"
+        own = Machine(changed / "machine", plane, budget)
+        yield Case(changed, own, (one / "weight").number(1.0, least=0), (one / "name").text())
+
+
+def goals(request: Place) -> List[str]:
+    """Goals that are met one after the other but for the mass; one name for all of them where they are weighed."""
+    named = [(one / "goal").text() for one in request / "objective" / "priorities"]
+    return [name for name in named if name != "mass"] or ["all"]
+
+
+def goal_of(kind: str, named: Sequence[str]) -> int:
+    """Which goal a part of the objective belongs to."""
+    name = named[0] if named == ["all"] else GOALS.get(kind, "external")
+    return named.index(name) if name in named else 0
+
+
+def nominal(machine: Machine, goal: Place, rows: Dict[str, Dict[str, Number]], responses: Responses) -> Number:
+    """The objective of the first order, nothing off."""
+    return largest(ZERO, *Statement(machine, goal, rows, capped=False).values(responses).values())
+
+
+def peak(machine: Machine, responses: Responses, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
+    """The largest of a response of the first order where counterweights are off."""
+    co, counter = responses[name]
+    arms = [ONE if name == "force" else web.position - machine.plane for web in machine.webs]
+    return abs(co) + abs(counter) + off.of([arm * machine.square for arm in arms], sizes)
+
+
+def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:
+    """A copy of a body with another value at a JSON pointer (RFC 6901)."""
+    if not parts:
+        return value
+    name = parts[0].replace("~1", "/").replace("~0", "~")
+    if isinstance(body, list) and name.isdecimal() and len(name) < 6 and int(name) < len(body):
+        k = int(name)
+        return [*body[:k], with_value(body[k], parts[1:], value, place), *body[k + 1 :]]
+    if not isinstance(body, (dict, type(None))) or len(parts) > 32:
+        raise Unreadable(place.path, "a path leads to no field")
+    return {**(body or {}), name: with_value((body or {}).get(name), parts[1:], value, place)}

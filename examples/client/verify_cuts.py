@@ -1,0 +1,114 @@
+"""What one machine answers at the angles of cuts: vectors of an objective over the turn, and what ceilings limit."""
+
+from __future__ import annotations
+
+from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
+
+from verify_cases import Case, Scatter, goal_of
+from verify_curves import Turn
+from verify_machine import NAMES, Responses, over
+from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest
+from verify_program import CEILINGS, Statement
+
+#: fields of an objective that look at the whole turn and are known here
+FIELDS = "orders bearing_weight bearing_ceiling_N specific_load_ceiling_Pa bending_weight bending_ceiling_Nm"
+#: case, goal and kind
+Group = Tuple[Optional[str], int, str]
+
+
+class Term(NamedTuple):
+    """|start + sum of factors times unbalances|, in a row of the objective; or what a ceiling limits."""
+
+    row: str
+    group: Group
+    start: Number
+    factors: List[Number]  # of every web, per kg m
+    y: Number  # its multiplier
+    floor: Number  # of its row
+
+
+class Part:
+    """What one machine of a program answers: the vectors of its cuts, and what its ceilings limit."""
+
+    def __init__(self, case: Case, weights: Dict[str, Number], named: Sequence[str]) -> None:
+        request, machine = case.request, case.machine
+        self.machine, self.goal, self.case, self.named = machine, request / "objective", case, named
+        goal = self.goal
+        self.all = (goal / "orders").text("first", "all", default="first") == "all"
+        self.apart = (goal / "combine").text("sum", "max", default="sum") == "sum"
+        self.weights = {name: weight * case.weight for name, weight in weights.items()}
+        if self.weights["bearing"].high > 0 and (goal / "bearing_measure").value == "rms":
+            raise NotCovered(goal / "bearing_measure")
+        self.area = {}
+        if (goal / "bearing_measure").value == "specific":
+            for one in request / "machine" / "bearings":
+                self.area[(one / "name").text()] = (one / "diameter_m").number() * (one / "length_m").number()
+        names = FIELDS.split()[1:]
+        loads = any((goal / name).value not in (None, 0) for name in names)
+        self.turn = Turn(request, machine, loads)
+        limits = [*names, *(CEILINGS.values() if self.all else ())]
+        self.limited = any("_ceiling_" in name and goal / name for name in limits)
+        self.loads = loads or self.all
+        external = {name: self.weights[name] for name in NAMES if name in self.weights and not self.all}
+        self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
+        self.exact = Statement(machine, goal, self.rows if external else {}, capped=not self.all)
+
+    def term(self, one: Place) -> Term:
+        response, row = (one / "response").text(), (one / "row").text()
+        kind, _, name = response.partition(":")
+        y = (one / "x").number() + J * (one / "y").number()
+        if kind not in self.weights or not self.turn.knows(response):
+            raise NotCovered(one)
+        if not one / "angle_deg":
+            exact = self.exact.terms.get((response, (one / "part").text("co", "counter")))
+            if exact is None:
+                raise NotCovered(one)
+            floor = self.exact.floor[exact.row]
+            return Term(row, self._group("first"), exact.start, self._factors(response, exact.factor), y, floor)
+        weight = self.weights[kind] * ABOUT_ONE
+        weight = over(weight, self.area[name], one) if kind == "bearing" and self.area else weight
+        start = self.turn.seen(response, (one / "angle_deg").double()) * weight
+        return Term(row, self._group(kind), start, self._factors(response, weight), y, ZERO)
+
+    def value(self, responses: Responses, off: Scatter, sizes: Sequence[Number]) -> Number:
+        """The objective of the first order where counterweights of these sizes [kg m] are off."""
+        rows = self.exact.values(responses)
+        for term in self.exact.terms.values():
+            rows[term.row] = rows[term.row] + off.of(self._factors(term.moves, term.factor), sizes)
+        return largest(ZERO, *rows.values())
+
+    def _group(self, kind: str) -> Group:
+        goal = goal_of(kind, self.named)
+        return self.case.name, goal, kind if self.apart else "all"
+
+    def _factors(self, response: str, factor: Number) -> List[Number]:
+        square = self.machine.square
+        return [self.turn.factor(response, web.position) * square * factor for web in self.machine.webs]
+
+    def capped(self, one: Place) -> Tuple[Number, List[Number], Number]:
+        """What a ceiling limits, and how much it allows."""
+        response, goal = (one / "response").text(), self.goal
+        kind, _, name = response.partition(":")
+        along = bool(name) and kind in NAMES
+        if one / "angle_deg" and not self.turn.knows(kind if along else response):
+            raise NotCovered(one)
+        if not one / "angle_deg":
+            if response not in self.exact.caps:
+                raise NotCovered(one)
+            co, counter = self.machine.before[kind]
+            start = co if not name else co + counter.conjugate() * (ONE if name == "x" else -ONE)
+            return start, self._factors(kind, ONE), self.exact.caps[response]
+        degrees = (one / "angle_deg").double()
+        if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
+            # the real part of what is turned to the frame and to the axis
+            back = self.turn.turned(degrees) * (ONE if name == "x" else -J)
+            factors = [factor * back.conjugate() for factor in self._factors(kind, ONE)]
+            return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
+        start = self.turn.seen(response, degrees)
+        if kind == "bearing" and goal / "specific_load_ceiling_Pa":
+            raise NotCovered(goal / "specific_load_ceiling_Pa")
+        field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")
+        cap = goal / (field or "bending_ceiling_Nm")
+        if not cap:
+            raise NotCovered(one)
+        return start, self._factors(response, ONE), cap.number(least=0)

@@ -1,0 +1,92 @@
+"""Scenarios, tolerances and goals in their order: bounds are held, and nobody calls doing nothing an optimum."""
+
+import copy
+from typing import Any
+
+import pytest
+
+from service.verification import checker
+from tests.verification.answers import names, pair
+
+SEVERAL = (
+    "scenarios", "scenarios over the turn", "tolerances", "tolerances over the turn", "priorities",
+    "priorities of the first order",
+)  # fmt: skip
+
+
+def _claims(request: Any, answer: Any) -> dict[str, str]:
+    return {one["claim"]: one["verdict"] for one in checker().verify(request, answer)["claims"]}
+
+
+@pytest.mark.parametrize("name", SEVERAL)
+def test_what_multipliers_prove_is_held_and_no_more(name: str) -> None:
+    request, answer = pair(name)
+    found = _claims(request, answer)
+    assert (found["lower_bound"], found["mass_lower_bound"]) == ("held", "held")
+    proof = answer["certificate"]
+    for field, more in (("lower_bound", 1.5 * proof["gap"]), ("mass_lower_bound_kg", 1e-4 * answer["total_mass_kg"])):
+        wrong = copy.deepcopy(answer)
+        wrong["certificate"][field] += more
+        assert "broken" in _claims(request, wrong).values(), field
+
+
+@pytest.mark.parametrize("name", ["scenarios", "tolerances"])
+def test_values_of_the_first_order_are_evaluated_anew(name: str) -> None:
+    request, answer = pair(name)
+    found = _claims(request, answer)
+    assert {found[one] for one in ("objective", "before", "worst_case", "price")} == {"held"}
+
+
+def idle(answer: dict[str, Any]) -> dict[str, Any]:
+    """The answer of one who does nothing, and calls it optimal: its figures agree with one another."""
+    found = copy.deepcopy(answer)
+    for one in found["counterweights"]:
+        fixed = one["fixed"]
+        for field in ("mass_kg", "angle_deg", "mass_radius_kg_m", "x_kg_m", "y_kg_m", "centrifugal_force_N"):
+            one[field] = one[field] if fixed else 0.0
+        one["angle_from_crank_deg"], one["active_limits"], one["shape"] = None, [], None
+    for shaft in found["balance_shafts"]:
+        shaft["total_mass_kg"], shaft["counterweights"] = 0.0, []
+    proof = found["certificate"]
+    rest = proof["objective_without_counterweights"]
+    proof |= {"objective": rest, "lower_bound": rest, "gap": 0.0, "relative_gap": 0.0}
+    proof |= {"mass_lower_bound_kg": 0.0, "mass_relative_gap": 0.0, "mass_objective_limit": rest}
+    found |= {"total_mass_kg": 0.0, "shadow_prices": [], "active_limits": [], "sensitivity": None}
+    residual = found["residual"]
+    residual["after"], residual["orders"]["after"] = residual["before"], residual["orders"]["before"]
+    found["balance_rate"] = [{**one, "rate": 0.0, "sideways": 0.0} for one in found["balance_rate"]]
+    return found
+
+
+SINGLE = [one for one in names() if one not in ("front", "sweep", "matching") and not one.startswith("infeasible")]
+
+
+@pytest.mark.parametrize("name", SINGLE[::4])
+def test_nobody_calls_doing_nothing_optimal(name: str) -> None:
+    request, answer = pair(name)
+    assert checker().verify(request, idle(answer))["verdict"] != "held"
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("name", SINGLE)
+def test_nobody_calls_doing_nothing_optimal_whatever_is_asked(name: str) -> None:
+    request, answer = pair(name)
+    assert checker().verify(request, idle(answer))["verdict"] != "held"
+
+
+@pytest.mark.parametrize("name", SINGLE[1::4])
+def test_nobody_says_that_nothing_keeps_the_ceilings(name: str) -> None:
+    """Ceilings that are not asked for conflict with nothing, nor does what the multipliers do not prove."""
+    request, answer = pair(name)
+    _, other = pair("infeasible")
+    found = copy.deepcopy(answer)
+    found |= {"status": "infeasible", "certificate": None, "counterweights": [], "total_mass_kg": None}
+    found |= {"shadow_prices": [], "active_limits": [], "balance_shafts": [], "sensitivity": None, "worst_case": None}
+    found["residual"]["after"] = found["residual"]["orders"]["after"] = None
+    found["infeasibility"] = {**other["infeasibility"], "closest": None}
+    try:
+        verdict = checker().verify(request, found)["verdict"]
+    except checker().Unreadable:
+        # it names a ceiling that nobody asked for
+        return
+    assert verdict != "held"
