@@ -64,6 +64,7 @@ NAMED_IN = {
     "outputs/balance_quality.py": "what turns with the shaft of both",
     "studies/pareto/counts.py": "fields of the answer",
     "studies/pareto/pareto.py": "a front is of these two: fields of its answer",
+    "studies/pareto/chosen_front.py": "weighs and limits one of these two: fields of its answer",
     "studies/pareto/measures.py": "what a front trades by the names that the contract has for it",
     "studies/pareto/trades.py": "fields of the answer",
     # another force or torque altogether

@@ -259,7 +259,7 @@ def test_steps_of_angle_need_a_crank_and_a_place_in_the_sector() -> None:
     ("kind", "body", "path"),
     [
         (OptimizeRequest, {"tolerances": {"mass_relative": 0.01}}, ("tolerances",)),
-        (ParetoRequest, {}, ("machine", "catalogue")),
+        (ParetoRequest, {"responses": ["force", "mass"]}, ("machine", "catalogue")),
         (AccuracyRequest, {}, ("machine", "catalogue")),
     ],
 )

@@ -267,9 +267,9 @@ def test_what_it_does_not_go_with_is_said(change: dict[str, Any], path: tuple[st
     assert path in _paths(refused.value)
 
 
-def test_fronts_refuse_it() -> None:
+def test_fronts_of_named_responses_refuse_it() -> None:
     with pytest.raises(ValidationError, match="one machine as it is given"):
-        ParetoRequest.model_validate(twin(30.0))
+        ParetoRequest.model_validate({**twin(30.0), "responses": ["force", "mass"]})
 
 
 def _paths(error: ValidationError) -> set[tuple[str | int, ...]]:
