@@ -40,6 +40,10 @@ class Number:
 
     def __mul__(self, other: Number) -> Number:
         x, y = (self.low, self.high), (other.low, other.high)
+        if self.y == other.y == (0, 0):
+            # most products are of real numbers
+            a, b = _product(x, y)
+            return Number(a >> BITS, -(-b >> BITS))
         (a, b), (c, d) = _product(x, y), _product(self.y, other.y)
         (e, f), (g, h) = _product(x, other.y), _product(self.y, y)
         return Number((a - d) >> BITS, -((c - b) >> BITS), ((e + g) >> BITS, -(-(f + h) >> BITS)))
