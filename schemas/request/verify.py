@@ -41,7 +41,7 @@ class VerifyAnswer(Answer):
 
     claims: tuple[Claim, ...] = Field(description="the claims", examples=[[{"claim": "lower_bound"}]])
     leaves: int = Field(
-        description="numbers and texts of the answer that claim something, without those that tell how it was found",
+        description="numbers and texts of the answer that claim something, without those that state how it was found",
         examples=[212],
     )
     checked: int = Field(description="those of them that were looked at", examples=[212])
