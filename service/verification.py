@@ -30,7 +30,7 @@ def verify(asked: VerifyRequest) -> VerifyAnswer:
 _FILES = [
     *(f"verify_{part}" for part in ("numbers", "leaves", "plates", "machine", "claims", "cranks", "weights")),
     *(f"verify_{part}" for part in ("form", "orders", "quality", "answer", "program", "prices", "first")),
-    *(f"verify_{part}" for part in ("curves", "cases", "cuts", "turn", "single", "many")),
+    *(f"verify_{part}" for part in ("curves", "cases", "cuts", "turn", "single", "many", "match")),
     "verify",
 ]
 

@@ -17,6 +17,7 @@ from typing import Any, Dict
 from verify_claims import CODES, covered, judged, main
 from verify_leaves import leaves
 from verify_many import front, sweep
+from verify_match import matching
 from verify_numbers import Place, Unreadable, read
 from verify_single import single
 
@@ -45,7 +46,10 @@ def verify(request: Any, answer: Any, most: float = inf) -> Dict[str, Any]:
     work = leaves(answer) + leaves(request) * (len(answer) if many and isinstance(answer, list) else 1)
     if work > most:
         raise Unreadable(given.path, f"holds more than is checked at a time: {work} of {most} numbers and texts")
-    kind = sweep if many else front if isinstance(answer, dict) and "fronts" in answer else single
+    parts = isinstance(request, dict) and "parts" in request
+    kind = (
+        matching if parts else sweep if many else front if isinstance(answer, dict) and "fronts" in answer else single
+    )
     return judged(covered(kind(asked, given)), given)
 
 
