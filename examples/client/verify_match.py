@@ -9,7 +9,7 @@ from __future__ import annotations
 from typing import Dict, Tuple
 
 from verify_claims import Claims, near, same
-from verify_numbers import ONE, ZERO, NotCovered, Number, Place
+from verify_numbers import ABOUT_ONE, ONE, ZERO, NotCovered, Number, Place
 
 __all__ = ["matching"]
 
@@ -21,6 +21,9 @@ def matching(request: Place, answer: Place) -> Claims:
         names = [each.text() for each in kind / "names"]
         weights = [each.number(least=0) for each in kind / "masses_kg"]
         listed.update(zip([((kind / "class").text(), name) for name in names], weights))
+    total = answer / "total_mass_kg"
+    sum_of_all = sum(((each / "mass_kg").number() for each in answer / "counterweights"), ZERO)
+    yield near("total_mass", total, sum_of_all * ABOUT_ONE, max(total.number(), ONE, key=lambda each: each.high))
     if (request / "balance_nuts_kg").value:
         # nuts have no names, and may lie beside the machine
         raise NotCovered(request / "balance_nuts_kg")
@@ -47,8 +50,5 @@ def matching(request: Place, answer: Place) -> Claims:
     for row, place in zip(rows, places):
         for name in ("throw", "row"):
             yield same("rows", row / name, (row / name).value if place in weight else None)
-        yield near("rows", row / "reciprocating_mass_kg", weight.get(place, ZERO))
-    total = answer / "total_mass_kg"
-    sum_of_all = sum(((each / "mass_kg").number() for each in answer / "counterweights"), ZERO)
-    yield near("total_mass", total, sum_of_all, max(total.number(), ONE, key=lambda each: each.high))
+        yield near("rows", row / "reciprocating_mass_kg", weight.get(place, ZERO) * ABOUT_ONE)
     raise NotCovered(request / "parts")
