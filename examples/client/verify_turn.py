@@ -267,10 +267,12 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
     if not named or len({*named}) < len(named):
         yield "conflict", said / "conflict", -ONE, ONE
     program = Program(request, machine, Place(None))
-    least, believed = program.conflict(proofs / "conflict", implied)
+    least, believed = program.conflict(proofs / "conflict", implied) if proofs / "conflict" else (None, False)
     if believed:
         yield "reach", implied, None, ONE
-    yield "conflict", proofs / "conflict", least - STEP if least is not None else None, ONE
+    # what a comparison of all choices proves has no multipliers
+    place = proofs / "conflict" if proofs / "conflict" else said / "conflict"
+    yield "conflict", place, least - STEP if least is not None else None, ONE
     if least is not None:
         yield EVIDENCE, proofs / "conflict", None, ONE
         yield EVIDENCE, implied, None, ONE
