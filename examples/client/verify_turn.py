@@ -18,6 +18,7 @@ from verify_cuts import FIELDS, Group, Part, Term
 from verify_first import ceilings, near_the_bound, searched, smallest
 from verify_machine import NAMES, NOTHING, Machine, Mass, over
 from verify_numbers import (
+    ABOUT_ONE,
     ONE,
     SPECK,
     STEP,
@@ -297,10 +298,10 @@ def _exactly(request: Place, answer: Place, program: Program, found: List[Mass])
     yield near("objective", proof / "objective", value)
     yield near("before", proof / "objective_without_counterweights", rest)
     if worst:
-        yield near("worst_case", worst / "objective", value)
+        yield near("worst_case", worst / "objective", value * ABOUT_ONE)
         for name, unit in NAMES.items():
             peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
-            yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks))
+            yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks) * ABOUT_ONE)
     if price:
         responses = program.machine.responses(found)
         as_given = nominal(program.machine, request / "objective", program.rows, responses)
