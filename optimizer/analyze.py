@@ -1,23 +1,16 @@
 """The machine as it stands, or with given counterweights."""
 
 import time
-from collections.abc import Iterator
 from dataclasses import replace
-
-import numpy as np
 
 from optimizer.errors import refuse
 from optimizer.formulation.balance_shafts import fitted
-from optimizer.formulation.counterweights import as_given
+from optimizer.formulation.counterweights import as_given, too_heavy
 from optimizer.formulation.placement import on_webs
-from optimizer.mechanics.shapes import fitted_masses, plates
+from optimizer.mechanics.shapes import fitted_masses
 from optimizer.outputs.registry import fields, prepare
 from schemas.answer.answers import AnalyzeAnswer, Timing
-from schemas.base.model import FieldProblem
 from schemas.request.requests import AnalyzeRequest
-
-#: by which a mass that was answered may be above what its envelope holds
-_ROUNDING = 1e-12
 
 
 def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
@@ -33,7 +26,7 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
     start = time.perf_counter()
     request = on_webs(request)
     mass, angle = as_given(request.machine, request.counterweights)
-    refuse(_too_heavy(request))
+    refuse(too_heavy(request.machine, request.counterweights, "counterweights"))
     # what is cut from a plate has the radius that its mass gives it
     request = request.model_copy(update={"machine": fitted_masses(request.machine, mass)})
     scene = prepare(request)
@@ -54,15 +47,3 @@ def analyze(request: AnalyzeRequest) -> AnalyzeAnswer:
             report_ms=(end - reporting) * 1e3,
         ),
     )
-
-
-def _too_heavy(request: AnalyzeRequest) -> Iterator[FieldProblem]:
-    """Counterweights that are more than the envelope of their web holds."""
-    cut, webs = plates(request.machine), request.machine.webs
-    if cut is None:
-        return
-    most = {webs[k].name: mass for k, mass in zip(cut.webs.tolist(), cut.mass(cut.most).tolist(), strict=True)}
-    for index, one in enumerate(request.counterweights):
-        if one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ROUNDING):
-            message = f"the envelope of this web holds {most[str(one.web)]:.6g} kg at most"
-            yield FieldProblem(("counterweights", index, "mass_kg"), message)

@@ -3,7 +3,8 @@
 import time
 from dataclasses import replace
 
-from optimizer.errors import MissingInput
+from optimizer.errors import MissingInput, refuse
+from optimizer.formulation.counterweights import too_heavy
 from optimizer.formulation.simulation import Prepared
 from optimizer.outputs.registry import fields as answered
 from optimizer.outputs.registry import prepare
@@ -36,6 +37,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     lacking = list(missing(request))
     if lacking:
         raise MissingInput(lacking)
+    refuse(too_heavy(request.machine, request.fitted, "fitted"))
     always = _always(request)
     # of scenarios every one is a machine of its own, simulated for itself
     scene = prepare(request, always, () if request.scenarios else effects_of_objective(request))

@@ -155,6 +155,7 @@ KNOWN = (
 IDLE = (
     " name description throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"
     " tangential_gas_force_N drive_bearing pin_circle_radius_m time_limit_s outputs angles fidelity multipliers"
+    " foundation_orders fitted"
     " symmetric points total_mass_budgets_kg bearing_measure balance_quality grade_mm_s"
     " plane_a_m plane_b_m gravity_deg shaft_parts stationary_mass_kg "
 )

@@ -1,6 +1,6 @@
 """Counterweights as masses and angles."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -13,6 +13,7 @@ from optimizer.mechanics.shapes import plates
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.program.limits import Limits
 from schemas.answer.counterweights import Counterweight, Shape
+from schemas.base.model import FieldProblem
 from schemas.machine.fitted import FittedCounterweight, GivenCounterweight
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import BalanceShaft, ReciprocatingMachine
@@ -20,6 +21,8 @@ from schemas.machine.webs import Web
 
 #: of a mass, relative to it, and of an angle, relative to a turn
 _ROUNDING = 8 * float(np.finfo(float).eps)
+#: by which a mass that was answered may be above what its envelope holds
+_ABOVE_ENVELOPE = 1e-12
 
 
 def masses_and_angles(machine: Machine, unbalance: Complex, limits: Limits) -> tuple[Real, Real]:
@@ -69,6 +72,20 @@ def as_given(machine: Machine, counterweights: Sequence[FittedCounterweight | Gi
     mass = stacked([one.mass_kg if one else 0.0 for one in fitted])
     angle = np.mod(stacked([one.angle_deg if one else 0.0 for one in fitted]), 360.0)
     return beside(machine, mass, angle)
+
+
+def too_heavy(
+    machine: Machine, given: Sequence[FittedCounterweight | GivenCounterweight], field: str
+) -> Iterator[FieldProblem]:
+    """Counterweights of a field of the request that are more than the envelope of their web holds."""
+    cut, webs = plates(machine), machine.webs
+    if cut is None:
+        return
+    most = {webs[k].name: mass for k, mass in zip(cut.webs.tolist(), cut.mass(cut.most).tolist(), strict=True)}
+    for index, one in enumerate(given):
+        if one.mass_kg > most.get(str(one.web), np.inf) * (1.0 + _ABOVE_ENVELOPE):
+            message = f"the envelope of this web holds {most[str(one.web)]:.6g} kg at most"
+            yield FieldProblem((field, index, "mass_kg"), message)
 
 
 def places(machine: Machine) -> tuple[Web, ...]:

@@ -11,7 +11,7 @@ from optimizer.outputs.phasors import orders_of, vectors_of
 from schemas.answer.outputs import OrdersComparison
 
 
-def _by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
+def by_order(scene: Prepared, unbalance: Complex | None) -> dict[int, Wrench]:
     """Force [N] and moment [N m] of every order; counterweights change the first, balance shafts two of them."""
     results, square = scene.results, scene.layout.omega**2
     higher = {2: results["second_order"], **results["higher_orders"]}
@@ -24,8 +24,8 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
     """Orders 1, 2, 4 and 6 of one machine."""
 
     def found(fitted: Complex | None) -> list[dict[str, Any]]:
-        by_order = _by_order(scene, fitted)
-        return orders_of([*by_order], vectors_of([*by_order.values()]))
+        wrenches = by_order(scene, fitted)
+        return orders_of([*wrenches], vectors_of([*wrenches.values()]))
 
     return OrdersComparison.model_validate(
         {"before": tuple(found(None)), "after": None if unbalance is None else tuple(found(unbalance))}
@@ -34,7 +34,7 @@ def orders(scene: Prepared, unbalance: Complex | None) -> OrdersComparison:
 
 def _columns(scene: Prepared, unbalance: Complex) -> dict[str, Real]:
     found: dict[str, Real] = {}
-    for order, wrench in _by_order(scene, unbalance).items():
+    for order, wrench in by_order(scene, unbalance).items():
         for quantity, unit, pair in (("force", "N", wrench.force), ("moment", "Nm", wrench.moment)):
             found[f"{quantity}_peak_{unit}.order_{order}"] = pair.peak
             for sense, phasor in (("co", pair.co), ("counter", pair.counter)):

@@ -16,6 +16,7 @@ from optimizer.outputs.cautions import cautions
 from optimizer.outputs.details import DETAILED
 from optimizer.outputs.dynamics import OVER_THE_TURN
 from optimizer.outputs.first_order import FIRST_ORDER_EFFECTS, HODOGRAPH, RESIDUAL, floor
+from optimizer.outputs.foundation import FOUNDATION_LOADS
 from optimizer.outputs.internal_moment import INTERNAL_MOMENT
 from optimizer.outputs.loads import LOADS
 from optimizer.outputs.orders import ORDERS
@@ -38,6 +39,7 @@ OUTPUTS: dict[str, Output] = {
         BALANCE_RATE,
         HODOGRAPH,
         ORDERS,
+        FOUNDATION_LOADS,
         STAGES,
         INTERNAL_MOMENT,
         *OVER_THE_TURN,

@@ -15,6 +15,7 @@ from schemas.answer.dynamics import (
     RodLoads,
     Torque,
 )
+from schemas.answer.foundation import OrderOfFoundation
 from schemas.answer.loads import Loads
 from schemas.answer.roll import Roll
 from schemas.answer.stages import Acting, StageIron
@@ -168,6 +169,9 @@ class OutputFields(Model):
         None, description="first order over a revolution, if asked for", examples=[None]
     )
     orders: OrdersComparison | None = Field(None, description="phasors by order, if asked for", examples=[None])
+    foundation_loads: tuple[OrderOfFoundation, ...] | None = Field(
+        None, description="loads on the foundation by order, if asked for", examples=[None]
+    )
     stages: Stages | None = Field(None, description="the eight balancing stages, if asked for", examples=[None])
     internal_moment: InternalMoment | None = Field(
         None, description="moment inside the shaft, if asked for", examples=[None]

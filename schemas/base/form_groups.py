@@ -26,9 +26,12 @@ _CYLINDER: Groups = {
 }
 _SCENE: Groups = {
     "Machine": ("machine",),
-    "Answer": ("outputs", "angles", "fidelity"),
+    "Answer": ("outputs", "foundation_orders", "angles", "fidelity"),
 }
-_OPTIMIZE: Groups = {"What is to be small": ("objective", "accuracy", "scenarios", "tolerances")}
+_OPTIMIZE: Groups = {
+    "What is to be small": ("objective", "accuracy", "scenarios", "tolerances"),
+    "What is fitted": ("fitted",),
+}
 
 #: name of a model -> heading -> its fields
 GROUPS: dict[str, Groups] = {

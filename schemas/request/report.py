@@ -84,7 +84,7 @@ class ReportRequest(OptimizeRequest):
         own = {name: getattr(self, name) for name in OptimizeRequest.model_fields}
         changed = {name: getattr(version, name) for name in ("machine", "objective")}
         given = {name: value for name, value in changed.items() if value is not None}
-        return OptimizeRequest.model_construct(**{**own, **given, "outputs": ("residual",)})
+        return OptimizeRequest.model_construct(**{**own, **given, "outputs": ("residual",), "fitted": ()})
 
     @property
     def alone(self) -> OptimizeRequest:

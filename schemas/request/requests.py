@@ -18,7 +18,7 @@ from schemas.base.model import Model
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
-from schemas.machine.fitted import GivenCounterweight, fitted_rules
+from schemas.machine.fitted import FittedCounterweight, GivenCounterweight, fitted_rules
 from schemas.machine.reciprocating import no_balance_shafts
 from schemas.machine.rotor import MAX_WEBS
 from schemas.request.objective import Objective
@@ -97,6 +97,14 @@ class OptimizeRequest(Scene, Ruled):
         examples=[{"mass_relative": 0.02, "angle_deg": 2}],
     )
 
+    fitted: tuple[FittedCounterweight, ...] = Field(
+        (),
+        max_length=MAX_WEBS,
+        description="counterweights that are fitted, as cast and set: told beside the optimum, and choose nothing;"
+        " webs that are not named carry none but what is fixed",
+        examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
+    )
+
     @property
     def robust(self) -> bool:
         """Whether more counts than the machine as it is given."""
@@ -104,6 +112,8 @@ class OptimizeRequest(Scene, Ruled):
 
     def rules(self) -> Iterator[Rule]:
         yield from scenario_rules(self, self.scenarios)
+        for broken, (_, *rest), message in fitted_rules(self.machine, self.fitted):
+            yield Rule(broken, ("fitted", *rest), message)
         yield from self._shaft_rules()
         yield from self._catalogue_rules()
         yield from self._fitted_rules()

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from schemas.answer.foundation import FoundationOrders
 from schemas.answer.outputs import OutputNames
 from schemas.base.angles import Angles
 from schemas.base.model import Model
@@ -46,5 +47,8 @@ class Scene(Model):
         ],
     )
     outputs: OutputNames = Field(("residual",), description="what the answer shall hold", examples=[["residual"]])
+    foundation_orders: FoundationOrders = Field(
+        (1, 2, 3, 4, 5, 6), description="orders of the output foundation_loads, first to sixth", examples=[[1, 2]]
+    )
     angles: Angles = Field(Angles(), description="samples of the shaft angle", examples=[{"step_deg": 1}])
     fidelity: Fidelity = Field(Fidelity(), description="how closely to simulate", examples=[{"kinematics": "exact"}])

@@ -5,20 +5,24 @@ from typing import Any
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
 from service.workbook.files import workbook
-from service.workbook.sheets import ANSWER, COUNTERWEIGHTS, Sheets, flat, table, written
+from service.workbook.sheets import ANSWER, COUNTERWEIGHTS, FOUNDATION, Sheets, flat, table, written
 
 
 def answered(request: OptimizeRequest, answer: OptimizeAnswer) -> bytes:
     """Request, counterweights, and every figure of the answer by the path of its field; lists as JSON.
 
+    Counterweights and loads on the foundation have a sheet each, with a number in every cell.
+
     What an answer says nothing of has no line.
     """
     said = answer.model_dump(mode="json", exclude_none=True)
     fitted = said.pop("counterweights")
+    loads = said.pop(FOUNDATION, [])
     fields = [[name, value] for name, value in flat(said)]
-    return workbook(
-        {**_asked(request), COUNTERWEIGHTS: table(fitted) or [["web"]], ANSWER: [["field", "value"], *fields]}
-    )
+    sheets: Sheets = {COUNTERWEIGHTS: table(fitted) or [["web"]]}
+    if loads:
+        sheets[FOUNDATION] = table(loads)
+    return workbook({**_asked(request), **sheets, ANSWER: [["field", "value"], *fields]})
 
 
 def requested(request: OptimizeRequest, _: object) -> bytes:

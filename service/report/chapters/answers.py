@@ -11,6 +11,7 @@ from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
+from service.report.chapters.foundation import foundation_loads
 from service.report.chapters.loads import loads
 from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
@@ -21,6 +22,7 @@ from service.report.chapters.worth_knowing import worth_knowing
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
     "orders": lambda _machine, found: orders(found),
+    "foundation_loads": lambda _machine, found: foundation_loads(found),
     "hodograph": lambda _machine, found: balance.hodograph(found),
     "internal_moment": lambda _machine, found: Chapter(
         "Moment inside the shaft",

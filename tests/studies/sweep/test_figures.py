@@ -64,6 +64,7 @@ WITHOUT = {
     "residual.after.moment.counter_rotating_Nm": "what counterweights leave alone: that before is a column",
     "main_bearings.bearings[[]].after.floor_N": "what counterweights leave alone: that before is a column",
     "residual.orders.*": "columns of the output orders",
+    "foundation_loads[[]].*": "made of phasors that are columns of the output orders",
     "residual.turn.*": "only where the objective is over all orders, which the column objective then holds",
     "stages[[]].acting[[]].*": "what the stages are made of: columns of the output orders",
     "stages[[]].left[[]].*": "what the stages are made of: columns of the output orders",

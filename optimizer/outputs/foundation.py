@@ -1,0 +1,84 @@
+"""Loads on the foundation by order: without counterweights, with them, and as built."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from optimizer.formulation.balance_shafts import fitted
+from optimizer.formulation.counterweights import as_given
+from optimizer.formulation.simulation import Prepared
+from optimizer.mechanics.foundation import foundation_load, outer_dead_centre_deg, rounding
+from optimizer.mechanics.inertia import Wrench
+from optimizer.mechanics.shapes import fitted_masses
+from optimizer.numerics.arrays import Complex
+from optimizer.outputs.orders import ORDERS, by_order
+from optimizer.outputs.output import Output
+from optimizer.responses.response import Phasors
+from schemas.answer.foundation import OrderOfFoundation
+from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
+from schemas.request.requests import OptimizeRequest
+
+_UNITS = {"force_x": "N", "force_y": "N", "couple_of_x_forces": "Nm", "couple_of_y_forces": "Nm"}
+
+
+def foundation_loads(scene: Prepared, unbalance: Complex | None) -> tuple[OrderOfFoundation, ...]:
+    """Loads of the orders of a request, one machine."""
+    bare = np.zeros(len(scene.machine.webs), complex)
+    sets: dict[str, tuple[Prepared, Complex | None]] = {"before": (scene, None)}
+    if unbalance is not None:
+        sets["after"] = (scene, unbalance)
+    built = _as_built(scene)
+    if built is not None:
+        sets["as_built"] = built
+    reference = dead_centre_deg(scene.machine)
+    told = {
+        name: _loads(scene_of_set, vectors, bare if vectors is None else vectors, reference)
+        for name, (scene_of_set, vectors) in sets.items()
+    }
+    return tuple(
+        OrderOfFoundation.model_validate(
+            {"order": order, "dead_centre_deg": reference, **{name: loads[order] for name, loads in told.items()}}
+        )
+        for order in scene.request.foundation_orders
+    )
+
+
+def dead_centre_deg(machine: Machine) -> float:
+    """Shaft angle of the outer dead centre of throw 1, first row; 0 where there is none."""
+    rows = machine.throws[0].rows if isinstance(machine, ReciprocatingMachine) and machine.throws else ()
+    if not isinstance(machine, ReciprocatingMachine) or not rows:
+        return 0.0
+    sense = np.asarray(1.0 if machine.rotation == "ccw" else -1.0)
+    crank, axis = (np.asarray(angle) for angle in (machine.throws[0].crank_angle_deg, rows[0].axis_deg))
+    return float(outer_dead_centre_deg(crank, axis, sense))
+
+
+def _as_built(scene: Prepared) -> tuple[Prepared, Complex] | None:
+    """The machine with what its request says is fitted; None where it says nothing."""
+    request = scene.request
+    if not isinstance(request, OptimizeRequest) or not request.fitted:
+        return None
+    mass, angle = as_given(request.machine, request.fitted)
+    built = fitted(fitted_masses(request.machine, mass), mass, angle)
+    return replace(scene, shafts=built.on_shafts), built.on_crank
+
+
+def _loads(scene: Prepared, vectors: Complex | None, weights: Complex, reference: float) -> dict[int, dict[str, Any]]:
+    wrenches = by_order(scene, vectors)
+    sense, negligible = scene.layout.sense, rounding(scene.layout, weights)
+    nothing = Phasors(np.zeros((), complex), np.zeros((), complex))
+    found = {}
+    for order in scene.request.foundation_orders:
+        # odd orders above the first vanish for a slider-crank
+        wrench = wrenches.get(order, Wrench(nothing, nothing))
+        loads = foundation_load(wrench, order, sense, np.asarray(reference), negligible)
+        found[order] = {
+            name: {f"amplitude_{_UNITS[name]}": float(load.amplitude), "phase_deg": float(load.phase_deg)}
+            for name, load in loads._asdict().items()
+        }
+    return found
+
+
+FOUNDATION_LOADS = Output("foundation_loads", "loads on the foundation by order", ORDERS.needs, foundation_loads)
