@@ -23,7 +23,7 @@ PARTS: dict[str, tuple[str, ...]] = {
         "optimizer.studies.sweep.counterweights:layout_of",
         "optimizer.studies.sweep.counterweights:rotating",
         "optimizer.studies.sweep.counterweights:reciprocating",
-        "optimizer.solve.certify:formulate",
+        "optimizer.solve.certify:cone_program",
     ),
     _STAGES: ("optimizer.program.kernel.discs:solve", "optimizer.program.kernel.interior_point:solve"),
     "scaling, choice of the point": (

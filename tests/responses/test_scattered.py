@@ -31,7 +31,7 @@ def _responses(name: str, gas: bool, shaft: str) -> tuple[TurnResponse, ...]:
     scene = prepare(request, ("residual",))
     assert isinstance(request.machine, ReciprocatingMachine)
     turn = Machine(request, scene, None, 1.0, 0.0).turn
-    loads = bearing_responses(request.machine, request.fidelity, scene.laden, turn)
+    loads = bearing_responses(request.machine, request.fidelity, turn, scene.laden)
     frame = shaking(turn, scene.laden)
     return (*loads, *frame, component(frame[0], "y", float(scene.laden.sense)))
 

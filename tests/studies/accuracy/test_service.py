@@ -101,7 +101,7 @@ def test_the_command_prints_tables() -> None:
     assert result.exit_code == 0
     for text in (
         "2D12-90/2-20",
-        "least mass is off",
+        "minimum mass is off",
         "sampled angles",
         "720 angles",
         "polygonal cones",
