@@ -19,6 +19,7 @@ from optimizer.mechanics.scatter import weighted
 from optimizer.numerics.arrays import Complex, Real
 from optimizer.optimize import optimize
 from optimizer.program.solution import OPTIMUM_SHARE
+from optimizer.solve.prices import touched_limits
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
 from schemas.front.pareto import CornerCertificate, Ends, ParetoPoint, ParetoRequest, Reason, Scale
@@ -55,6 +56,7 @@ class _Optimum:
     """An answer beside its weighted peaks."""
 
     answer: OptimizeAnswer
+    unbalance: Complex  # (K,) kg m, of what is chosen
     peaks: Real  # (2,) N and N m
     corner: Real  # (2,) no choice is below this in both peaks; nan where nothing is proven
 
@@ -197,7 +199,7 @@ class _Search:
         if bound is not None:
             # a peak that does not count is not below what it comes to here
             corner = np.where(weights > 0, bound / np.where(weights > 0, weights, 1.0), peaks)
-        return _Optimum(answer, peaks, corner)
+        return _Optimum(answer, u, peaks, corner)
 
     def _peaks(self, u: Complex) -> Real:
         """Weighted peak force and moment (2,) with unbalances (K,)."""
@@ -221,7 +223,15 @@ class _Search:
             weighted_moment_peak_Nm=float(optimum.peaks[1]),
             total_mass_kg=answer.total_mass_kg,
             counterweights=answer.counterweights,
-            active_limits=answer.active_limits,
+            # of the request: a search has ceilings of its own
+            active_limits=touched_limits(
+                self.machine,
+                self.request.objective,
+                self.scene.responses,
+                np.array([one.mass_kg for one in answer.counterweights]),
+                optimum.unbalance,
+                self.scene.omega_squared,
+            ),
             certificate=CornerCertificate(
                 force_N=float(optimum.corner[0]) if proven else None,
                 moment_Nm=float(optimum.corner[1]) if proven else None,
