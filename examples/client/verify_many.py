@@ -59,7 +59,10 @@ def _shape(each: Place) -> Claims:
     """The ends are the first and the last point, and the knee is farthest below the line between them."""
     points, ends = list(each / "points"), each / "ends"
     worst = max(points, key=lambda one: STATUSES.index((one / "status").text(*STATUSES[:2])), default=each)
-    yield same("status", each / "status", (worst / "status").value)
+    said, of_points = (each / "status").value, (worst / "status").value
+    # ends that are not closed leave a front open whose points all are closed: that is not looked at
+    modest = said == "inaccurate" and of_points == "optimal"
+    yield "status", each / "status", None if modest else ONE if said == of_points else -ONE, ONE
     peaks = [[one / f"weighted_{name}_peak_{unit}" for name, unit in NAMES.items()] for one in points]
     names = (("smallest_force_N", "moment_at_smallest_force_Nm"), ("force_at_smallest_moment_N", "smallest_moment_Nm"))
     for fields, point in zip(names, (peaks[0], peaks[-1])) if peaks else ():

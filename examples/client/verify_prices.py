@@ -39,7 +39,8 @@ def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> C
         start = double(term.start)
         worst = worst_by_angle(start, vectors, radians(1)), worst_by_mass(start, vectors, 0.01)
         sums[term.row] = [one + more for one, more in zip(sums[term.row], (abs(start + sum(vectors)), *worst))]
-        rounding += 1e-14 * (abs(start) + sum(map(abs, vectors)))
+        # where what is there cancels, its rounding is that of what cancels
+        rounding += 1e-14 * (abs(start) + sum(map(abs, vectors))) + 10.0 * float(abs(term.start - term.start))
     as_it_is, by_angle, by_mass = (max(one[k] for one in sums.values()) for k in range(3))
     for field, worse in (("objective_rise_per_deg", by_angle), ("objective_rise_per_percent", by_mass)):
         figure, place = max(worse - as_it_is, 0.0), said / field

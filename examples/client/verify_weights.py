@@ -133,10 +133,13 @@ def _touched(web: Web, one: Place) -> Iterator[Tuple[str, float]]:
 
 
 def listed(claim: str, place: Place, rooms: Dict[str, float]) -> Claims:
-    """A list of the limits that are touched, those of which less than a share is left, each once."""
+    """A list of the limits that are touched, those of which less than a share is left, each once.
+
+    Of what nothing can be told the room is nan.
+    """
     names = [one.text() for one in place]
     must = [name for name, room in rooms.items() if room <= TOUCHED - UNSURE]
-    may = [name for name, room in rooms.items() if room <= TOUCHED + UNSURE]
+    may = [name for name, room in rooms.items() if not room > TOUCHED + UNSURE]
     right = {*must} <= {*names} <= {*may} and len({*names}) == len(names)
     yield claim, place, ONE if right else -ONE, ONE
     yield from ((claim, one, ONE, ONE) for one in place)
