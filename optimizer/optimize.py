@@ -10,11 +10,13 @@ from optimizer.outputs.registry import fields as answered
 from optimizer.outputs.registry import prepare
 from optimizer.outputs.requirements import effects_of_objective, missing
 from optimizer.program.reference.solver import Solver
+from optimizer.solve.alternatives import alternatives
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.process_solver import own_solver
 from optimizer.solve.solve import solve
 from optimizer.solve.turn_residual import with_turn
 from optimizer.solve.worst_case import nothing_off
+from schemas.answer.alternatives import Alternative
 from schemas.answer.answers import Certificate, OptimizeAnswer, Timing
 from schemas.request.requests import OptimizeRequest
 
@@ -42,7 +44,11 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     # of scenarios every one is a machine of its own, simulated for itself
     scene = prepare(request, always, () if request.scenarios else effects_of_objective(request))
     solving = time.perf_counter()
-    best = solve(request, scene, solver or own_solver())
+    solver = solver or own_solver()
+    best = solve(request, scene, solver)
+    cheaper: tuple[Alternative, ...] = ()
+    if request.alternatives and best.unbalance is not None:
+        cheaper = alternatives(request, scene, best.unbalance, solver)
     reporting = time.perf_counter()
     figures = answered(replace(best.cut or scene, shafts=best.shafts), best.unbalance, always, best.fields)
     if request.objective.orders == "all":
@@ -55,6 +61,7 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
         **best.fields,
         **worst,
         **figures,
+        alternatives=cheaper,
         reference_plane_m=float(scene.layout.reference_plane),
         effects=scene.simulated.uses,
         timing=Timing(

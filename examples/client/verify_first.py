@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Callable, Iterator, Sequence
 
+from verify_alternatives import alternatives
 from verify_answer import Fitted, closest
 from verify_claims import EVIDENCE, Claim, Claims, near, same
 from verify_machine import NAMES, Machine, Mass, Responses
@@ -106,6 +107,7 @@ def optimum(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> 
         yield from lightest(statement, proof, multipliers, most, after, fitted.mass)
         yield from light(statement, proof, dict.fromkeys(rows, size), fitted.mass)
     yield from sensitivity(statement, fitted.turning, answer / "sensitivity")
+    yield from alternatives(request, answer, machine, statement)
     yield from prices(statement, request, answer, fitted, chosen)
 
 

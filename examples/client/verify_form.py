@@ -13,7 +13,8 @@ from verify_numbers import ONE, Place
 _TABLE = """
 .: version status status_reason counterweights total_mass_kg balance_shafts balance_shafts_mass_kg active_limits
   shadow_prices worst_case price_of_robustness sensitivity residual floor certificate infeasibility balance_rate
-  balance_quality warnings reference_plane_m effects timing
+  balance_quality warnings reference_plane_m effects timing alternatives
+alternatives: minimised allowance objective total_mass_kg pieces sizes lower_bound counterweights
 counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg mass_radius_kg_m x_kg_m y_kg_m
   centrifugal_force_N active_limits fixed shape
 shape: half_angle_deg chord_height_m outer_radius_m inertia_kg_m2

@@ -20,16 +20,16 @@ _FREE = (
 
 def effects_of_objective(request: OptimizeRequest) -> tuple[str, ...]:
     """Effects that the objective needs of a machine, beyond the first order."""
-    return _TURN if request.objective.over_the_turn else ()
+    return _TURN if request.objective.of_the_revolution else ()
 
 
 def missing(request: OptimizeRequest) -> Iterator[FieldProblem]:
     """Fields that the objective of one request needs and the machine does not give; paths from the request."""
     machine, goal = request.machine, request.objective
-    if not goal.over_the_turn:
+    if not goal.of_the_revolution:
         return
     needs = OUTPUTS["main_bearings"].needs if goal.of_the_shaft else _TURN
-    field = goal.over_the_turn[0]
+    field = goal.of_the_revolution[0]
     for path, message in problems_of(machine, needs):
         why = _FREE if path == ("bearings",) and field.startswith("bending") else message
         yield FieldProblem(("machine", *path), f"{why}; needed by objective.{field}")

@@ -107,7 +107,7 @@ class Machine:
             )
             for signs in known
         )
-        turn = (self.turn, self.scene.laden) if self.request.objective.over_the_turn else None
+        turn = (self.turn, self.scene.laden) if self.request.objective.of_the_revolution else None
         masses = self.share if self.scatters else 0.0
         named = self.scenario, self.weight, masses
         return Case(self.request.machine, self.scene.omega_squared, variants or (self.nominal,), turn, *named)

@@ -83,7 +83,8 @@ def certified_turn(request: OptimizeRequest, scene: Prepared, in_full: bool = Tr
     if request.objective.orders == "all":
         responses = tuple(each.unmirrored() for each in responses)
     machine, square = together.machine, scene.omega_squared
-    case = Case(machine, square, (responses,), (whole_turn_of(scene), scene.laden))
+    turn = (whole_turn_of(scene), scene.laden) if request.objective.of_the_revolution else None
+    case = Case(machine, square, (responses,), turn)
     asked = formulate(machine, together.objective, [case], square, request.fidelity)
     accuracy, least = request.accuracy, request.objective.least_mass
     found = over_turn(asked.program, accuracy.relative_gap, least, accuracy.time_limit_s)

@@ -4,6 +4,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from schemas.answer.alternatives import Alternative
 from schemas.answer.caution import Caution
 from schemas.answer.counterweights import Counterweight, FittedShaft
 from schemas.answer.first_order import Floor, Residual
@@ -172,6 +173,11 @@ class OptimizeAnswer(OutputFields, Answer):
         "machine's order and then the machine's limits; empty if infeasible, and with priorities, scenarios or "
         "tolerances",
         examples=[[{"limit": "max_mass", "web": "1a", "value": 102.8, "unit": "N/kg"}]],
+    )
+    alternatives: tuple[Alternative, ...] = Field(
+        (),
+        description="cheaper choices within the allowances that the request lists; empty where nothing is cheaper",
+        examples=[[{"minimised": "pieces", "allowance": 0.02, "objective": 41365.2, "total_mass_kg": 85.5}]],
     )
     worst_case: WorstCase | None = Field(
         None,

@@ -153,8 +153,13 @@ class Objective(Ruled):
 
     @property
     def over_the_turn(self) -> tuple[str, ...]:
-        """Fields by which more is asked than the first order on the frame."""
+        """Fields by which more is asked than one goal of the first order on the frame."""
         return tuple(name for name, nothing in OVER_THE_TURN.items() if getattr(self, name) != nothing)
+
+    @property
+    def of_the_revolution(self) -> tuple[str, ...]:
+        """Those of them that need the motion of the rods: goals of the first order in their order need none."""
+        return tuple(name for name in self.over_the_turn if name != "priorities")
 
     def rules(self) -> Iterator[Rule]:
         external = (self.force_weight != 0) | (self.moment_weight != 0) | (self.roll_weight != 0)

@@ -15,6 +15,7 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema
 
 from schemas.base.model import Model
+from schemas.base.quantities import Fraction
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
@@ -105,6 +106,15 @@ class OptimizeRequest(Scene, Ruled):
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )
 
+    alternatives: tuple[Fraction, ...] = Field(
+        (),
+        max_length=8,
+        description="allowances, shares of the smallest objective, within which cheaper choices from a catalogue are"
+        " listed: less mass, fewer counterweights, fewer sizes. They take half of the time limit beside it; none are"
+        " listed if it is empty",
+        examples=[[0.01, 0.02, 0.05]],
+    )
+
     @property
     def robust(self) -> bool:
         """Whether more counts than the machine as it is given."""
@@ -115,6 +125,7 @@ class OptimizeRequest(Scene, Ruled):
         for broken, (_, *rest), message in fitted_rules(self.machine, self.fitted):
             yield Rule(broken, ("fitted", *rest), message)
         yield from self._shaft_rules()
+        yield from self._alternative_rules()
         yield from self._catalogue_rules()
         yield from self._fitted_rules()
         if self.tolerances is not None and self.objective.over_the_turn:
@@ -144,6 +155,15 @@ class OptimizeRequest(Scene, Ruled):
         """Scenarios and tolerances that are given where only the machine as it is can be asked for."""
         yield Rule(bool(self.scenarios), ("scenarios",), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
+
+    def _alternative_rules(self) -> Iterator[Rule]:
+        """What cheaper choices are listed of."""
+        listed, path = bool(self.alternatives), ("alternatives",)
+        yield Rule(listed and not self.machine.discrete, path, "cheaper choices are of a catalogue, which there is not")
+        beyond = bool(self.objective.over_the_turn) or self.robust
+        message = "cheaper choices are of one goal of the first order: ask without {}"
+        also = "scenarios and tolerances" if self.robust else f"objective.{(*self.objective.over_the_turn, '')[0]}"
+        yield Rule(listed and beyond, path, message.format(also))
 
     def _catalogue_rules(self) -> Iterator[Rule]:
         """What does not go with discrete choices."""

@@ -140,13 +140,13 @@ def test_pairs_of_sums_are_compared_by_fewer_at_once_where_they_have_more_terms(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Between two looks at the time as many terms, whether pairs have four or hundreds, as over the turn."""
-    batches, evaluated = list[int](), halves._Pairs.evaluated
+    batches, evaluated = list[int](), halves.Pairs.evaluated
 
     def counting(pairs: Any, i: np.ndarray, j: np.ndarray) -> None:
         batches.append(i.size * pairs.terms.size)
         evaluated(pairs, i, j)
 
-    monkeypatch.setattr(halves._Pairs, "evaluated", counting)
+    monkeypatch.setattr(halves.Pairs, "evaluated", counting)
     outcome = ask("twin", ["bending weight", "steps"])
     assert outcome.kind == "answered"
     # several were made, and the last of a batch may be more than fill it

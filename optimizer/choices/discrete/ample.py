@@ -27,6 +27,8 @@ _SUMS, _PAIRS = 20_000, 60_000
 _TRIED = 4_000
 #: pairs of slots that the optimum uses, and of others, that are looked at
 _MOVING, _OTHERS = 6, 28
+#: part numbers that are tried where any number may be used
+_SIZES = 2
 #: slots beside those of the optimum where few part numbers may be used
 _TRIMS = 4
 #: slots of the optimum that may take any angle
@@ -51,17 +53,20 @@ def offer_light_sets(incumbent: Incumbent, relaxed: Complex, enough: Callable[[]
     enough : whether the best set is as good as asked.
     """
     light = _lightest(incumbent, relaxed)
-    used = np.flatnonzero(np.abs(light) > _USED * np.max(np.abs(light), initial=0.0)).tolist()
+    used = used_slots(light)
     if not used:
         return
     if incumbent.options.limits_parts:
-        _PartSizes(incumbent, light, used, enough, clock).run()
+        _PartSizes(incumbent, light, used, incumbent.options.most_parts or 0, enough, clock).run()
         return
     for near, many in _COUNTS:
-        for which in _neighbourhoods(incumbent, light, used, near, many):
+        for which in neighbourhoods(incumbent.options, light, near, many):
             if enough() or clock.spent():
                 return
             exhaust(incumbent.options, which, incumbent, _SUMS, _PAIRS, clock)
+
+    # few sizes are few sums, and where any may be used they are among them
+    _PartSizes(incumbent, light, used, _SIZES, enough, clock).run()
 
     def close(slot: int) -> np.ndarray:
         options, chosen = incumbent.options, incumbent.chosen
@@ -150,11 +155,15 @@ def _light(options: Options, slot: int, count: int) -> np.ndarray:
     return np.argsort(mass, kind="stable")[: min(count, int(np.sum(options.exists[slot])))]
 
 
-def _neighbourhoods(
-    incumbent: Incumbent, light: Complex, used: Sequence[int], near: int, many: int
-) -> Iterator[list[np.ndarray]]:
-    """Options of every slot: near ones of two that the optimum uses, light ones of two others, and of the rest one."""
-    options = incumbent.options
+def neighbourhoods(options: Options, light: Complex, near: int, many: int) -> Iterator[list[np.ndarray]]:
+    """Options of every slot: near ones of two that the optimum uses, light ones of two others, and of the rest one.
+
+    Parameters
+    ----------
+    light : (K,) kg m of first webs, an optimum of any masses on few webs.
+    near, many : how many near ones, and how many light ones.
+    """
+    used = used_slots(light)
     base = options.nearest(light)
     largest = sorted(used, key=lambda k: -abs(light[k]))
     moving: list[tuple[int, ...]] = list(islice(combinations(largest, 2), _MOVING)) or [tuple(largest)]
@@ -170,6 +179,11 @@ def _neighbourhoods(
             yield which
 
 
+def used_slots(light: Complex) -> list[int]:
+    """Slots that an optimum of any masses (K,) kg m uses."""
+    return np.flatnonzero(np.abs(light) > _USED * np.max(np.abs(light), initial=0.0)).tolist()
+
+
 def _half_of(which: Sequence[np.ndarray]) -> float:
     """Sums of a half, about."""
     return float(np.sqrt(np.prod([float(each.size) for each in which])))
@@ -179,9 +193,15 @@ class _PartSizes:
     """Which part numbers to use, where fewer may be used than there are: sizes moved up and down, one at a time."""
 
     def __init__(
-        self, incumbent: Incumbent, light: Complex, used: list[int], enough: Callable[[], bool], clock: Clock
+        self,
+        incumbent: Incumbent,
+        light: Complex,
+        used: list[int],
+        most: int,
+        enough: Callable[[], bool],
+        clock: Clock,
     ) -> None:
-        self.incumbent, self.enough, self.clock = incumbent, enough, clock
+        self.incumbent, self.most, self.enough, self.clock = incumbent, most, enough, clock
         options = incumbent.options
         self.used = sorted(used, key=lambda k: -abs(light[k]))
         self.light, self.near = light, options.nearest(light)
@@ -197,7 +217,7 @@ class _PartSizes:
 
     def run(self) -> None:
         """Offer the best sets of so few sizes."""
-        most = self.incumbent.options.most_parts or 0
+        most = self.most
         if not most or not self.mass.size:
             return
         own = np.array([self._nearest(self._mass_of(k)) for k in self.used])

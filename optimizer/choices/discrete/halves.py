@@ -31,11 +31,13 @@ _AT_ONCE, _PAIRS_AT_ONCE = 800_000, 1_000
 _SOUGHT, _COUNTED = 2_000, 64
 #: pairs up to which all are evaluated
 _FEW = 20_000
+#: how many times more sums than a half may have are made on the way, most of them too heavy
+_WIDEST = 40
 #: part numbers that fit into the bits of a whole number
 _BITS = 62
 
 
-class _Sums(NamedTuple):
+class Sums(NamedTuple):
     """Sums of some slots, each once and the first of its kind in the order among equals."""
 
     z: Complex  # (n, s) in coordinates of what all slots together can do
@@ -44,6 +46,61 @@ class _Sums(NamedTuple):
     fitted: np.ndarray  # (n,) counterweights, 0 where they are not limited
     parts: np.ndarray  # (n,) bits of the part numbers, 0 where they are not limited
     code: np.ndarray  # (n,) which options
+
+
+class Halves(NamedTuple):
+    """All sums of the slots, those of one half of them beside those of the other."""
+
+    one: Sums
+    other: Sums
+    lever: Real  # (J, s) what the coordinates of the sums do to the terms
+    terms: Complex  # (J,) of slots that take one option
+    fixed: np.ndarray  # (K,) the first option of every slot
+    sides: tuple[list[int], list[int]]  # slots of either half, of more options than one
+    which: Sequence[np.ndarray]  # (K) options of every slot
+
+    def sets(self, i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        """The options (M, K) of pairs of sums, by their places (M,) in either half."""
+        sets = np.tile(self.fixed, (i.size, 1))
+        for side, sums, place in zip(self.sides, (self.one, self.other), (i, j), strict=True):
+            code = sums.code[place]
+            for k in reversed(side):
+                code, digit = np.divmod(code, len(self.which[k]))
+                sets[:, k] = self.which[k][digit]
+        return sets
+
+
+def halves(
+    options: Options,
+    which: Sequence[np.ndarray],
+    incumbent: Incumbent,
+    most_sums: int,
+    clock: Clock,
+    most_kg: float = np.inf,
+) -> Halves | None:
+    """The sums of either half; None where they are more than so many, or than there is time for.
+
+    Parameters
+    ----------
+    which : (K) options of every slot, at least one each.
+    most_kg : mass of a half, kg, beyond which its sums are left out.
+    """
+    if options.limits_parts and np.max(options.part) > _BITS:
+        return None
+    many = sorted((k for k, some in enumerate(which) if len(some) > 1), key=lambda k: -len(which[k]))
+    sides = many[::2], many[1::2]
+    lever, effect = incumbent.coordinates
+    fixed = np.array([some[0] for some in which], dtype=int)
+    single = np.ones(options.slots, bool)
+    single[many] = False
+    rest = np.sum(options.of(effect, fixed)[single], axis=0)
+    pace = Pace(clock)
+    one = sums_of(options, effect, which, sides[0], pace, most_sums, most_kg)
+    other = None if one is None else sums_of(options, effect, which, sides[1], pace, most_sums, most_kg)
+    if one is None or other is None:
+        return None
+    terms = incumbent.statement.norms.constant + lever @ rest
+    return Halves(one, other, lever, terms, fixed, sides, which)
 
 
 def exhaust(
@@ -62,58 +119,54 @@ def exhaust(
     most_sums, most_pairs : sums of a half, and pairs of them, beyond which it is given up.
     clock : what is left of the time; what there is not enough for is given up.
     """
-    statement = incumbent.statement
-    many = sorted((k for k, some in enumerate(which) if len(some) > 1), key=lambda k: -len(which[k]))
-    sides = many[::2], many[1::2]
-    if any(np.prod([float(len(which[k])) for k in side]) > 4.0 * most_sums for side in sides):
+    split = halves(options, which, incumbent, most_sums, clock)
+    if split is None:
         return False
-    if options.limits_parts and np.max(options.part) > _BITS:
-        return False
-    lever, effect = incumbent.coordinates
-    fixed = np.array([some[0] for some in which], dtype=int)
-    single = np.ones(options.slots, bool)
-    single[many] = False
-    rest = np.sum(options.of(effect, fixed)[single], axis=0)
-    pace = Pace(clock)
-    one, other = (sums_of(options, effect, which, side, pace) for side in sides)
-    if one is None or other is None or max(one.code.size, other.code.size) > most_sums:
-        return False
+    one, other = split.one, split.other
     if not one.code.size or not other.code.size:
         return True
 
     def offered(i: np.ndarray, j: np.ndarray) -> None:
-        sets = np.tile(fixed, (i.size, 1))
-        for side, sums, place in zip(sides, (one, other), (i, j), strict=True):
-            code = sums.code[place]
-            for k in reversed(side):
-                code, digit = np.divmod(code, len(which[k]))
-                sets[:, k] = which[k][digit]
-        incumbent.offer(sets)
+        incumbent.offer(split.sets(i, j))
 
-    terms = statement.norms.constant + lever @ rest
-    pairs = _Pairs(statement, one.z, other.z, lever, terms, incumbent, offered)
+    pairs = Pairs(incumbent.statement, one.z, other.z, split.lever, split.terms, incumbent, offered)
     # without coordinates all pairs are in one place, and none is nearer than another
-    if not np.isfinite(incumbent.level) or pairs.count <= _FEW or not lever.shape[-1]:
+    if not np.isfinite(incumbent.level) or pairs.count <= _FEW or not split.lever.shape[-1]:
         return pairs.count <= most_pairs and pairs.all(clock)
     pairs.nearest(clock)
     return pairs.near(most_pairs, clock)
 
 
 def sums_of(
-    options: Options, effect: Complex, which: Sequence[np.ndarray], side: Sequence[int], pace: Pace
-) -> _Sums | None:
-    """All sums of the slots of a side that the counts of all slots together leave; None where the time is too short."""
-    sums = _Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
+    options: Options,
+    effect: Complex,
+    which: Sequence[np.ndarray],
+    side: Sequence[int],
+    pace: Pace,
+    most: float = np.inf,
+    most_kg: float = np.inf,
+) -> Sums | None:
+    """All sums of the slots of a side that the counts of all slots together leave.
+
+    None where they are more than so many, or than there is time for.
+
+    Parameters
+    ----------
+    most_kg : mass of a sum, kg, beyond which it is left out.
+    """
+    if not np.isfinite(most_kg) and np.prod([float(len(which[k])) for k in side]) > 4.0 * most:
+        return None
+    sums = Sums(np.zeros((1, effect.shape[-1]), complex), *np.zeros((2, 1)), *np.zeros((3, 1), np.int64))
     for k in side:
         some = which[k]
         count = sums.code.size * some.size
         # more than the next ones are still to come: pairs, and of the first half the other one
-        if pace.most(2 * count) < 2 * count:
+        if pace.most(2 * count) < 2 * count or count > _WIDEST * most:
             return None
         fitted = options.webs[k] * (some > 0) if options.limits_fitted else np.zeros(some.size, np.int64)
         bits = np.where(options.part[k, some] >= 0, 1 << np.maximum(options.part[k, some], 0), 0)
         bits = bits if options.limits_parts else np.zeros_like(bits)
-        longer = _Sums(
+        longer = Sums(
             # of no coordinates, where nothing changes the objective, no number of rows follows
             (sums.z[:, None] + effect[k, some]).reshape(count, effect.shape[-1]),
             (sums.mass[:, None] + options.mass[k, some]).ravel(),
@@ -122,13 +175,13 @@ def sums_of(
             (sums.parts[:, None] | bits).ravel(),
             (sums.code[:, None] * some.size + np.arange(some.size)).ravel(),
         )
-        within = _counted(options, longer)
-        sums = _merged(_Sums(*(each[within] for each in longer)))
+        within: np.ndarray = _counted(options, longer) & (longer.mass <= most_kg)
+        sums = _merged(Sums(*(each[within] for each in longer)))
         pace.took(max(count, 1))
-    return sums
+    return None if sums.code.size > most else sums
 
 
-def _counted(options: Options, sums: _Sums) -> np.ndarray:
+def _counted(options: Options, sums: Sums) -> np.ndarray:
     """Which sums (n,) take no more counterweights and part numbers than all slots together may."""
     within = np.ones(sums.code.size, bool)
     if options.limits_fitted:
@@ -138,7 +191,7 @@ def _counted(options: Options, sums: _Sums) -> np.ndarray:
     return within
 
 
-def _merged(sums: _Sums) -> _Sums:
+def _merged(sums: Sums) -> Sums:
     """Of sums that do the same with the same parts the first in the order among equals."""
     size = float(np.max(np.abs(sums.z), initial=0.0)) or 1.0
     parts = np.concatenate([sums.z.real, sums.z.imag], axis=-1) / (_SAME * size)
@@ -148,11 +201,11 @@ def _merged(sums: _Sums) -> _Sums:
     keys = keys[order]
     new = np.concatenate([np.ones(min(order.size, 1), bool), np.any(keys[1:] != keys[:-1], axis=-1)])
     kept = np.sort(order[new])
-    return _Sums(*(each[kept] for each in sums))
+    return Sums(*(each[kept] for each in sums))
 
 
 @dataclass(frozen=True)
-class _Pairs:
+class Pairs:
     """Sums of one half beside those of the other."""
 
     statement: Statement

@@ -54,7 +54,7 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
     """The front of the responses that a request names, for one limit of the total mass."""
     names = request.responses or ()
     asked = needed(request, names).model_copy(update={"machine": machine, "accuracy": request.accuracy})
-    turn = whole_turn_of(scene) if asked.objective.over_the_turn else None
+    turn = whole_turn_of(scene) if asked.objective.of_the_revolution else None
     traded = measures(asked, names, scene, turn)
     found = _ends(traded)
     if found is None:

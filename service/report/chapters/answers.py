@@ -9,6 +9,7 @@ from schemas.machine.machine import Machine
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from service.report.blocks import Chapter, facts
 from service.report.chapters import balance, verdict
+from service.report.chapters.alternatives import alternatives
 from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.foundation import foundation_loads
@@ -47,6 +48,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     """Counterweights, what they leave, and the certificate; or why there are none."""
     yield verdict.result(request, answer)
     yield balance.counterweights(request, answer)
+    yield from alternatives(answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)

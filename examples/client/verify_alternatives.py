@@ -1,0 +1,57 @@
+"""Cheaper choices beside the best one: what each comes to, that it is cheaper, and within its allowance."""
+
+from __future__ import annotations
+
+from typing import Dict, List
+
+from verify_claims import Claims, near, same
+from verify_machine import Machine
+from verify_numbers import ONE, ZERO, Number, Place, largest, real
+from verify_program import Statement, phasors
+from verify_weights import SAME, catalogue, counterweights
+
+CEILING = 1e-9  # of the larger of a ceiling and what is there without counterweights
+
+
+def alternatives(request: Place, answer: Place, machine: Machine, statement: Statement) -> Claims:
+    """All that an answer lists; that nothing is cheaper still was found by a search, which is not repeated."""
+    best = (answer / "certificate" / "objective").number()
+    rest = (answer / "certificate" / "objective_without_counterweights").number()
+    own = costs(request / "machine", answer / "counterweights", (answer / "total_mass_kg").number())
+    stated = [one.double() for one in request / "alternatives"]
+    for one in answer / "alternatives":
+        minimised, allowance = (one / "minimised").text("mass", "pieces", "sizes"), one / "allowance"
+        yield "alternatives", one / "minimised", ONE, ONE
+        yield "alternatives", allowance, ONE if allowance.double() in stated else -ONE, ONE
+        turning, mass = yield from counterweights(machine, one / "counterweights", request / "machine")
+        yield from catalogue(request / "machine", one / "counterweights")
+        after = machine.responses(turning)
+        value, most = largest(ZERO, *statement.values(after).values()), best * (ONE + allowance.number())
+        yield near("alternatives", one / "objective", value)
+        yield "alternatives", one / "objective", most + rest * real(SAME) - value, most
+        for name, cap in statement.caps.items():
+            room = cap + statement.sizes[name] * real(CEILING) - abs(phasors(after, name)[0])
+            yield "ceilings", one / "counterweights", room, statement.sizes[name]
+        cost = costs(request / "machine", one / "counterweights", mass)
+        yield near("alternatives", one / "total_mass_kg", cost["mass"])
+        for counted in ("pieces", "sizes"):
+            yield same("alternatives", one / counted, round(float(cost[counted])))
+        yield "alternatives", one / "minimised", own[minimised] - cost[minimised], ONE
+        yield (
+            "alternatives",
+            one / "lower_bound",
+            cost[minimised] * real(1 + SAME) - (one / "lower_bound").number(),
+            ONE,
+        )
+        yield "alternatives", one / "lower_bound", None, ONE
+
+
+def costs(asked: Place, place: Place, mass: Number) -> Dict[str, Number]:
+    """Total mass, and the numbers of counterweights and of different masses that are chosen."""
+    masses: List[float] = sorted(
+        (one / "mass_kg").double()
+        for web, one in zip(asked / "webs", place)
+        if not web / "fixed" and (one / "mass_kg").double() > 0
+    )
+    sizes = sum(n == 0 or each - masses[n - 1] > SAME * each for n, each in enumerate(masses))
+    return {"mass": mass, "pieces": real(len(masses)), "sizes": real(sizes)}

@@ -1,0 +1,134 @@
+"""The lightest set whose objective is no more than a level.
+
+Light sets are few: of the sums of either half those below a mass are compared, then those below a larger one. The first
+pair that keeps the level ends it, since all lighter ones were compared.
+"""
+
+from collections.abc import Callable, Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.halves import Halves, Pairs, halves
+from optimizer.choices.discrete.options import Incumbent, Options
+from optimizer.program.statement import Statement
+
+#: sums of a half, and pairs of them near enough to the level, that are compared
+_SUMS, _PAIRS = 100_000, 3_000_000
+#: steps of the mass
+_STEP = 1.15
+#: share of a mass by which another is lighter
+_LIGHTER = 1e-9
+#: by which sums of masses are rounded, relative
+_ROUNDING = 1e-12
+
+
+class Lightest(NamedTuple):
+    """The lightest set that was found, and what is proven."""
+
+    chosen: np.ndarray | None  # (K,); None where none of less than the largest mass was found
+    lower_bound: float  # kg, no set that keeps the level is lighter
+
+
+def lightest(
+    statement: Statement,
+    options: Options,
+    which: Sequence[np.ndarray],
+    level: float,
+    masses_kg: tuple[float, float],
+    clock: Clock,
+) -> Lightest:
+    """The lightest of the sets whose objective is no more than a level, and of equal ones the one with the smallest.
+
+    Parameters
+    ----------
+    which : (K) options of every slot that are compared, at least one each.
+    masses_kg : what no set that keeps the level is lighter than, and the mass from which on none is wanted.
+    """
+    least, most = masses_kg
+    within = Incumbent(statement, options, 0.0)
+    within.least = level
+    cap = least
+    while least < most and not clock.spent():
+        cap = min(max(_STEP * cap, _next_mass(options, least)), most)
+        split = halves(options, which, within, _SUMS, clock, cap * (1.0 + _ROUNDING))
+        best = _Best(statement, options, level)
+        if split is None or not _compared(split, within, cap, best.offer, clock):
+            return Lightest(best.chosen, least)
+        if best.chosen is not None:
+            return Lightest(best.chosen, max(least, best.mass))
+        least = cap
+    return Lightest(None, least)
+
+
+def lighter(
+    statement: Statement,
+    options: Options,
+    which: Sequence[np.ndarray],
+    level: float,
+    below_kg: float,
+    clock: Clock,
+) -> np.ndarray | None:
+    """The lightest (K,) of some sets that keep a level and are lighter than so much; None where none was found.
+
+    Parameters
+    ----------
+    which : (K) options of every slot that are compared.
+    """
+    within = Incumbent(statement, options, 0.0)
+    within.least = level
+    best, cap = _Best(statement, options, level), below_kg * (1.0 - _LIGHTER)
+    split = halves(options, which, within, _SUMS, clock, cap) if cap > 0 else None
+    if split is not None:
+        _compared(split, within, cap, best.offer, clock)
+    return best.chosen
+
+
+def _next_mass(options: Options, least: float) -> float:
+    """The smallest mass of a set, kg, that is more than so much: a step of the mass may hold none."""
+    masses = options.mass[options.exists & (options.mass > 0)]
+    return least + float(np.min(masses, initial=np.inf)) if masses.size else np.inf
+
+
+class _Best:
+    """The lightest set so far."""
+
+    def __init__(self, statement: Statement, options: Options, level: float) -> None:
+        self.statement, self.options, self.level = statement, options, level
+        self.chosen: np.ndarray | None = None
+        self.mass = self.value = np.inf
+
+    def offer(self, sets: np.ndarray) -> None:
+        """Take the lightest of sets (M, K) that keep the level and all limits, or stay."""
+        sets = sets[self.options.counts(self.statement, sets)]
+        if not len(sets):
+            return
+        u = self.options.carried(sets)
+        value = self.statement.objective(u)
+        kept = (value <= self.level) & np.all(
+            self.statement.ceilings.excess(u) <= self.statement.ceilings.tolerance, axis=-1
+        )
+        mass = np.sum(self.options.of(self.options.mass, sets), axis=-1)
+        kept &= mass <= self.mass * (1.0 + _ROUNDING)
+        if not kept.any():
+            return
+        equal = kept & (mass <= np.min(mass[kept]) * (1.0 + _ROUNDING))
+        n = int(np.argmin(np.where(equal, value, np.inf)))
+        if mass[n] < self.mass * (1.0 - _ROUNDING) or value[n] < self.value:
+            self.chosen, self.mass, self.value = sets[n], float(mass[n]), float(value[n])
+
+
+def _compared(split: Halves, within: Incumbent, cap: float, offer: Callable[[np.ndarray], None], clock: Clock) -> bool:
+    """Whether all pairs of sums that are no heavier than so much were offered where they are near the level."""
+    one, other = split.one, split.other
+    if not one.code.size or not other.code.size:
+        return True
+
+    def offered(i: np.ndarray, j: np.ndarray) -> None:
+        light = one.mass[i] + other.mass[j] <= cap * (1.0 + _ROUNDING)
+        if np.any(light):
+            offer(split.sets(i[light], j[light]))
+
+    pairs = Pairs(within.statement, one.z, other.z, split.lever, split.terms, within, offered)
+    return pairs.near(_PAIRS, clock) if split.lever.shape[-1] else pairs.count <= _PAIRS and pairs.all(clock)

@@ -1,0 +1,47 @@
+"""Cheaper choices beside the best one, as the decision that they are."""
+
+from collections.abc import Iterator
+
+from schemas.answer.alternatives import Alternative
+from schemas.answer.answers import OptimizeAnswer
+from service.report.blocks import Cell, Chapter, Number, Paragraph, table
+
+_LEAST = {"mass": "least mass", "pieces": "fewest counterweights", "sizes": "fewest sizes"}
+_HEADS = (
+    "", "#allowance", "#objective above the best", "#mass, kg", "#counterweights", "#sizes", "#proven at least",
+    "<castings",
+)  # fmt: skip
+_WORDS = (
+    "Each row is the cheapest choice that was found within its allowance of the objective. No choice within the"
+    " allowance is below the figure that is proven."
+)
+
+
+def alternatives(answer: OptimizeAnswer) -> Iterator[Chapter]:
+    """A table, where there are cheaper choices."""
+    if not answer.alternatives or answer.certificate is None:
+        return
+    best = answer.certificate.objective
+    rows = [_row(one, best) for one in answer.alternatives]
+    yield Chapter("Cheaper choices", (Paragraph(_WORDS), table("", _HEADS, rows)))
+
+
+def _row(one: Alternative, best: float) -> tuple[Cell | float | None, ...]:
+    above = one.objective / best - 1.0 if best > 0 else 0.0
+    counted = one.minimised != "mass"
+    return (
+        _LEAST[one.minimised],
+        _percent(one.allowance),
+        _percent(above),
+        one.total_mass_kg,
+        Number(one.pieces, str(one.pieces)),
+        Number(one.sizes, str(one.sizes)),
+        Number(one.lower_bound, f"{one.lower_bound:.0f}") if counted else one.lower_bound,
+        ", ".join(
+            f"{each.web}: {each.mass_kg:g} kg at {each.angle_deg:g}°" for each in one.counterweights if each.mass_kg
+        ),
+    )
+
+
+def _percent(share: float) -> Number:
+    return Number(share, f"{100.0 * share:.2g} %")

@@ -1,0 +1,57 @@
+"""The lightest set within a level of the objective: what trying every set comes to (independent)."""
+
+import numpy as np
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optimizer.choices.discrete.clock import Clock
+from optimizer.choices.discrete.lightest import lighter, lightest
+from tests.choices.sets import every_set, options_of
+from tests.program.cases import COMBINATIONS, random_statement
+
+_LONG = 3600.0
+
+
+@settings(max_examples=40, deadline=None)
+@given(
+    seed=st.integers(0, 10_000),
+    webs=st.integers(1, 4),
+    fitted=st.none() | st.integers(1, 3),
+    parts=st.none() | st.integers(1, 2),
+    share=st.sampled_from([1.0, 1.01, 1.2, 2.0]),
+)
+def test_the_lightest_of_all_sets(seed: int, webs: int, fitted: int | None, parts: int | None, share: float) -> None:
+    """Independent: at a level that some keep, the lightest of all sets, and the bound is its mass."""
+    combine, weights, sectors, budget, ceilings = COMBINATIONS[seed % len(COMBINATIONS)]
+    problem = random_statement(seed, combine, weights, sectors, budget, ceilings, webs=webs)
+    most = float(np.max(problem.limits.max_mass))
+    masses = [0.1 * most, 0.3 * most, 0.7 * most]
+    options = options_of(problem, masses, [0.0, 120.0, 240.0][: 1 if sectors else 3], fitted, parts)
+    sets, values = every_set(problem, options)
+    if not len(sets):
+        return
+    level = share * float(np.min(values)) * (1.0 + 1e-9)
+    kept = sets[values <= level]
+    mass = float(np.min(np.sum(options.of(options.mass, kept), axis=-1)))
+    every = [np.flatnonzero(some) for some in options.exists]
+    largest = 2.0 * float(np.sum(np.max(options.mass, axis=-1)))
+    found = lightest(problem, options, every, level, (0.0, largest), Clock(_LONG))
+    near = lighter(problem, options, every, level, largest, Clock(_LONG))
+    assert found.chosen is not None
+    assert near is not None
+    for chosen in (found.chosen, near):
+        assert abs(float(np.sum(options.of(options.mass, chosen))) - mass) <= 1e-9 * most
+        assert float(problem.objective(options.carried(chosen))) <= level
+    assert abs(found.lower_bound - mass) <= 1e-9 * most
+    # nothing is lighter than the lightest
+    assert lighter(problem, options, every, level, mass, Clock(_LONG)) is None
+    assert lightest(problem, options, every, level, (0.0, mass), Clock(_LONG)).lower_bound >= mass * (1.0 - 1e-9)
+
+
+def test_without_time_nothing_is_claimed() -> None:
+    """Analytic: a clock that is spent proves no more than was known."""
+    problem = random_statement(3, "sum", (1.0, 1.0), False, False, False, webs=3)
+    options = options_of(problem, [0.2 * float(np.max(problem.limits.max_mass))], [0.0, 180.0])
+    every = [np.flatnonzero(some) for some in options.exists]
+    found = lightest(problem, options, every, np.inf, (0.25, 10.0), Clock(0.0))
+    assert (found.chosen, found.lower_bound) == (None, 0.25)

@@ -1,0 +1,146 @@
+"""Cheaper choices beside the best one: against every set, what is refused, and what a stranger finds."""
+
+from typing import Any
+
+import pytest
+
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
+from service.report.chapters.alternatives import alternatives as chapter
+from tests.optimize.machines import web
+from tests.optimize.test_catalogue import every_set, twin
+from tests.verification.checking import optimized, verdict
+
+_ALLOWANCES = [0.0, 0.02, 0.1, 0.5]
+
+
+def question(body: dict[str, Any], **more: Any) -> dict[str, Any]:
+    return {"machine": body, "alternatives": _ALLOWANCES, **more}
+
+
+def small(**more: Any) -> dict[str, Any]:
+    webs = [web(name, z, 60.0, 0.12) for name, z in zip("abd", (-0.4, -0.2, 0.4), strict=True)]
+    return twin(webs, catalogue={"masses_kg": [3, 7.5, 16], "angle_step_deg": 180}, **more)
+
+
+@pytest.mark.parametrize("combine", ["sum", "max"])
+def test_the_cheapest_of_all_sets(combine: str) -> None:
+    """Independent: every set, by the analysis of each."""
+    body = small()
+    found = optimized(question(body, objective={"combine": combine, "force_weight": 1.0, "moment_weight": 2.0}))
+    assert found.certificate is not None
+    sets = []
+    for some, after in every_set(body, [[0.0, 180.0], [0.0, 180.0], [90.0, 270.0]]):
+        peaks = after.force.peak_N, 2.0 * after.moment.peak_Nm
+        masses = [mass for mass, _ in some if mass > 0]
+        value = sum(peaks) if combine == "sum" else max(peaks)
+        sets.append((value, {"mass": sum(masses), "pieces": len(masses), "sizes": len(set(masses))}))
+    best = min(value for value, _ in sets)
+    assert found.certificate.objective == pytest.approx(best, rel=1e-9)
+    own = {
+        "mass": found.total_mass_kg,
+        "pieces": sum(one.mass_kg > 0 for one in found.counterweights),
+        "sizes": len({one.mass_kg for one in found.counterweights if one.mass_kg > 0}),
+    }
+    for minimised, known in own.items():
+        expected = []
+        for allowance in _ALLOWANCES:
+            within = [cost[minimised] for value, cost in sets if value <= best * (1.0 + allowance) * (1.0 + 1e-9)]
+            if min(within) < known:
+                known = min(within)
+                expected.append((allowance, known))
+        listed = [one for one in found.alternatives if one.minimised == minimised]
+        costs = {"mass": "total_mass_kg", "pieces": "pieces", "sizes": "sizes"}
+        assert [(one.allowance, getattr(one, costs[minimised])) for one in listed] == expected
+        for one in listed:
+            # all sets were compared: the bound is what was found
+            assert one.lower_bound == pytest.approx(getattr(one, costs[minimised]), rel=1e-9)
+            assert one.objective <= best * (1.0 + one.allowance) * (1.0 + 1e-9)
+    assert found.alternatives
+
+
+def test_the_machine_of_the_foundry() -> None:
+    """Published (parts.md 10): by hand two castings of 85.5 kg come to 42,252 N, 4.1 % above the best."""
+    cranks, centres = (0.0, 180.0, 90.0, 270.0), (-1.35, -0.45, 0.45, 1.35)
+    rows = zip(centres, cranks, (0.0, 180.0, 0.0, 180.0), (420.0, 395.0, 410.0, 388.0), strict=True)
+    body = {
+        "kind": "reciprocating",
+        "speed_rpm": 600,
+        "throws": [
+            {
+                "position_m": z, "crank_radius_m": 0.1, "crank_angle_deg": crank, "rotating_mass_kg": 60,
+                "rows": [{"axis_deg": axis, "reciprocating_mass_kg": mass}],
+            }
+            for z, crank, axis, mass in rows
+        ],
+        "webs": [
+            {
+                "name": f"{n}{side}", "position_m": z + off, "counterweight_radius_m": 0.26, "max_mass_kg": 90,
+                "sector": {"centre_deg": (crank + 180.0) % 360.0, "half_angle_deg": 60},
+            }
+            for n, (z, crank) in enumerate(zip(centres, cranks, strict=True), 1)
+            for side, off in (("a", -0.15), ("b", 0.15))
+        ],
+        "catalogue": {"mass_step_kg": 0.5, "angle_step_deg": 5},
+    }  # fmt: skip
+    found = optimized({"machine": body, "alternatives": [0.01, 0.05]})
+    assert found.status == "optimal"
+    pieces = {one.allowance: one for one in found.alternatives if one.minimised == "pieces"}
+    assert (pieces[0.05].pieces, pieces[0.05].lower_bound) == (2, 2)
+    assert pieces[0.05].total_mass_kg <= 86.0
+    assert pieces[0.05].objective == pytest.approx(42_252.0, rel=2e-3)
+    assert pieces[0.01].pieces < sum(one.mass_kg > 0 for one in found.counterweights)
+    assert next(iter(chapter(found))).title == "Cheaper choices"
+
+
+def test_what_nothing_is_cheaper_than() -> None:
+    """Analytic: without a word of allowances nothing is listed; where the best is nothing at all, nor is anything."""
+    body = small()
+    assert optimized({"machine": body}).alternatives == ()
+    assert not list(chapter(optimized({"machine": body})))
+    idle = {**body, "throws": [{**one, "rotating_mass_kg": 0, "rows": []} for one in body["throws"]]}
+    assert optimized(question(idle)).alternatives == ()
+
+
+def test_fixed_weights_count_and_are_not_chosen() -> None:
+    """Analytic: what is fixed is in the total mass, and in its bound, and is no piece."""
+    body = small()
+    body["webs"][0] = {**{k: v for k, v in body["webs"][0].items() if k != "max_mass_kg"},
+                       "fixed": {"mass_kg": 5.0, "angle_deg": 180.0}}  # fmt: skip
+    found = optimized(question(body))
+    for one in found.alternatives:
+        chosen = [each for each in one.counterweights if each.mass_kg > 0 and each.web != "a"]
+        assert one.pieces == len(chosen)
+        assert one.total_mass_kg == pytest.approx(5.0 + sum(each.mass_kg for each in chosen), rel=1e-12)
+        assert one.minimised != "mass" or one.lower_bound >= 5.0
+    assert found.alternatives
+
+
+@pytest.mark.parametrize(
+    ("more", "words"),
+    [
+        ({"alternatives": [-0.1]}, "greater than or equal to 0"),
+        ({"alternatives": [1.5]}, "less than or equal to 1"),
+        ({"machine": {"catalogue": None}}, "cheaper choices are of a catalogue"),
+        ({"tolerances": {"angle_deg": 1}}, "ask without scenarios and tolerances"),
+        ({"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}}, "ask without objective.priorities"),
+    ],
+)
+def test_refusals_name_the_field(more: dict[str, Any], words: str) -> None:
+    body = question({**small(), **more.pop("machine", {})})
+    with pytest.raises(ValueError, match=words):
+        OptimizeRequest.model_validate({**body, **more})
+
+
+def test_a_stranger_finds_what_is_false() -> None:
+    """Independent: the checker of the example client recomputes every choice."""
+    body = question(small())
+    found: OptimizeAnswer = optimized(body)
+    (first, *_) = found.alternatives
+    fields = {"objective": first.objective * 0.999, "total_mass_kg": first.total_mass_kg * 0.99}
+    fields |= {"pieces": first.pieces - 1, "sizes": first.sizes + 1, "lower_bound": first.lower_bound * 2.0}
+    fields |= {"allowance": 0.01}
+    for name, figure in fields.items():
+        false = found.model_dump(mode="json")
+        false["alternatives"][0][name] = figure
+        assert verdict(body, false) == "broken", name
