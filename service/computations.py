@@ -151,6 +151,22 @@ def _picture(name: str, what: str) -> Computation:
     )
 
 
+def _table(name: str, what: str) -> Computation:
+    """A table of the answer to an optimisation, a number in every cell."""
+    headers = (("Content-Disposition", f'attachment; filename="{name}.csv"'),)
+    return Computation(
+        name=f"table_{name}",
+        path=f"/v1/tables/{name}",
+        request="schemas.request.requests:OptimizeRequest",
+        answer=None,
+        compute=f"service.tables.tables:{name}",
+        summary=f"{what}, as CSV",
+        remark="Of the answer to an optimisation; the first line holds the headings, with units.",
+        tag="tables",
+        forms=(Form("text/csv; charset=utf-8; header=present", "service.tables.lines:as_csv", ".csv", headers),),
+    )
+
+
 def _workbook(write: Reference, name: str) -> Form:
     """Request and answer as a workbook."""
     headers = (("Content-Disposition", f'attachment; filename="{name}"'),)
@@ -320,6 +336,7 @@ COMPUTATIONS: dict[str, Computation] = {
             ),
             examples="drawings",
         ),
+        _table("foundation_loads", "Forces and couples on the foundation, order by order"),
         _picture("front", "The machine from the front, with its counterweights"),
         _picture("side", "The machine from the side, with its counterweights"),
         _picture("force", "The hodograph of the first-order force, before and after"),

@@ -4,6 +4,7 @@ from typing import Any
 
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
+from service.tables.foundation import lines
 from service.workbook.files import workbook
 from service.workbook.sheets import ANSWER, COUNTERWEIGHTS, FOUNDATION, Sheets, flat, table, written
 
@@ -17,11 +18,11 @@ def answered(request: OptimizeRequest, answer: OptimizeAnswer) -> bytes:
     """
     said = answer.model_dump(mode="json", exclude_none=True)
     fitted = said.pop("counterweights")
-    loads = said.pop(FOUNDATION, [])
+    said.pop(FOUNDATION, None)
     fields = [[name, value] for name, value in flat(said)]
     sheets: Sheets = {COUNTERWEIGHTS: table(fitted) or [["web"]]}
-    if loads:
-        sheets[FOUNDATION] = table(loads)
+    if answer.foundation_loads:
+        sheets[FOUNDATION] = lines(answer.foundation_loads)
     return workbook({**_asked(request), **sheets, ANSWER: [["field", "value"], *fields]})
 
 

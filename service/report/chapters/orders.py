@@ -6,7 +6,7 @@ from functools import partial
 from schemas.answer.first_order import ResidualOrders
 from schemas.answer.outputs import ForceOrder, MomentOrder, Order, OrdersComparison
 from service.report.blocks import Chapter, Figure, Paragraph, Table, table
-from service.report.charts import after, before, hodograph
+from service.report.charts import COUPLE_AXES, FORCE_AXES, after, before, hodograph
 
 _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
 
@@ -39,11 +39,11 @@ def order_hodographs(found: OrdersComparison) -> Iterator[Figure]:
 def _hodographs(was: Order, left: Order | None) -> Figure | None:
     """The ellipses of force and moment of one order; None where there is neither."""
     drawings = []
-    for what, unit in (("force", "N"), ("moment", "N m")):
+    for what, unit, axes in (("force", "N", FORCE_AXES), ("moment", "N m", COUPLE_AXES)):
         parts = [(before, was)] + ([] if left is None else [(partial(after, "with counterweights"), left)])
         ellipses = [make(*_ellipse(getattr(one, what), unit)) for make, one in parts]
         if any(one.major > 0.0 for one in ellipses):
-            drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses))
+            drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses, axes=axes))
     times = "once" if was.order == 1 else f"{was.order} times"
     caption = f"Order {was.order}: the tip of the vector runs along its ellipse {times} a revolution."
     return Figure(tuple(drawings), caption) if drawings else None
