@@ -336,6 +336,7 @@ COMPUTATIONS: dict[str, Computation] = {
             ),
             examples="drawings",
         ),
+        _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
         _table("foundation_loads", "Forces and couples on the foundation, order by order"),
         _picture("front", "The machine from the front, with its counterweights"),
         _picture("side", "The machine from the side, with its counterweights"),

@@ -18,6 +18,7 @@ from service.report.chapters.versions import compared
 from service.report.chapters.workshop import sheets
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
+from service.tables.as_built import as_built
 
 _STATUS = {
     "optimal": "optimal, certified",
@@ -102,9 +103,10 @@ def _file_stem(request: ReportRequest) -> str:
 
 def _chapters(request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...]) -> Iterator[Chapter]:
     # on the first page: what it comes to, and what is to be made
-    yield verdict.result(request, answer)
-    yield balance.counterweights(request, answer)
-    yield balance.layout(request, answer)
+    built = as_built(request, answer)
+    yield verdict.result(request, answer, built)
+    yield balance.counterweights(request, answer, built)
+    yield balance.layout(request, answer, built)
     yield from compared(request, answer)
     yield inputs.inputs(request, answer.reference_plane_m)
     yield balance.stages(request.machine, answer.stages, missing)
@@ -114,6 +116,6 @@ def _chapters(request: ReportRequest, answer: OptimizeAnswer, missing: tuple[Fie
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from outputs(request.machine, answer)
-    yield from sheets(request.machine, answer)
+    yield from sheets(request.machine, answer, built)
     yield reproduction.effects(answer.effects, request.outputs)
     yield reproduction.appendix(request)

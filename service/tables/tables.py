@@ -7,7 +7,7 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputName
 from schemas.request.requests import OptimizeRequest
-from service.tables import foundation
+from service.tables import as_built, foundation
 from service.tables.lines import Lines
 
 
@@ -37,4 +37,9 @@ def _foundation_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Line
     return foundation.lines(answer.foundation_loads or ())
 
 
+def _as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
+    return as_built.lines(as_built.required(request, answer))
+
+
+built = Table(("residual",), _as_built)
 foundation_loads = Table(("foundation_loads",), _foundation_loads)

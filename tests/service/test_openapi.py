@@ -20,6 +20,7 @@ OPERATIONS = {
     ("post", "/v1/match"): "match",
     ("post", "/v1/report"): "report",
     ("post", "/v1/drawings"): "drawings",
+    ("post", "/v1/tables/built"): "table_built",
     ("post", "/v1/tables/foundation_loads"): "table_foundation_loads",
     ("post", "/v1/pictures/front"): "picture_front",
     ("post", "/v1/pictures/side"): "picture_side",

@@ -22,6 +22,7 @@ from service.report.blocks import (
     number,
     table,
 )
+from service.report.chapters.built import as_fitted
 from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
 from service.report.first_order import hodographs
@@ -29,6 +30,7 @@ from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
 from service.report.stage_scheme import stage_scheme
+from service.tables.as_built import AsBuilt
 
 _FIRST_ORDER = (
     ("peak force, N", "force", "peak_N"),
@@ -78,7 +80,7 @@ def which(answer: OptimizeAnswer) -> str:
     return "best compromise" if answer.infeasibility is not None else "with counterweights"
 
 
-def layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The machine with its counterweights, drawn."""
     fitted, _ = shown(answer)
     what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
@@ -86,10 +88,11 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         "Layout",
         (
             Figure(
-                (front(request.machine, fitted),),
+                (front(request.machine, fitted, () if built is None else built.counterweights),),
                 "Front view from +z at shaft angle 0, to scale: cranks black, row axes dash-dotted, "
                 f"{what} blue with their centres of mass as dots, angles that a web allows as green arcs. Areas of "
-                "counterweights are in proportion to their masses; their real shape is a matter of design.",
+                "counterweights are in proportion to their masses; their real shape is a matter of design."
+                + ("" if built is None else " As built: dashed, orange."),
             ),
             Figure(
                 (side(request.machine, fitted, answer.reference_plane_m),),
@@ -147,7 +150,7 @@ def _rules(found: Sequence[Stage]) -> Iterator[Block]:
         yield table("Customary partial balances, for comparison", heads, rows)
 
 
-def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """One row for each web."""
     fitted, _ = shown(answer)
     blocks: list[Block] = []
@@ -160,6 +163,8 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         blocks.append(
             Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
         )
+    if built is not None:
+        blocks += as_fitted(built)
     if fitted:
         blocks += as_made(request.machine, fitted)
     return Chapter("Counterweights", (*blocks, *shafts, *(_prices(request, answer) if fitted or shafts else ())))

@@ -9,7 +9,9 @@ from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
 from service.report.chapters.balance import limits, shown, which
+from service.report.chapters.built import decision
 from service.report.formula import formula
+from service.tables.as_built import AsBuilt
 
 _CEILINGS: Mapping[CeilingField, str] = {
     "force_ceiling_N": "force",
@@ -24,13 +26,15 @@ _CEILINGS: Mapping[CeilingField, str] = {
 }
 
 
-def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The answer in plain words and a few figures."""
     was, (_, left) = answer.residual.before, shown(answer)
     if answer.infeasibility is not None:
         words: list[Block] = list(reachable(request.objective, answer.infeasibility))
     else:
         words = [_certified(request, answer)]
+    if built is not None:
+        return Chapter("Result", (*words, *decision(answer, built), *_total(answer)))
     rows = [
         ("peak force, N", was.force.peak_N, left.force.peak_N if left else None, answer.floor.force_N),
         ("peak moment, N m", was.moment.peak_Nm, left.moment.peak_Nm if left else None, answer.floor.moment_Nm),
