@@ -173,6 +173,8 @@ def _workbook(write: Reference, name: str) -> Form:
     return Form(XLSX, write, ".xlsx", headers, compressed=True, asked=True)
 
 
+#: what a browser may take from a document as it stands
+_STYLES = "img-src data:; style-src 'unsafe-inline'; "
 COMPUTATIONS: dict[str, Computation] = {
     one.name: one
     for one in (
@@ -312,7 +314,9 @@ COMPUTATIONS: dict[str, Computation] = {
             remark="The header `Accept` chooses; the eight stages are in it where the machine allows, other outputs as "
             "asked for.",
             forms=(
-                _document(".html", "text/html", "service.report.html:html", "style-src 'unsafe-inline'; "),
+                _document(
+                    ".html", "text/html", "service.report.html:html", "img-src data:; style-src 'unsafe-inline'; "
+                ),
                 _document(".pdf", "application/pdf", "service.report.pdf:pdf", compressed=True),
             ),
         ),

@@ -17,7 +17,7 @@ from service.drawings.svg import (
     Point,
     shortened,
 )
-from service.report.blocks import digits, turns_of, typeset
+from service.report.blocks import prose, turns_of, typeset
 
 #: more lines than this cannot be told apart
 MAX_LINES = len(SERIES)
@@ -148,7 +148,7 @@ def hodograph(
         drawing.line(points, one.stroke, one.width, one.dash)
         place = 42.0, width + 2 + 16 * index
         drawing.line([place, (place[0] + 22, place[1])], one.stroke, one.width, one.dash)
-        drawing.text((place[0] + 27, place[1] + 3.5), f"{one.name} {digits(one.major)} {unit}", size=10)
+        drawing.text((place[0] + 27, place[1] + 3.5), f"{one.name} {prose(one.major)} {unit}", size=10)
     return drawing
 
 

@@ -18,7 +18,7 @@ Each = TypeVar("Each", bound=tuple[float, str, object])
 #: more names than this cannot be read
 _MAX_LABELS = 24
 _ALLOWED = SERIES[2]
-_FRONT = 350.0
+_FRONT = 320.0
 #: half the opening of the largest counterweight as it is drawn; areas are in proportion to the masses
 _WIDEST_DEG = 55.0
 _THICKNESS = 0.34

@@ -6,6 +6,8 @@ markup. What a document holds it holds in memory; nothing is read from disk but 
 
 import json
 import re
+import struct
+from base64 import b64encode
 from dataclasses import asdict
 from datetime import datetime
 from functools import cache
@@ -36,7 +38,9 @@ def pdf(document: Document) -> bytes:
     content = {
         "title": _broken(document.title, _LONG_WORD),
         "subject": document.subject,
-        "date": document.date,
+        "day": document.day,
+        "logo": document.logo is not None,
+        "revisions": None if document.revisions is None else _table(document.revisions),
         "attachment": document.attachment.name,
         "head": _table(document.head),
         "notes": [_broken(note, _LONG_WORD) for note in document.notes],
@@ -50,6 +54,7 @@ def pdf(document: Document) -> bytes:
         "main": _template(),
         "document.json": json.dumps(_fit(content)).encode(),
         document.attachment.name: document.attachment.content.encode(),
+        **({} if document.logo is None else {"logo.svg": _logo(document.logo)}),
         **drawings,
     }
     made: bytes = typst.compile(
@@ -88,6 +93,17 @@ def _block(block: Block, drawings: dict[str, bytes]) -> dict[str, Any]:
     if isinstance(block, Paragraph):
         return {"kind": kind, "tone": block.tone, "text": _broken(block.text, _LONG_WORD)}
     return {"kind": kind, **asdict(block)}
+
+
+def _logo(image: bytes) -> bytes:
+    """The PNG file within an SVG file: what typst holds in memory is text."""
+    width, height = struct.unpack(">II", image[16:24])
+    size = f'width="{width}" height="{height}"'
+    data = b64encode(image).decode()
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {width} {height}">'
+        f'<image {size} href="data:image/png;base64,{data}"/></svg>'
+    ).encode()
 
 
 def _table(block: Table) -> dict[str, Any]:

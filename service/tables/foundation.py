@@ -8,8 +8,8 @@ from service.tables.lines import Cell, Lines
 #: loads in the words of API 618, which has x level and y upright
 FORCES = {"force_x": "force along x", "force_y": "force along y"}
 COUPLES = {
-    "couple_of_x_forces": "horizontal couple, of the x forces",
-    "couple_of_y_forces": "vertical couple, of the y forces",
+    "couple_of_x_forces": "horizontal couple",
+    "couple_of_y_forces": "vertical couple",
 }
 _LOADS = {**FORCES, **COUPLES}
 _KILO = 1e3

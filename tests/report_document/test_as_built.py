@@ -53,7 +53,7 @@ def test_the_report_tells_what_the_mechanics_find_of_what_is_fitted() -> None:
     values = [cell.value for cell in decision.rows[0] if isinstance(cell, Number)]
     optimum, built = best.residual.after.force.peak_N, alone.residual.after.force.peak_N
     assert values[1:4] == [optimum, built, built - optimum]
-    assert found["As built"].rows[3][0] == "2b"
+    assert found["Optimum and as built"].rows[3][0] == "2b"
     words = " ".join(block.text for block in made.chapters[0].blocks if isinstance(block, Paragraph))
     assert "nothing is certified of it" in words
 

@@ -54,6 +54,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
+    yield from balance.prices(request, answer)
     if answer.stages is not None:
         yield balance.stages(request.machine, answer.stages, ())
     yield from outputs(request.machine, answer)

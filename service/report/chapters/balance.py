@@ -20,6 +20,7 @@ from service.report.blocks import (
     Table,
     facts,
     number,
+    settled,
     table,
 )
 from service.report.chapters.built import as_fitted
@@ -64,6 +65,10 @@ _LIMITS = {
     "specific_load_ceiling": "ceiling of the specific bearing loads",
     "bending_ceiling": "ceiling of the bending moments",
 }
+_SOURCES = (
+    "Sources: Qian and Qu (2017), inertia force and torque equilibrium of piston compressors; Balancing "
+    "(Уравновешивание), lecture slides on compressors, which name neither author nor year."
+)
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
@@ -87,6 +92,7 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
     return Chapter(
         "Layout",
         (
+            *(() if built is None else as_made(request.machine, fitted)),
             Figure(
                 (front(request.machine, fitted, () if built is None else built.counterweights),),
                 "Front view from +z at shaft angle 0, to scale: cranks black, row axes dash-dotted, "
@@ -97,8 +103,9 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
             Figure(
                 (side(request.machine, fitted, answer.reference_plane_m),),
                 "Side view along the shaft, heights along the direction of the first crank, width of a counterweight "
-                "after its mass; the reference plane of the moments green and dash-dotted. The scales along and "
-                "across the shaft differ.",
+                "after its mass; the reference plane of the moments green and dash-dotted. Below: places z and "
+                "distances of the webs in mm; R is the radius of a centre of mass. Along and across the shaft the "
+                "scales differ.",
             ),
         ),
     )
@@ -131,7 +138,7 @@ def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[Fi
         "dash-dotted, forces orange and dashed without counterweights, blue what they leave. What turns is a circle "
         "with an arrow, what keeps its direction a line; of a moment the line is the trace of its plane.",
     )
-    return Chapter(title, (drawn, values, where, formulas, *_rules(found)))
+    return Chapter(title, (drawn, values, where, formulas, *_rules(found), Paragraph(_SOURCES)))
 
 
 def _rules(found: Sequence[Stage]) -> Iterator[Block]:
@@ -165,9 +172,16 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBu
         )
     if built is not None:
         blocks += as_fitted(built)
-    if fitted:
+    elif fitted:
         blocks += as_made(request.machine, fitted)
-    return Chapter("Counterweights", (*blocks, *shafts, *(_prices(request, answer) if fitted or shafts else ())))
+    return Chapter("Counterweights", (*blocks, *shafts))
+
+
+def prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
+    """What the limits cost, where there are counterweights."""
+    blocks = tuple(_prices(request, answer))
+    if blocks and (shown(answer)[0] or answer.balance_shafts):
+        yield Chapter("Prices of the limits", blocks)
 
 
 def _balance_shafts(answer: OptimizeAnswer) -> Iterator[Block]:
@@ -192,16 +206,16 @@ def places(fitted: Sequence[Counterweight]) -> Table:
     return table(
             "",
             [
-                "web", "#mass, kg", "#angle, deg", "#from its crank, deg", "#mass times radius, kg m", "#x, kg m",
-                "#y, kg m", "limits reached",
+                "web", "#mass, kg", "#angle, deg", "#from its crank, deg", "#plane z, m", "#radius, m",
+                "#mass times radius, kg m", "limits reached",
             ],
             [
                 (
                     one.web,
                     *(
                         (
-                            one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.mass_radius_kg_m, one.x_kg_m,
-                            one.y_kg_m,
+                            one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.position_m, one.radius_m,
+                            one.mass_radius_kg_m,
                         )
                         if one.mass_kg > 0
                         else ("none", *5 * (None,))
@@ -271,12 +285,13 @@ def first_order(
     label : what these are.
     beside : the second order.
     """
+    scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
     rows = [
         (
             title,
-            getattr(getattr(was, vector), name),
-            getattr(getattr(left, vector), name) if left else None,
+            settled(getattr(getattr(was, vector), name), scales[vector]),
+            settled(getattr(getattr(left, vector), name), scales[vector]) if left else None,
             number(floors[name]) if name in floors else "",
         )
         for title, vector, name in _FIRST_ORDER

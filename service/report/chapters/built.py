@@ -1,10 +1,11 @@
 """What is built beside the optimum: what it leaves, web by web, and the tolerance that the optimum bears."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from schemas.answer.answers import OptimizeAnswer
-from service.report.blocks import Block, Paragraph, digits, table
-from service.tables.as_built import ALLOWANCE, HEADS, RESIDUAL_HEADS, AsBuilt, Tolerance, line, residual
+from service.report.blocks import Block, Number, Paragraph, prose, table
+from service.tables.as_built import ALLOWANCE, HEADS, RESIDUAL_HEADS, AsBuilt, Pair, Tolerance, line, residual
+from service.tables.lines import Cell
 
 
 def decision(answer: OptimizeAnswer, built: AsBuilt) -> Iterator[Block]:
@@ -20,16 +21,30 @@ def decision(answer: OptimizeAnswer, built: AsBuilt) -> Iterator[Block]:
 
 def as_fitted(built: AsBuilt) -> Iterator[Block]:
     """Optimum, as built and difference of each web."""
-    heads = [HEADS[0], *(f"#{head.replace('+-', '±')}" for head in HEADS[1:])]
-    yield table("As built", heads, [line(one, built.tolerance) for one in built.pairs])
+    heads = ["web", "#plane z, m", "#radius, m"]
+    for unit in ("kg", "deg"):
+        heads += [f"#optimum, {unit}", "#as built", "#difference", "#tolerance"]
+    rows = [tuple(_cells(one, line(one, built.tolerance))) for one in built.pairs]
+    yield table("Optimum and as built", heads, rows)
     yield Paragraph(_words(built.tolerance))
+
+
+def _cells(one: Pair, cells: Sequence[Cell]) -> Iterator[str | Number | float | None]:
+    """Under the headings of the table; a tolerance to two digits, as nobody measures more."""
+    place = one.built or one.optimum
+    yield one.web
+    yield from (None, None) if place is None else (place.position_m, place.radius_m)
+    for head, cell in zip(HEADS[1:], cells[1:], strict=True):
+        value = cell if isinstance(cell, float) else None
+        rough = value is not None and head.startswith("tolerance")
+        yield Number(value, f"±{value:.2g}") if rough and value is not None else value
 
 
 def _words(bears: Tolerance) -> str:
     if bears.share is None or bears.angle_deg is None:
         return "No tolerance is known: there is no sensitivity of this answer."
     return (
-        f"Tolerance: with all masses off together by ±{digits(round(100 * bears.share, 3))} % or all angles by "
-        f"±{digits(round(bears.angle_deg, 3))} deg, the objective rises by {100 * ALLOWANCE:g} % of that without "
+        f"Tolerance: with all masses off together by ±{prose(round(100 * bears.share, 3))} % or all angles by "
+        f"±{prose(round(bears.angle_deg, 3))} deg, the objective rises by {100 * ALLOWANCE:g} % of that without "
         "counterweights at most. Above one per cent and one degree nothing is known."
     )

@@ -3,12 +3,17 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.foundation import OrderOfFoundation
-from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, digits, table
-from service.tables.foundation import COUPLES, FORCES, oscillation, sets
+from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, prose, table
+from service.tables.foundation import oscillation, sets
 
 #: a load below this share of the largest of its kind is told in a sentence, not in a line
 _SMALL = 1e-3
 _KILO = 1e3
+_FORCES = {"force_x": "along x", "force_y": "along y"}
+#: as API 618 names them
+_COUPLES = {"couple_of_x_forces": "horizontal", "couple_of_y_forces": "vertical"}
+#: of a heading, as a column has room for it
+_SHORT = {"without counterweights": "before", "with counterweights": "after"}
 
 Row = tuple[int, str, tuple[tuple[float, float] | None, ...]]
 
@@ -18,11 +23,11 @@ def foundation_loads(found: Sequence[OrderOfFoundation]) -> Chapter:
     words = (
         "The load is A cos(k psi - phase): k the order, psi the angle of the shaft in its sense of rotation since the "
         f"outer dead centre of throw 1, first row (shaft angle {found[0].dead_centre_deg:g} deg). Forces act on the "
-        "frame. Couples are sums of force times distance from the reference plane. That of the x forces turns about y; "
-        "API 618 names it horizontal, with x level and y upright."
+        "frame. Couples are sums of force times distance from the reference plane. As in API 618 that of the x forces "
+        "is the horizontal couple, which turns about y, and that of the y forces the vertical one, which turns about x."
     )
-    forces, couples = _tables(found, FORCES, "Forces", "N"), _tables(found, COUPLES, "Couples", "N m")
-    return Chapter("Loads on the foundation", (Paragraph(words), *forces, *couples))
+    forces, couples = _tables(found, _FORCES, "Forces", "N"), _tables(found, _COUPLES, "Couples", "N m")
+    return Chapter("Loads on the foundation", (*forces, *couples, Paragraph(words)))
 
 
 def _tables(found: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: str, unit: str) -> Iterator[Block]:
@@ -49,13 +54,13 @@ def _largest(row: Row) -> float:
 def _left_out(kind: str, unit: str, rest: Sequence[Row], some: bool) -> str:
     most = max(map(_largest, rest))
     what = f"{kind} of the orders asked for" if not some else f"{kind} that are not listed"
-    return f"{what} are 0." if most == 0.0 else f"{what} are at most {digits(most)} {unit}."
+    return f"{what} are 0." if most == 0.0 else f"{what} are at most {prose(most)} {unit}."
 
 
 def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row]) -> Table:
-    heads = ["order", "load"]
+    heads = ["order", kind.lower().removesuffix("s")]
     for words in headings:
-        heads += [f"#{words}, {unit}", f"#k{unit}", "#phase, deg"]
+        heads += [f"#{_SHORT.get(words, words)}, {unit}", f"#k{unit}", "#phase, deg"]
     return table(kind, heads, [(str(order), words, *_cells(parts)) for order, words, parts in rows])
 
 

@@ -8,6 +8,8 @@ from schemas.answer.outputs import ForceOrder, MomentOrder, Order, OrdersCompari
 from service.report.blocks import Chapter, Figure, Paragraph, Table, table
 from service.report.charts import COUPLE_AXES, FORCE_AXES, after, before, hodograph
 
+#: an order whose force and moment are below this share of the largest is not drawn
+_SMALL = 1e-3
 _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
 
 
@@ -28,12 +30,19 @@ def orders(found: OrdersComparison) -> Chapter:
 
 
 def order_hodographs(found: OrdersComparison) -> Iterator[Figure]:
-    """The ellipses of every order that has any."""
+    """The ellipses of every order that has any worth a drawing."""
     left = {one.order: one for one in found.after or ()}
+    largest = {what: max((_peak(one, what) for one in found.before), default=0.0) for what in ("force", "moment")}
     for one in found.before:
+        if all(_peak(one, what) <= _SMALL * most for what, most in largest.items()):
+            continue
         drawn = _hodographs(one, left.get(one.order))
         if drawn is not None:
             yield drawn
+
+
+def _peak(one: Order, what: str) -> float:
+    return one.force.peak_N if what == "force" else one.moment.peak_Nm
 
 
 def _hodographs(was: Order, left: Order | None) -> Figure | None:
