@@ -246,6 +246,11 @@ COMPUTATIONS: dict[str, Computation] = {
             help="Say what the anti-rotation pins of a scroll carry over a revolution.",
             chapters="service.report.chapters.pins:loaded",
             tag="scroll",
+            forms=(
+                JSON,
+                Form("text/csv", "service.tables.pins:pins_csv", ".csv"),
+                Form("image/svg+xml", "service.report.pictures:pins_svg", ".svg"),
+            ),
             examples="pin-loads",
         ),
         Computation(
@@ -342,6 +347,8 @@ COMPUTATIONS: dict[str, Computation] = {
         ),
         _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
         _table("foundation_loads", "Forces and couples on the foundation, order by order"),
+        _table("pin_loads", "Load of every anti-rotation pin of a scroll over a revolution"),
+        _picture("pin_loads", "The load of every anti-rotation pin of a scroll over a revolution"),
         _picture("front", "The machine from the front, with its counterweights"),
         _picture("side", "The machine from the side, with its counterweights"),
         _picture("force", "The hodograph of the first-order force, before and after"),

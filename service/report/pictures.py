@@ -10,10 +10,12 @@ from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputName
 from schemas.base.model import FieldProblem
 from schemas.request.requests import OptimizeRequest
+from schemas.scroll.pin_loads import PinLoads
 from service.drawings.svg import Drawing, beside
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
+from service.report.chapters.pins import pin_figure
 from service.report.first_order import hodographs
 from service.report.front import front as drawn_front
 from service.report.indicator import indicators
@@ -84,6 +86,12 @@ def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     return beside("hodographs of force and moment, order by order", drawn)
 
 
+def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    if answer.pin_loads is None:
+        raise OutOfRange([FieldProblem(("machine",), "there are no pins: only a scroll has them")])
+    return pin_figure(answer.pin_loads).drawings[0]
+
+
 front = Picture(("residual",), _front)
 side = Picture(("residual",), _side)
 force = Picture(("residual",), partial(_hodograph, 0))
@@ -92,6 +100,12 @@ bearings = Picture(("main_bearings",), _bearings)
 indicator = Picture(("gas",), _indicator)
 stages = Picture(("stages",), _stages)
 orders = Picture(("orders",), _orders)
+pin_loads = Picture(("pin_loads",), _pin_loads)
+
+
+def pins_svg(found: PinLoads) -> bytes:
+    """The loads of the pins over a revolution, in UTF-8."""
+    return svg(pin_figure(found).drawings[0])
 
 
 def svg(drawing: Drawing) -> bytes:

@@ -3,11 +3,13 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputName
+from schemas.base.model import FieldProblem
 from schemas.request.requests import OptimizeRequest
-from service.tables import as_built, foundation
+from service.tables import as_built, foundation, pins
 from service.tables.lines import Lines
 
 
@@ -41,5 +43,12 @@ def _as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
     return as_built.lines(as_built.required(request, answer))
 
 
+def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Lines:
+    if answer.pin_loads is None:
+        raise OutOfRange([FieldProblem(("machine",), "there are no pins: only a scroll has them")])
+    return pins.lines(answer.pin_loads)
+
+
 built = Table(("residual",), _as_built)
 foundation_loads = Table(("foundation_loads",), _foundation_loads)
+pin_loads = Table(("pin_loads",), _pin_loads)

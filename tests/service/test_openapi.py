@@ -20,6 +20,8 @@ OPERATIONS = {
     ("post", "/v1/match"): "match",
     ("post", "/v1/report"): "report",
     ("post", "/v1/drawings"): "drawings",
+    ("post", "/v1/tables/pin_loads"): "table_pin_loads",
+    ("post", "/v1/pictures/pin_loads"): "picture_pin_loads",
     ("post", "/v1/tables/built"): "table_built",
     ("post", "/v1/tables/foundation_loads"): "table_foundation_loads",
     ("post", "/v1/pictures/front"): "picture_front",

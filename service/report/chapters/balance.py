@@ -120,7 +120,17 @@ def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[Fi
     values = table(
         "Values without counterweights, and what the counterweights leave",
         ["stage", "<subject", "#value", "#remaining", "unit", "can be balanced"],
-        [(one.stage, one.title, one.value, one.remaining, one.unit, _VERDICT[one.balanceable]) for one in found],
+        [
+            (
+                one.stage,
+                one.title,
+                one.value,
+                settled(one.remaining, one.value or 0.0),
+                one.unit,
+                _VERDICT[one.balanceable],
+            )
+            for one in found
+        ],
     )
     where = table(
         "Direction and frequency",

@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 
 from schemas.answer.foundation import OrderOfFoundation
-from service.report.blocks import Block, Cell, Chapter, Paragraph, Table, prose, table
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, prose, settled, table
 from service.tables.foundation import oscillation, sets
 
 #: a load below this share of the largest of its kind is told in a sentence, not in a line
@@ -41,7 +41,7 @@ def _tables(found: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: 
     largest = max(map(_largest, rows))
     listed = [row for row in rows if _largest(row) > _SMALL * largest]
     if listed:
-        yield _table(kind, unit, list(shown.values()), listed)
+        yield _table(kind, unit, list(shown.values()), listed, largest)
     rest = [row for row in rows if row not in listed]
     if rest:
         yield Paragraph(_left_out(kind, unit, rest, bool(listed)))
@@ -57,13 +57,19 @@ def _left_out(kind: str, unit: str, rest: Sequence[Row], some: bool) -> str:
     return f"{what} are 0." if most == 0.0 else f"{what} are at most {prose(most)} {unit}."
 
 
-def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row]) -> Table:
+def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row], scale: float) -> Table:
     heads = ["order", kind.lower().removesuffix("s")]
     for words in headings:
         heads += [f"#{_SHORT.get(words, words)}, {unit}", f"#k{unit}", "#phase, deg"]
-    return table(kind, heads, [(str(order), words, *_cells(parts)) for order, words, parts in rows])
+    return table(kind, heads, [(str(order), words, *_cells(parts, scale)) for order, words, parts in rows])
 
 
-def _cells(parts: Sequence[tuple[float, float] | None]) -> Iterator[Cell | float | None]:
+def _cells(parts: Sequence[tuple[float, float] | None], scale: float) -> Iterator[Cell | float | None]:
+    """Amplitude in both units and phase; what rounding leaves beside the scale is 0, and its phase is none."""
     for one in parts:
-        yield from (None, None, None) if one is None else (one[0], one[0] / _KILO, one[1])
+        if one is None:
+            yield from (None, None, None)
+            continue
+        amplitude = settled(one[0], scale)
+        still = isinstance(amplitude, Number) and amplitude.text == "0"
+        yield from (amplitude, settled(one[0] / _KILO, scale / _KILO), None if still else one[1])

@@ -7,7 +7,7 @@ from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import CeilingField
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
-from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, table
+from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
 from service.report.chapters.balance import limits, shown, which
 from service.report.chapters.built import decision
 from service.report.formula import formula
@@ -35,9 +35,11 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
         words = [_certified(request, answer)]
     if built is not None:
         return Chapter("Result", (*words, *decision(answer, built)))
+    force, moment = was.force.peak_N, was.moment.peak_Nm
+    left_force, left_moment = (left.force.peak_N, left.moment.peak_Nm) if left else (None, None)
     rows = [
-        ("peak force, N", was.force.peak_N, left.force.peak_N if left else None, answer.floor.force_N),
-        ("peak moment, N m", was.moment.peak_Nm, left.moment.peak_Nm if left else None, answer.floor.moment_Nm),
+        ("peak force, N", force, settled(left_force, force), settled(answer.floor.force_N, force)),
+        ("peak moment, N m", moment, settled(left_moment, moment), settled(answer.floor.moment_Nm, moment)),
     ]
     heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
     figures = table("First-order peaks over a revolution", heads, rows)
