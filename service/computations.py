@@ -140,14 +140,18 @@ def _picture(name: str, what: str) -> Computation:
     return Computation(
         name=f"picture_{name}",
         path=f"/v1/pictures/{name}",
-        request="schemas.request.requests:OptimizeRequest",
+        request="schemas.request.picture:PictureRequest",
         answer=None,
         compute=f"service.report.pictures:{name}",
-        summary=f"{what}, as SVG",
-        remark="With the counterweights that are found to be best, or those of the best compromise where none keep the "
+        summary=f"{what}, as SVG or PNG",
+        remark="The header `Accept` chooses; `picture` says size, ground and title. "
+        "With the counterweights that are found to be best, or those of the best compromise where none keep the "
         "ceilings.",
         tag="pictures",
-        forms=(Form("image/svg+xml", "service.report.pictures:svg", ".svg"),),
+        forms=(
+            Form("image/svg+xml", "service.report.pictures:svg", ".svg"),
+            Form("image/png", "service.report.pdf:png", ".png", compressed=True),
+        ),
     )
 
 

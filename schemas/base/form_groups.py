@@ -98,6 +98,7 @@ GROUPS: dict[str, Groups] = {
         "Document": ("number", "revision", "date", "drawing", "revisions", "notes"),
         "People": ("author", "checker", "approver"),
     },
+    "PictureRequest": {"Picture": ("picture",)},
     "ReportRequest": {"Document": ("document", "versions")},
     "ParetoRequest": {"Machine": ("machine",), "Fronts": (
         "points", "total_mass_budgets_kg", "responses", "counts", "multipliers",

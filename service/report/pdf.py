@@ -15,6 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from service.common.plain import plain
+from service.drawings.svg import Drawing
 from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table, typeset
 
 #: comes with the library, so that documents look the same everywhere; other scripts use fonts of the system
@@ -60,6 +61,18 @@ def pdf(document: Document) -> bytes:
     made: bytes = typst.compile(
         sources, font_paths=_fonts(), timestamp=datetime.fromisoformat(document.date), format="pdf"
     )
+    return made
+
+
+def png(drawing: Drawing) -> bytes:
+    """A drawing in pixels, as many as its width says; what it leaves free is transparent."""
+    import typst
+
+    width, height = drawing.width * drawing.scale, drawing.height * drawing.scale
+    page = f"#set page(width: {width:.2f}pt, height: {height:.2f}pt, margin: 0pt, fill: none)\n"
+    sources = {"main": f'{page}#image("drawing.svg", width: 100%)'.encode(), "drawing.svg": drawing.svg(_FONT).encode()}
+    # a pixel is a point
+    made: bytes = typst.compile(sources, font_paths=_fonts(), format="png", ppi=72.0)
     return made
 
 

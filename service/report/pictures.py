@@ -9,9 +9,10 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputName
 from schemas.base.model import FieldProblem
+from schemas.request.picture import PictureRequest, PictureStyle
 from schemas.request.requests import OptimizeRequest
 from schemas.scroll.pin_loads import PinLoads
-from service.drawings.svg import Drawing, beside
+from service.drawings.svg import Drawing, beside, shortened
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
@@ -24,6 +25,8 @@ from service.report.stage_scheme import stage_scheme
 
 #: what a picture without a page around it is written in
 _FONT = "sans-serif"
+#: room for a title, and of a letter of it [px]
+_TITLE, _LETTER = 28.0, 8.0
 
 
 @dataclass(frozen=True)
@@ -45,7 +48,25 @@ class Picture:
     draw: Callable[[OptimizeRequest, OptimizeAnswer], Drawing]
 
     def __call__(self, request: OptimizeRequest) -> Drawing:
-        return self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        drawing = self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        return styled(drawing, request.picture) if isinstance(request, PictureRequest) else drawing
+
+
+def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
+    """The drawing in the size that is asked for, on a ground, under a title."""
+    if style == PictureStyle():
+        return drawing
+    above = 0.0 if style.title is None else _TITLE
+    made = Drawing(drawing.width, drawing.height + above, drawing.label)
+    if style.width_px is not None:
+        made.scale = style.width_px / drawing.width
+    if not style.transparent:
+        made.area([(0, 0), (made.width, 0), (made.width, made.height), (0, made.height)], "white")
+    if style.title is not None:
+        most = int(drawing.width / _LETTER)
+        made.text((0.5 * made.width, 18.0), shortened(style.title, most), "middle", 14.0)
+    made.inset(drawing, (0.0, above))
+    return made
 
 
 def _front(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
