@@ -140,14 +140,34 @@ def _picture(name: str, what: str) -> Computation:
     return Computation(
         name=f"picture_{name}",
         path=f"/v1/pictures/{name}",
-        request="schemas.request.requests:OptimizeRequest",
+        request="schemas.request.picture:PictureRequest",
         answer=None,
         compute=f"service.report.pictures:{name}",
-        summary=f"{what}, as SVG",
-        remark="With the counterweights that are found to be best, or those of the best compromise where none keep the "
+        summary=f"{what}, as SVG or PNG",
+        remark="The header `Accept` chooses; `picture` says size, ground and title. "
+        "With the counterweights that are found to be best, or those of the best compromise where none keep the "
         "ceilings.",
         tag="pictures",
-        forms=(Form("image/svg+xml", "service.report.pictures:svg", ".svg"),),
+        forms=(
+            Form("image/svg+xml", "service.report.pictures:svg", ".svg"),
+            Form("image/png", "service.report.pdf:png", ".png", compressed=True),
+        ),
+    )
+
+
+def _table(name: str, what: str) -> Computation:
+    """A table of the answer to an optimisation, a number in every cell."""
+    headers = (("Content-Disposition", f'attachment; filename="{name}.csv"'),)
+    return Computation(
+        name=f"table_{name}",
+        path=f"/v1/tables/{name}",
+        request="schemas.request.requests:OptimizeRequest",
+        answer=None,
+        compute=f"service.tables.tables:{name}",
+        summary=f"{what}, as CSV",
+        remark="Of the answer to an optimisation; the first line holds the headings, with units.",
+        tag="tables",
+        forms=(Form("text/csv; charset=utf-8; header=present", "service.tables.lines:as_csv", ".csv", headers),),
     )
 
 
@@ -157,6 +177,8 @@ def _workbook(write: Reference, name: str) -> Form:
     return Form(XLSX, write, ".xlsx", headers, compressed=True, asked=True)
 
 
+#: what a browser may take from a document as it stands
+_STYLES = "img-src data:; style-src 'unsafe-inline'; "
 COMPUTATIONS: dict[str, Computation] = {
     one.name: one
     for one in (
@@ -228,6 +250,11 @@ COMPUTATIONS: dict[str, Computation] = {
             help="Say what the anti-rotation pins of a scroll carry over a revolution.",
             chapters="service.report.chapters.pins:loaded",
             tag="scroll",
+            forms=(
+                JSON,
+                Form("text/csv", "service.tables.pins:pins_csv", ".csv"),
+                Form("image/svg+xml", "service.report.pictures:pins_svg", ".svg"),
+            ),
             examples="pin-loads",
         ),
         Computation(
@@ -296,7 +323,9 @@ COMPUTATIONS: dict[str, Computation] = {
             remark="The header `Accept` chooses; the eight stages are in it where the machine allows, other outputs as "
             "asked for.",
             forms=(
-                _document(".html", "text/html", "service.report.html:html", "style-src 'unsafe-inline'; "),
+                _document(
+                    ".html", "text/html", "service.report.html:html", "img-src data:; style-src 'unsafe-inline'; "
+                ),
                 _document(".pdf", "application/pdf", "service.report.pdf:pdf", compressed=True),
             ),
         ),
@@ -320,6 +349,10 @@ COMPUTATIONS: dict[str, Computation] = {
             ),
             examples="drawings",
         ),
+        _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
+        _table("foundation_loads", "Forces and couples on the foundation, order by order"),
+        _table("pin_loads", "Load of every anti-rotation pin of a scroll over a revolution"),
+        _picture("pin_loads", "The load of every anti-rotation pin of a scroll over a revolution"),
         _picture("front", "The machine from the front, with its counterweights"),
         _picture("side", "The machine from the side, with its counterweights"),
         _picture("force", "The hodograph of the first-order force, before and after"),

@@ -24,6 +24,8 @@ from schemas.base.target import pointer
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.request.requests import OptimizeRequest
 
+#: couples as API 618 names them
+_COUPLES = ("horizontal couple (of the x forces)", "vertical couple (of the y forces)")
 #: a share of what the machine shakes with that is worth a word
 _NOTABLE = 1e-3
 #: a throw whose webs balance less than this share of its rotating mass is bare
@@ -161,17 +163,17 @@ def _component_grows(told: Told) -> Iterator[Caution]:
     if residual is None or residual.after is None:
         return
     was, now, sizes = residual.before, residual.after, told.sizes
-    for what, unit, size, pairs in (
-        ("force", "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
+    for names, unit, size, pairs in (
+        (("force along x", "force along y"), "N", sizes[0], {"x": (was.force.peak_x_N, now.force.peak_x_N),
                                           "y": (was.force.peak_y_N, now.force.peak_y_N)}),
-        ("moment", "N m", sizes[1], {"x": (was.moment.peak_x_Nm, now.moment.peak_x_Nm),
+        (_COUPLES, "N m", sizes[1], {"x": (was.moment.peak_x_Nm, now.moment.peak_x_Nm),
                                                "y": (was.moment.peak_y_Nm, now.moment.peak_y_Nm)}),
     ):  # fmt: skip
-        for axis, (before, after) in pairs.items():
+        for what, (axis, (before, after)) in zip(names, pairs.items(), strict=True):
             if after > before + _NOTABLE * size:
                 yield Caution(
                     code="component_grows",
-                    message=f"The {what} along {axis} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
+                    message=f"The {what} grows from {_plain(before)} to {_plain(after)} {unit}: weigh "
                     "that direction more if it matters.",
                     pointer=f"/objective/direction_weights/{axis}",
                 )

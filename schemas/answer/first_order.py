@@ -33,8 +33,8 @@ class MomentEllipse(Model):
     )
     minor_Nm: NewtonMetres = Field(description="smallest moment over a revolution, the minor semi-axis", examples=[0.0])
     major_axis_deg: Degrees = Field(description="direction of the major axis, 0 to 180", examples=[0.0])
-    peak_x_Nm: NewtonMetres = Field(description="largest x component over a revolution", examples=[19494.0])
-    peak_y_Nm: NewtonMetres = Field(description="largest y component over a revolution", examples=[0.0])
+    peak_x_Nm: NewtonMetres = Field(description="peak of the horizontal couple, of the x forces", examples=[19494.0])
+    peak_y_Nm: NewtonMetres = Field(description="peak of the vertical couple, of the y forces", examples=[0.0])
     co_rotating_Nm: NewtonMetres = Field(
         description="magnitude of the phasor that turns with the shaft", examples=[9747.0]
     )

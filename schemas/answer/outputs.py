@@ -29,8 +29,10 @@ class Hodograph(Model):
 
     force_x_N: tuple[Newtons, ...] = Field(description="x component of the force", examples=[[9994.7]])
     force_y_N: tuple[Newtons, ...] = Field(description="y component of the force", examples=[[0.0]])
-    moment_x_Nm: tuple[NewtonMetres, ...] = Field(description="x component of the couple", examples=[[38989.0]])
-    moment_y_Nm: tuple[NewtonMetres, ...] = Field(description="y component of the couple", examples=[[0.0]])
+    moment_x_Nm: tuple[NewtonMetres, ...] = Field(
+        description="horizontal couple, of the x forces", examples=[[38989.0]]
+    )
+    moment_y_Nm: tuple[NewtonMetres, ...] = Field(description="vertical couple, of the y forces", examples=[[0.0]])
 
 
 class Hodographs(Model):

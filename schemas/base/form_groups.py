@@ -93,6 +93,12 @@ GROUPS: dict[str, Groups] = {
     "OptimizeRequest": {"Machine": ("machine",), **_OPTIMIZE, "Answer": _SCENE["Answer"]},
     "DrawingsRequest": {"Machine": ("machine", "counterweights"), **_OPTIMIZE, "Answer": _SCENE["Answer"]},
     "AccuracyRequest": {"Machine": ("machine",), "Timing": ("repeats",)},
+    "DocumentHead": {
+        "Office": ("company", "customer", "project", "logo"),
+        "Document": ("number", "revision", "date", "drawing", "revisions", "notes"),
+        "People": ("author", "checker", "approver"),
+    },
+    "PictureRequest": {"Picture": ("picture",)},
     "ReportRequest": {"Document": ("document", "versions")},
     "ParetoRequest": {"Machine": ("machine",), "Fronts": (
         "points", "total_mass_budgets_kg", "responses", "counts", "multipliers",

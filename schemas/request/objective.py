@@ -86,11 +86,13 @@ class Objective(Ruled):
     )
     moment_ceiling_x_Nm: Annotated[Moment | None, Unit("N m")] = Field(
         None,
-        description="hard limit on the peak of the moment along x, the couple of the forces along x, likewise",
+        description="hard limit on the peak of the horizontal couple, of the x forces, likewise",
         examples=[15000.0],
     )
     moment_ceiling_y_Nm: Annotated[Moment | None, Unit("N m")] = Field(
-        None, description="hard limit on the peak of the moment along y, likewise", examples=[9000.0]
+        None,
+        description="hard limit on the peak of the vertical couple, of the y forces, likewise",
+        examples=[9000.0],
     )
     orders: Literal["first", "all"] = Field(
         "first",

@@ -1,10 +1,13 @@
 """What a report is asked for: the optimisation, what its head says, and the versions that it compares."""
 
 from collections.abc import Iterator
+from datetime import date
 from typing import Annotated
 
-from pydantic import Field, StringConstraints
+from pydantic import AfterValidator, Field, StringConstraints
+from pydantic_core import PydanticCustomError
 
+from schemas.base.images import png_url
 from schemas.base.model import Model
 from schemas.base.quantities import Name
 from schemas.base.rules import Rule
@@ -15,20 +18,58 @@ from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 
 MAX_VERSIONS = 4
+MAX_REVISIONS = 20
+
+
+def day(text: str) -> str:
+    """A day that there is."""
+    try:
+        date.fromisoformat(text)
+    except ValueError:
+        raise PydanticCustomError("day", "no day of the calendar") from None
+    return text
+
 
 Line = Annotated[str, StringConstraints(min_length=1, max_length=120, pattern=r"^[^\x00-\x1f\x7f]+$")]
+Day = Annotated[str, StringConstraints(pattern=r"^[0-9]{4}-[0-9]{2}-[0-9]{2}$"), AfterValidator(day)]
+Logo = Annotated[str, StringConstraints(max_length=300_000), AfterValidator(png_url)]
 Notes = Annotated[str, StringConstraints(min_length=1, max_length=4000)]
+
+
+class Revision(Model):
+    """A line of the table of revisions."""
+
+    revision: Line = Field(description="its letter or number", examples=["B"])
+    date: Day | None = Field(None, description="its day, ISO 8601", examples=["2026-11-23"])
+    change: Line | None = Field(None, description="what is changed", examples=["counterweights as cast"])
+    author: Line | None = Field(None, description="who made it", examples=["M. Weber"])
 
 
 class DocumentHead(Model):
     """What a design office writes on its documents."""
 
+    company: Line | None = Field(None, description="company that issues it", examples=["Weber Compressors"])
+    customer: Line | None = Field(None, description="whom it is for", examples=["Nordic Air"])
     project: Line | None = Field(None, description="project", examples=["Nitrogen plant"])
     number: Line | None = Field(None, description="number of the document", examples=["K-1047"])
     revision: Line | None = Field(None, description="revision of the document", examples=["B"])
     author: Line | None = Field(None, description="who made it", examples=["M. Weber"])
     checker: Line | None = Field(None, description="who checks it", examples=["A. Okafor"])
+    approver: Line | None = Field(None, description="who approves it", examples=["L. Berg"])
     drawing: Line | None = Field(None, description="number of the drawing that it belongs to", examples=["D-2212"])
+    date: Day | None = Field(
+        None,
+        description="day that it bears, ISO 8601, where the office is; null is today in UTC",
+        examples=["2026-11-23"],
+    )
+    revisions: tuple[Revision, ...] = Field(
+        (), max_length=MAX_REVISIONS, description="table of revisions", examples=[[{"revision": "B"}]]
+    )
+    logo: Logo | None = Field(
+        None,
+        description="logo of the company: a PNG file as a data URL, at most 2000 pixels a side",
+        examples=[None],
+    )
     notes: Notes | None = Field(None, description="notes, as paragraphs", examples=["For approval."])
 
 

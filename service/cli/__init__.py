@@ -18,6 +18,7 @@ from service.cli.plot import plot
 from service.cli.report import report
 from service.cli.serve import serve
 from service.cli.sweep import sweep
+from service.cli.table import table
 from service.cli.template import template
 from service.cli.terminal import FAULT, put
 from service.cli.verify import verify
@@ -54,7 +55,7 @@ def command_line() -> typer.Typer:
     for one in COMPUTATIONS.values():
         if one.chapters is not None:
             made.command(name=one.title)(command(one))
-    for other in (sweep, plot, report, draw, template, verify, effects, examples, schema, serve):
+    for other in (sweep, plot, report, draw, table, template, verify, effects, examples, schema, serve):
         made.command()(other)
     made.add_typer(key, name="key")
     return made

@@ -33,7 +33,7 @@ def files(drawn: DrawingSet) -> Iterator[tuple[str, bytes]]:
     """Names and contents."""
     for part in drawn.parts:
         yield f"{part.name}.dxf", dxf(part.outline)
-        yield f"{part.name}.svg", sheet(part).svg(_FONT).encode()
+        yield f"{part.name}.svg", sheet(part, drawn.built).svg(_FONT).encode()
         half = 0.5 * part.envelope.thickness_m
         yield f"{part.name}.step", step(part.name, [Solid(part.name, part.outline, -half, half)])
     yield "counterweights.step", step(drawn.title, list(_placed(drawn)))

@@ -8,17 +8,32 @@ from schemas.answer.counterweights import Counterweight
 from service.common.plain import inert, plain
 from service.drawings.drawn import DrawingSet
 from service.drawings.parts import Part
+from service.tables.as_built import HEADS as BUILT_HEADS
+from service.tables.as_built import line
 
 HEADS = (
     "part", "pieces", "web", "mass, kg", "plane z, mm", "angle as drawn, deg", "angle from its crank, deg",
     "centre of mass, mm", "mass times radius, kg m", "to hold, N", "outline", "inner radius, mm", "outer radius, mm",
     "thickness, mm", "half of the opening, deg", "chord from the shaft, mm", "density, kg/m3", "drawing",
 )  # fmt: skip
+_WEB = HEADS.index("web")
 
-Cell = str | float | int | None
+Cell = str | float | int | bool | None
+
+
+def heads(drawn: DrawingSet) -> tuple[str, ...]:
+    """Of the columns; what is built stands beside the optimum."""
+    return HEADS if drawn.built is None else (*HEADS, *BUILT_HEADS[1:])
 
 
 def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
+    """The lines of the bill, each with what sets it beside the optimum where it is as built."""
+    beside = {} if drawn.built is None else {one.web: line(one, drawn.built.tolerance) for one in drawn.built.pairs}
+    for row in _rows(drawn):
+        yield *row, *(beside[str(row[_WEB])][1:] if beside else ())
+
+
+def _rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
     """The counterweights that are drawn, part by part, then those without a plate."""
     for part in drawn.parts:
         for one in part.places:
@@ -31,7 +46,7 @@ def rows(drawn: DrawingSet) -> Iterator[tuple[Cell, ...]]:
 
 def _placed(one: Counterweight) -> tuple[Cell, ...]:
     return (
-        plain(one.web), one.mass_kg, 1e3 * one.position_m, one.angle_deg, one.angle_from_crank_deg,
+        one.web, one.mass_kg, 1e3 * one.position_m, one.angle_deg, one.angle_from_crank_deg,
         1e3 * one.radius_m, one.mass_radius_kg_m, one.centrifugal_force_N,
     )  # fmt: skip
 
@@ -49,9 +64,9 @@ def as_csv(drawn: DrawingSet) -> bytes:
     """In UTF-8; a text that a spreadsheet would run stays text."""
     out = io.StringIO(newline="")
     writer = csv.writer(out, lineterminator="\r\n")
-    writer.writerow(HEADS)
+    writer.writerow(heads(drawn))
     for row in rows(drawn):
-        writer.writerow([inert(cell) if isinstance(cell, str) else cell for cell in row])
+        writer.writerow([inert(plain(cell)) if isinstance(cell, str) else cell for cell in row])
     return out.getvalue().encode()
 
 
@@ -63,11 +78,11 @@ def as_workbook(drawn: DrawingSet) -> bytes:
 
     book = Workbook(write_only=True)
     sheet = book.create_sheet("bill of material")
-    sheet.append(HEADS)
+    sheet.append(heads(drawn))
     for row in rows(drawn):
         cells = []
         for value in row:
-            cell = WriteOnlyCell(sheet, value)
+            cell = WriteOnlyCell(sheet, plain(value) if isinstance(value, str) else value)
             if isinstance(value, str):
                 # never a formula
                 cell.data_type = "s"

@@ -12,6 +12,7 @@ from schemas.base.model import FieldProblem
 from schemas.request.drawings import DrawingsRequest
 from schemas.request.requests import AnalyzeRequest
 from service.drawings.parts import Part, parts
+from service.tables.as_built import AsBuilt, as_built
 
 
 @dataclass(frozen=True)
@@ -21,16 +22,18 @@ class DrawingSet:
     title : of the machine.
     status : of the answer; given where the counterweights were.
     fitted : all counterweights, also those without a plate, which cannot be drawn.
+    built : what is fitted beside the optimum, where the request says so; then `fitted` are those that are built.
     """
 
     title: str
     status: str
     parts: tuple[Part, ...]
     fitted: tuple[Counterweight, ...]
+    built: AsBuilt | None = None
 
 
 def drawings(request: DrawingsRequest) -> DrawingSet:
-    """The parts of the counterweights that are given, or of the best ones.
+    """The parts of the counterweights that are given, or of those that are fitted, or of the best ones.
 
     Raises
     ------
@@ -40,13 +43,15 @@ def drawings(request: DrawingsRequest) -> DrawingSet:
         if a counterweight is more than its envelope holds, if there is none within the limits, or none to be drawn.
     """
     answer = _answer(request)
-    every = chain(answer.counterweights, *(shaft.counterweights for shaft in answer.balance_shafts))
+    built = as_built(request, answer) if isinstance(answer, OptimizeAnswer) else None
+    optimum = chain(answer.counterweights, *(shaft.counterweights for shaft in answer.balance_shafts))
+    every = optimum if built is None else built.counterweights
     fitted = tuple(one for one in every if one.mass_kg > 0)
     found = parts(request.machine, fitted)
     if not found:
         raise OutOfRange([FieldProblem(_asked(request), "no counterweight is cut from a plate: there is none to draw")])
     status = getattr(answer, "status", "given")
-    return DrawingSet(request.machine.name or "machine without a name", status, found, fitted)
+    return DrawingSet(request.machine.name or "machine without a name", status, found, fitted, built)
 
 
 def _answer(request: DrawingsRequest) -> OptimizeAnswer | AnalyzeAnswer:

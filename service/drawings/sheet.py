@@ -8,6 +8,7 @@ from schemas.answer.counterweights import Counterweight
 from service.drawings.outline import Arc, Point, points
 from service.drawings.parts import Part
 from service.drawings.svg import FAINT, INK, MUTED, PAGE_WIDTH, Anchor, Drawing, shortened
+from service.tables.as_built import AsBuilt
 
 _TOP, _BOTTOM = 36.0, 300.0
 _MIDDLE = 0.36 * PAGE_WIDTH
@@ -29,9 +30,14 @@ class _View(NamedTuple):
         return _MIDDLE + self.per_m * point[0], _BOTTOM - self.per_m * point[1]
 
 
-def sheet(part: Part) -> Drawing:
-    """Everything that a workshop needs to make the part and to fit it."""
-    notes = list(_notes(part))
+def sheet(part: Part, built: AsBuilt | None = None) -> Drawing:
+    """Everything that a workshop needs to make the part and to fit it.
+
+    Parameters
+    ----------
+    built : what the part is as built, beside the optimum.
+    """
+    notes = [*_notes(part), *_as_built(part, built)]
     drawing = Drawing(PAGE_WIDTH, _BOTTOM + 70.0 + _LINE * len(notes), f"drawing of part {part.number}")
     drawing.text((12.0, 20.0), f"Part {part.number}", size=14.0)
     drawing.text((PAGE_WIDTH - 12.0, 20.0), "dimensions in mm", "end", fill=MUTED)
@@ -168,6 +174,28 @@ def _notes(part: Part) -> Iterator[str]:
     yield f"{many}, {one.mass_kg:.6g} kg each at {envelope.density_kg_m3:g} kg/m³, {one.mass_radius_kg_m:.6g} kg m"
     for place in part.places:
         yield _place(place)
+
+
+def _as_built(part: Part, built: AsBuilt | None) -> Iterator[str]:
+    """As built, optimum and difference of each place."""
+    webs = {one.web for one in part.places}
+    for pair in () if built is None else built.pairs:
+        if pair.web not in webs:
+            continue
+        best, mass = pair.masses
+        angle, turned = "", ""
+        if pair.optimum is not None and pair.turned_deg is not None:
+            angle, turned = f" at {pair.optimum.angle_deg:.4g}°", f" and {pair.turned_deg:+.3g}°"
+        yield (
+            f"{shortened(pair.web, 24)}: as built {mass:.6g} kg; optimum {best:.6g} kg{angle}; "
+            f"difference {mass - best:+.4g} kg{turned}{_tolerance(built, best)}"
+        )
+
+
+def _tolerance(built: AsBuilt | None, mass: float) -> str:
+    if built is None or built.tolerance.share is None or not mass:
+        return ""
+    return f"; tolerance ±{built.tolerance.share * mass:.2g} kg and ±{built.tolerance.angle_deg:.2g}°"
 
 
 def _place(one: Counterweight) -> str:

@@ -31,11 +31,13 @@ class Drawing:
     """A drawing under construction.
 
     label : what it shows, for those who cannot see it.
+    scale : pixels to a px of the drawing.
     """
 
     width: float
     height: float
     label: str
+    scale: float = 1.0
     _shapes: list[ElementTree.Element] = field(default_factory=list)
 
     def line(self, points: Sequence[Point], stroke: str = INK, width: float = 1.0, dash: str | None = None) -> None:
@@ -97,8 +99,12 @@ class Drawing:
         ----------
         font : of its texts; that of the page if not given.
         """
-        size = {"width": _short(self.width), "height": _short(self.height)}
-        box = {"viewBox": f"0 0 {size['width']} {size['height']}", "role": "img", "aria-label": plain(self.label)}
+        size = {"width": _short(self.width * self.scale), "height": _short(self.height * self.scale)}
+        box = {
+            "viewBox": f"0 0 {_short(self.width)} {_short(self.height)}",
+            "role": "img",
+            "aria-label": plain(self.label),
+        }
         family = {} if font is None else {"font-family": font}
         root = ElementTree.Element("svg", {"xmlns": "http://www.w3.org/2000/svg", **size, **box, **family})
         root.extend(self._shapes)

@@ -3,6 +3,7 @@
 Chapters build these blocks; HTML, PDF and the terminal are written from the same blocks, so that they say the same.
 """
 
+import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
@@ -19,6 +20,11 @@ class Run(NamedTuple):
 
 
 _MAX_SHORT = 16
+#: between thousands, as SI has it
+NARROW = "\N{NARROW NO-BREAK SPACE}"
+_THOUSANDS = re.compile(r"(?<=[0-9])(?=(?:[0-9]{3})+$)")
+#: of a scale, below which a figure is what rounding leaves
+_DUST = 1e-6
 #: text with raised and lowered parts, as formulas have
 Formula = tuple[Run, ...]
 
@@ -127,7 +133,10 @@ class Attachment:
 class Document:
     """A document.
 
+    day : that it bears, as it is printed.
     head : names and values under the title.
+    revisions : table of revisions.
+    logo : a PNG file.
     notes : paragraphs below them.
     opening : how many chapters come before the list of contents.
     date : ISO 8601, UTC.
@@ -138,7 +147,10 @@ class Document:
     subject: str
     date: str
     status: Literal["optimal", "inaccurate", "infeasible"]
+    day: str
     head: Table
+    revisions: Table | None
+    logo: bytes | None
     notes: tuple[str, ...]
     opening: int
     chapters: tuple[Chapter, ...]
@@ -152,8 +164,21 @@ def number(value: float | None) -> Cell:
 
 
 def typeset(figure: str) -> str:
-    """A figure as it is printed, with a true minus; a terminal may not have one and keeps the hyphen."""
-    return figure.replace("-", "\N{MINUS SIGN}")
+    """A figure as it is printed: a true minus, thousands set apart; a terminal may not have them and keeps neither."""
+    whole, mark, rest = figure.partition(".")
+    return _THOUSANDS.sub(NARROW, whole).replace("-", "\N{MINUS SIGN}") + mark + rest.replace("-", "\N{MINUS SIGN}")
+
+
+def prose(value: float) -> str:
+    """A figure within a sentence."""
+    return typeset(digits(value))
+
+
+def settled(value: float | None, scale: float) -> Cell:
+    """A figure; what rounding leaves beside the scale is printed as 0."""
+    if value is not None and abs(value) < _DUST * abs(scale):
+        return Number(value, "0")
+    return number(value)
 
 
 def digits(value: float) -> str:

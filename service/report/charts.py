@@ -17,12 +17,15 @@ from service.drawings.svg import (
     Point,
     shortened,
 )
-from service.report.blocks import digits, turns_of, typeset
+from service.report.blocks import prose, turns_of, typeset
 
 #: more lines than this cannot be told apart
 MAX_LINES = len(SERIES)
 #: points of a line that can be told apart on paper
 _BINS = 720
+#: components of a vector across the shaft, as they stand at the axes
+FORCE_AXES = ("force along x", "force along y")
+COUPLE_AXES = ("couple of the x forces", "couple of the y forces")
 #: an ellipse smaller than this is marked by a circle of this radius, px
 _DOT = 2.5
 #: smallest value that a prefix is used for, factor and prefix
@@ -114,12 +117,15 @@ def chart(
     return drawing
 
 
-def hodograph(title: str, unit: str, ellipses: Sequence[Ellipse], least: float = 0.0) -> Drawing:
+def hodograph(
+    title: str, unit: str, ellipses: Sequence[Ellipse], least: float = 0.0, axes: tuple[str, str] = FORCE_AXES
+) -> Drawing:
     """Ellipses that the tip of a vector runs along, on equal scales.
 
     Parameters
     ----------
     least : the drawing reaches at least so far, so that what is nothing beside it looks like nothing.
+    axes : names of the components.
     """
     width = PAGE_WIDTH / 2 - 6
     drawing = Drawing(width, width + 46, f"hodograph of {title}: {', '.join(one.name for one in ellipses)}")
@@ -133,8 +139,8 @@ def hodograph(title: str, unit: str, ellipses: Sequence[Ellipse], least: float =
         drawing.line([(x(value), y(low)), (x(value), y(high))], stroke, 0.8)
         drawing.text((x(low) - 4, y(value) + 3.5), tick(value), "end", 9)
         drawing.text((x(value), y(low) + 12), tick(value), "middle", 9)
-    drawing.text((x(high), y(low) + 24), f"{title} x, {large}{unit}", "end", 9, MUTED)
-    drawing.text((9, y(high)), f"{title} y, {large}{unit}", "end", 9, MUTED, turned=True)
+    drawing.text((x(high), y(low) + 24), f"{axes[0]}, {large}{unit}", "end", 9, MUTED)
+    drawing.text((9, y(high)), f"{axes[1]}, {large}{unit}", "end", 9, MUTED, turned=True)
     for index, one in enumerate(ellipses):
         points = [(x(a / factor), y(b / factor)) for a, b in _ellipse(one)]
         if one.major / factor * (x.end - x.start) / (x.high - x.low) < _DOT:
@@ -142,7 +148,7 @@ def hodograph(title: str, unit: str, ellipses: Sequence[Ellipse], least: float =
         drawing.line(points, one.stroke, one.width, one.dash)
         place = 42.0, width + 2 + 16 * index
         drawing.line([place, (place[0] + 22, place[1])], one.stroke, one.width, one.dash)
-        drawing.text((place[0] + 27, place[1] + 3.5), f"{one.name} {digits(one.major)} {unit}", size=10)
+        drawing.text((place[0] + 27, place[1] + 3.5), f"{one.name} {prose(one.major)} {unit}", size=10)
     return drawing
 
 

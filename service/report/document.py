@@ -7,17 +7,21 @@ from optimizer.errors import MissingInput
 from optimizer.optimize import optimize
 from optimizer.outputs.registry import require_inputs
 from schemas.answer.answers import OptimizeAnswer
+from schemas.answer.outputs import OutputName
+from schemas.base.images import png
 from schemas.base.model import FieldProblem
 from schemas.request.report import ReportRequest
 from schemas.request.requests import OptimizeRequest
-from service.report.blocks import Attachment, Chapter, Document, facts
+from service.report.blocks import Attachment, Chapter, Document, facts, table
 from service.report.chapters import balance, inputs, reproduction, verdict
 from service.report.chapters.answers import outputs
 from service.report.chapters.balance_quality import balance_quality
+from service.report.chapters.foundation import foundation_loads
 from service.report.chapters.versions import compared
 from service.report.chapters.workshop import sheets
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
+from service.tables.as_built import as_built
 
 _STATUS = {
     "optimal": "optimal, certified",
@@ -25,15 +29,20 @@ _STATUS = {
     "infeasible": "infeasible",
 }
 #: of the head of the document, as it is filed
-_HEAD = ("project", "number", "revision", "drawing", "author", "checker")
+_HEAD = (
+    "company", "customer", "project", "number", "revision", "drawing", "author", "checker", "approver",
+)  # fmt: skip
 #: chapters of the first page, which the list of contents comes after
-_OPENING = 2
+_OPENING = 3
+#: outputs that are in every report on a machine that gives what they need
+_USUAL: tuple[OutputName, ...] = ("stages", "foundation_loads")
 
 
 def report(request: ReportRequest, at: datetime | None = None) -> Document:
     """The report on a machine: what was asked, what was found, and the proof.
 
-    The eight balancing stages are in it wherever the machine gives what they need, the other outputs as asked for.
+    The eight balancing stages and the loads on the foundation are in it wherever the machine gives what they need, the
+    other outputs as asked for.
 
     Parameters
     ----------
@@ -44,18 +53,17 @@ def report(request: ReportRequest, at: datetime | None = None) -> Document:
     MissingInput
         if the machine, or that of a version, lacks what a requested output needs.
     """
-    full, missing = _with_stages(request.alone)
+    full, missing = _with_usual(request.alone)
     return document(request, optimize(full), missing, at or datetime.now(UTC))
 
 
-def _with_stages(request: OptimizeRequest) -> tuple[OptimizeRequest, tuple[FieldProblem, ...]]:
-    if "stages" in request.outputs:
-        return request, ()
+def _with_usual(request: OptimizeRequest) -> tuple[OptimizeRequest, tuple[FieldProblem, ...]]:
+    more = tuple(name for name in _USUAL if name not in request.outputs)
     try:
-        require_inputs(request.machine, ("stages",))
+        require_inputs(request.machine, more)
     except MissingInput as error:
         return request, tuple(error.problems)
-    return request.model_copy(update={"outputs": (*request.outputs, "stages")}), ()
+    return request.model_copy(update={"outputs": (*request.outputs, *more)}), ()
 
 
 def document(
@@ -69,26 +77,29 @@ def document(
     at : time that the document bears.
     """
     date = at.astimezone(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
-    used = ", ".join(f"{name} {version}" for name, version in reproduction.versions().items())
+    office = request.document
+    day = datetime.fromisoformat(office.date) if office.date is not None else at.astimezone(UTC)
     head = facts(
         "",
         [
-            *((name, value) for name in _HEAD if (value := getattr(request.document, name)) is not None),
+            *((name, value) for name in _HEAD if (value := getattr(office, name)) is not None),
             ("status", _STATUS[answer.status]),
-            ("date", date),
-            ("computed with", used),
-            ("digest of the request", reproduction.digest(request)),
+            ("date", f"{day:%-d %B %Y}"),
         ],
     )
+    changes = [(one.revision, one.date, one.change, one.author) for one in office.revisions]
     return Document(
         title=request.machine.name or "Machine without a name",
         subject="Counterweights: report",
         date=date,
         status=answer.status,
+        day=f"{day:%-d %B %Y}",
         head=head,
-        notes=tuple(filter(None, map(str.strip, (request.document.notes or "").splitlines()))),
+        revisions=table("Revisions", ["revision", "date", "<change", "author"], changes) if changes else None,
+        logo=None if office.logo is None else png(office.logo),
+        notes=tuple(filter(None, map(str.strip, (office.notes or "").splitlines()))),
         opening=_OPENING,
-        chapters=tuple(_chapters(request, answer, missing)),
+        chapters=tuple(_chapters(request, answer, missing, date)),
         file_stem=_file_stem(request),
         attachment=Attachment("request.json", reproduction.request_json(request)),
     )
@@ -100,11 +111,16 @@ def _file_stem(request: ReportRequest) -> str:
     return " ".join(each for each in known if each is not None)
 
 
-def _chapters(request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...]) -> Iterator[Chapter]:
+def _chapters(
+    request: ReportRequest, answer: OptimizeAnswer, missing: tuple[FieldProblem, ...], date: str
+) -> Iterator[Chapter]:
     # on the first page: what it comes to, and what is to be made
-    yield verdict.result(request, answer)
-    yield balance.counterweights(request, answer)
-    yield balance.layout(request, answer)
+    built = as_built(request, answer)
+    yield verdict.result(request, answer, built)
+    yield balance.counterweights(request, answer, built)
+    if answer.foundation_loads is not None:
+        yield foundation_loads(answer.foundation_loads)
+    yield balance.layout(request, answer, built)
     yield from compared(request, answer)
     yield inputs.inputs(request, answer.reference_plane_m)
     yield balance.stages(request.machine, answer.stages, missing)
@@ -113,7 +129,9 @@ def _chapters(request: ReportRequest, answer: OptimizeAnswer, missing: tuple[Fie
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
-    yield from outputs(request.machine, answer)
-    yield from sheets(request.machine, answer)
+    yield from balance.prices(request, answer)
+    # of the first page
+    yield from outputs(request.machine, answer.model_copy(update={"foundation_loads": None}))
+    yield from sheets(request.machine, answer, built)
     yield reproduction.effects(answer.effects, request.outputs)
-    yield reproduction.appendix(request)
+    yield reproduction.appendix(request, date)

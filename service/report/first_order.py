@@ -34,5 +34,5 @@ def hodographs(
     moments.append(charts.floor(floor.moment_Nm))
     return (
         charts.hodograph("force", "N", forces, reach),
-        charts.hodograph("moment", "N m", moments, reach * length),
+        charts.hodograph("moment", "N m", moments, reach * length, charts.COUPLE_AXES),
     )

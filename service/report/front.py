@@ -10,7 +10,7 @@ from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.machine.scroll_machine import ScrollMachine
 from schemas.machine.webs import Web
-from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
+from service.drawings.svg import AFTER, BEFORE, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Drawing, Point, shortened
 from service.report.blocks import digits
 
 Each = TypeVar("Each", bound=tuple[float, str, object])
@@ -18,7 +18,7 @@ Each = TypeVar("Each", bound=tuple[float, str, object])
 #: more names than this cannot be read
 _MAX_LABELS = 24
 _ALLOWED = SERIES[2]
-_FRONT = 350.0
+_FRONT = 320.0
 #: half the opening of the largest counterweight as it is drawn; areas are in proportion to the masses
 _WIDEST_DEG = 55.0
 _THICKNESS = 0.34
@@ -40,8 +40,13 @@ class _View(NamedTuple):
         return [self(radius, start_deg + (end_deg - start_deg) * step / steps) for step in range(steps + 1)]
 
 
-def front(machine: Machine, fitted: Sequence[Counterweight]) -> Drawing:
-    """Cranks, row axes and counterweights to scale, x to the right and y upwards."""
+def front(machine: Machine, fitted: Sequence[Counterweight], built: Sequence[Counterweight] = ()) -> Drawing:
+    """Cranks, row axes and counterweights to scale, x to the right and y upwards.
+
+    Parameters
+    ----------
+    built : what is fitted in place of them, dashed.
+    """
     drawing = Drawing(PAGE_WIDTH, _FRONT, "layout from the front")
     reach = _reach(machine)
     view = _View((_FRONT / 2 - 26) / reach, (PAGE_WIDTH / 2, _FRONT / 2))
@@ -49,7 +54,7 @@ def front(machine: Machine, fitted: Sequence[Counterweight]) -> Drawing:
     if isinstance(machine, ReciprocatingMachine):
         _rows(drawing, view, machine, reach)
     _sectors(drawing, view, machine.webs)
-    _counterweights(drawing, view, fitted)
+    _counterweights(drawing, view, fitted, built)
     if isinstance(machine, ReciprocatingMachine):
         _cranks(drawing, view, machine)
     else:
@@ -123,17 +128,17 @@ def _sectors(drawing: Drawing, view: _View, webs: Sequence[Web]) -> None:
             drawing.line([view(radius - 4 / view.scale, edge), view(radius + 4 / view.scale, edge)], _ALLOWED, 1.4)
 
 
-def _counterweights(drawing: Drawing, view: _View, fitted: Sequence[Counterweight]) -> None:
+def _counterweights(
+    drawing: Drawing, view: _View, fitted: Sequence[Counterweight], built: Sequence[Counterweight]
+) -> None:
     # area = half angle x thickness x radius^2 in proportion to the mass, the thickness in proportion to the radius
-    unit = max((one.mass_kg / one.radius_m**2 for one in fitted), default=0.0)
+    unit = max((one.mass_kg / one.radius_m**2 for one in (*fitted, *built)), default=0.0)
     shown = [one for one in fitted if one.mass_kg > 0]
     for one in shown:
-        radius = one.radius_m
-        half = _WIDEST_DEG * one.mass_kg / (unit * radius**2)
-        outer, inner = radius * (1 + _THICKNESS / 2), radius * (1 - _THICKNESS / 2)
-        low, high = one.angle_deg - half, one.angle_deg + half
-        ring = [*view.arc(outer, low, high), *view.arc(inner, high, low)]
-        drawing.area(ring, AFTER, 0.16, AFTER, 1.2)
+        drawing.area(_ring(view, one, unit), AFTER, 0.16, AFTER, 1.2)
+    for one in built:
+        if one.mass_kg > 0:
+            drawing.area(_ring(view, one, unit), "none", stroke=BEFORE, width=1.2, dash="5 3")
     for one in shown[:_MAX_LABELS]:
         drawing.circle(view(one.radius_m, one.angle_deg), 2.2, AFTER, AFTER)
     places = [(round(one.angle_deg, 0) % 360.0, one.web, one.radius_m) for one in shown]
@@ -143,6 +148,14 @@ def _counterweights(drawing: Drawing, view: _View, fitted: Sequence[Counterweigh
         # beside the row axes, which often lie along the counterweights
         place = view(radius, angle)
         drawing.text((place[0], place[1] - 7), text, "middle", 10.5, AFTER, halo=True)
+
+
+def _ring(view: _View, one: Counterweight, unit: float) -> list[Point]:
+    radius = one.radius_m
+    half = _WIDEST_DEG * one.mass_kg / (unit * radius**2)
+    outer, inner = radius * (1 + _THICKNESS / 2), radius * (1 - _THICKNESS / 2)
+    low, high = one.angle_deg - half, one.angle_deg + half
+    return [*view.arc(outer, low, high), *view.arc(inner, high, low)]
 
 
 def _cranks(drawing: Drawing, view: _View, machine: ReciprocatingMachine) -> None:

@@ -1,5 +1,6 @@
 """The document as one HTML page: styles and drawings inside, no scripts, nothing from outside."""
 
+from base64 import b64encode
 from functools import cache
 
 from jinja2 import Environment, PackageLoader, StrictUndefined, Template
@@ -27,6 +28,7 @@ def _template() -> Template:
         keep_trailing_newline=True,
     )
     environment.filters["svg"] = _svg
+    environment.filters["data"] = _data
     environment.tests["number"] = lambda cell: isinstance(cell, Number)
     environment.tests["formula"] = lambda cell: isinstance(cell, tuple)
     environment.filters["kind"] = _kind
@@ -42,6 +44,10 @@ def _finalize(value: object) -> object:
 def _svg(drawing: Drawing) -> Markup:
     # the XML writer has escaped every text in it
     return Markup(drawing.svg())
+
+
+def _data(image: bytes) -> str:
+    return f"data:image/png;base64,{b64encode(image).decode()}"
 
 
 def _kind(block: Block) -> str:

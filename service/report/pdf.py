@@ -6,6 +6,8 @@ markup. What a document holds it holds in memory; nothing is read from disk but 
 
 import json
 import re
+import struct
+from base64 import b64encode
 from dataclasses import asdict
 from datetime import datetime
 from functools import cache
@@ -13,6 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from service.common.plain import plain
+from service.drawings.svg import Drawing
 from service.report.blocks import Block, Cell, Document, Figure, Listing, Number, Paragraph, Table, typeset
 
 #: comes with the library, so that documents look the same everywhere; other scripts use fonts of the system
@@ -36,7 +39,9 @@ def pdf(document: Document) -> bytes:
     content = {
         "title": _broken(document.title, _LONG_WORD),
         "subject": document.subject,
-        "date": document.date,
+        "day": document.day,
+        "logo": document.logo is not None,
+        "revisions": None if document.revisions is None else _table(document.revisions),
         "attachment": document.attachment.name,
         "head": _table(document.head),
         "notes": [_broken(note, _LONG_WORD) for note in document.notes],
@@ -50,11 +55,24 @@ def pdf(document: Document) -> bytes:
         "main": _template(),
         "document.json": json.dumps(_fit(content)).encode(),
         document.attachment.name: document.attachment.content.encode(),
+        **({} if document.logo is None else {"logo.svg": _logo(document.logo)}),
         **drawings,
     }
     made: bytes = typst.compile(
         sources, font_paths=_fonts(), timestamp=datetime.fromisoformat(document.date), format="pdf"
     )
+    return made
+
+
+def png(drawing: Drawing) -> bytes:
+    """A drawing in pixels, as many as its width says; what it leaves free is transparent."""
+    import typst
+
+    width, height = drawing.width * drawing.scale, drawing.height * drawing.scale
+    page = f"#set page(width: {width:.2f}pt, height: {height:.2f}pt, margin: 0pt, fill: none)\n"
+    sources = {"main": f'{page}#image("drawing.svg", width: 100%)'.encode(), "drawing.svg": drawing.svg(_FONT).encode()}
+    # a pixel is a point
+    made: bytes = typst.compile(sources, font_paths=_fonts(), format="png", ppi=72.0)
     return made
 
 
@@ -88,6 +106,17 @@ def _block(block: Block, drawings: dict[str, bytes]) -> dict[str, Any]:
     if isinstance(block, Paragraph):
         return {"kind": kind, "tone": block.tone, "text": _broken(block.text, _LONG_WORD)}
     return {"kind": kind, **asdict(block)}
+
+
+def _logo(image: bytes) -> bytes:
+    """The PNG file within an SVG file: what typst holds in memory is text."""
+    width, height = struct.unpack(">II", image[16:24])
+    size = f'width="{width}" height="{height}"'
+    data = b64encode(image).decode()
+    return (
+        f'<svg xmlns="http://www.w3.org/2000/svg" {size} viewBox="0 0 {width} {height}">'
+        f'<image {size} href="data:image/png;base64,{data}"/></svg>'
+    ).encode()
 
 
 def _table(block: Table) -> dict[str, Any]:

@@ -9,11 +9,14 @@ from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.answer.outputs import OutputName
 from schemas.base.model import FieldProblem
+from schemas.request.picture import PictureRequest, PictureStyle
 from schemas.request.requests import OptimizeRequest
-from service.drawings.svg import Drawing, beside
+from schemas.scroll.pin_loads import PinLoads
+from service.drawings.svg import Drawing, beside, shortened
 from service.report.chapters.balance import shown, which
 from service.report.chapters.bearing_loci import loci
 from service.report.chapters.orders import order_hodographs
+from service.report.chapters.pins import pin_figure
 from service.report.first_order import hodographs
 from service.report.front import front as drawn_front
 from service.report.indicator import indicators
@@ -22,6 +25,8 @@ from service.report.stage_scheme import stage_scheme
 
 #: what a picture without a page around it is written in
 _FONT = "sans-serif"
+#: room for a title, and of a letter of it [px]
+_TITLE, _LETTER = 28.0, 8.0
 
 
 @dataclass(frozen=True)
@@ -43,7 +48,25 @@ class Picture:
     draw: Callable[[OptimizeRequest, OptimizeAnswer], Drawing]
 
     def __call__(self, request: OptimizeRequest) -> Drawing:
-        return self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        drawing = self.draw(request, optimize(request.model_copy(update={"outputs": self.outputs})))
+        return styled(drawing, request.picture) if isinstance(request, PictureRequest) else drawing
+
+
+def styled(drawing: Drawing, style: PictureStyle) -> Drawing:
+    """The drawing in the size that is asked for, on a ground, under a title."""
+    if style == PictureStyle():
+        return drawing
+    above = 0.0 if style.title is None else _TITLE
+    made = Drawing(drawing.width, drawing.height + above, drawing.label)
+    if style.width_px is not None:
+        made.scale = style.width_px / drawing.width
+    if not style.transparent:
+        made.area([(0, 0), (made.width, 0), (made.width, made.height), (0, made.height)], "white")
+    if style.title is not None:
+        most = int(drawing.width / _LETTER)
+        made.text((0.5 * made.width, 18.0), shortened(style.title, most), "middle", 14.0)
+    made.inset(drawing, (0.0, above))
+    return made
 
 
 def _front(request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
@@ -84,6 +107,12 @@ def _orders(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
     return beside("hodographs of force and moment, order by order", drawn)
 
 
+def _pin_loads(_request: OptimizeRequest, answer: OptimizeAnswer) -> Drawing:
+    if answer.pin_loads is None:
+        raise OutOfRange([FieldProblem(("machine",), "there are no pins: only a scroll has them")])
+    return pin_figure(answer.pin_loads).drawings[0]
+
+
 front = Picture(("residual",), _front)
 side = Picture(("residual",), _side)
 force = Picture(("residual",), partial(_hodograph, 0))
@@ -92,6 +121,12 @@ bearings = Picture(("main_bearings",), _bearings)
 indicator = Picture(("gas",), _indicator)
 stages = Picture(("stages",), _stages)
 orders = Picture(("orders",), _orders)
+pin_loads = Picture(("pin_loads",), _pin_loads)
+
+
+def pins_svg(found: PinLoads) -> bytes:
+    """The loads of the pins over a revolution, in UTF-8."""
+    return svg(pin_figure(found).drawings[0])
 
 
 def svg(drawing: Drawing) -> bytes:

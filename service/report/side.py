@@ -2,13 +2,15 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 from schemas.answer.counterweights import Counterweight
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
+from service.drawings.sheet import millimetres
 from service.drawings.svg import AFTER, FAINT, INK, MUTED, PAGE_WIDTH, SERIES, Anchor, Drawing, shortened
-from service.report.blocks import digits, typeset
+from service.report.blocks import typeset
 
 _LEFT, _RIGHT = 44.0, PAGE_WIDTH - 30.0
 _MIDDLE = 150.0
@@ -45,7 +47,7 @@ def side(machine: Machine, fitted: Sequence[Counterweight], reference_plane_m: f
 
     Heights are components along the direction of the first crank; a counterweight is as wide as its mass asks for.
     """
-    drawing = Drawing(PAGE_WIDTH, _BOTTOM + 42, "layout from the side")
+    drawing = Drawing(PAGE_WIDTH, _BOTTOM + 74, "layout from the side, with dimensions")
     planes = [position for position, _, _ in _planes(machine)] + [reference_plane_m]
     low, high = min(planes), max(planes)
     room = 0.07 * (high - low) or 1.0
@@ -62,6 +64,8 @@ def side(machine: Machine, fitted: Sequence[Counterweight], reference_plane_m: f
         place = machine.orbiting_position_m
         drawing.line([(view.z(place), view.y(-0.5 * max(radii))), (view.z(place), view.y(0.5 * max(radii)))], INK, 2.5)
     _axis(drawing, view, machine)
+    _radius_texts(drawing, view, fitted)
+    _distances(drawing, view, machine)
     _names(drawing, view, machine)
     return drawing
 
@@ -133,15 +137,53 @@ def _counterweights(drawing: Drawing, view: _View, machine: Machine, fitted: Seq
 def _axis(drawing: Drawing, view: _View, machine: Machine) -> None:
     """The planes in metres, as far as they do not run into each other."""
     drawing.line([(_LEFT - 14, _BOTTOM), (_RIGHT + 14, _BOTTOM)], MUTED, 0.8)
-    drawing.text((_RIGHT + 14, _BOTTOM + 32), "z, m", "end", 10, MUTED)
+    drawing.text((_LEFT - 14, _BOTTOM + 15), "z, mm", "middle", 9.5, MUTED)
     last = -math.inf
     for position in sorted({position for position, _, _ in _planes(machine)}):
         place = view.z(position)
         drawing.line([(place, _BOTTOM - 3), (place, _BOTTOM + 3)], MUTED, 0.8)
         drawing.line([(place, _MIDDLE + 6), (place, _BOTTOM - 4)], FAINT, 0.6)
         if place - last >= _GAP:
-            drawing.text((place, _BOTTOM + 15), typeset(digits(position)), "middle", 9.5)
+            drawing.text((place, _BOTTOM + 15), typeset(millimetres(position)), "middle", 9.5)
             last = place
+
+
+def _radius_texts(drawing: Drawing, view: _View, fitted: Sequence[Counterweight]) -> None:
+    """The radius of the centre of mass beyond the end of each counterweight, mm, where there is room."""
+    ends = {-1: -math.inf, 1: -math.inf}
+    for one in sorted(fitted, key=lambda each: each.position_m):
+        if not one.mass_kg > 0:
+            continue
+        place, end = view.z(one.position_m), view.y(view.height(one.radius_m, one.angle_deg))
+        side = -1 if end < _MIDDLE else 1
+        if place - ends[side] >= _GAP:
+            drawing.text(
+                (place, end + (-6 if side < 0 else 14)),
+                f"R {millimetres(one.radius_m)}",
+                "middle",
+                9.5,
+                AFTER,
+                halo=True,
+            )
+            ends[side] = place
+
+
+def _distances(drawing: Drawing, view: _View, machine: Machine) -> None:
+    """From web to web, and over all of them, mm."""
+    planes = sorted({web.position_m for web in machine.webs})
+    for row, pairs in enumerate((list(pairwise(planes)), [(planes[0], planes[-1])] if len(planes) > 2 else [])):
+        height = _BOTTOM + 34 + 20 * row
+        for low, high in pairs:
+            left, right = view.z(low), view.z(high)
+            text = millimetres(high - low)
+            if right - left < 6.0 * len(text) + 12.0:
+                continue
+            for x in (left, right):
+                drawing.line([(x, height - 4), (x, height + 4)], MUTED, 0.8)
+            drawing.line([(left, height), (right, height)], MUTED, 0.8)
+            for x, inward in ((left, 1), (right, -1)):
+                drawing.area([(x, height), (x + 6 * inward, height - 2), (x + 6 * inward, height + 2)], MUTED)
+            drawing.text((0.5 * (left + right), height - 4), text, "middle", 9.5, halo=True)
 
 
 def _names(drawing: Drawing, view: _View, machine: Machine) -> None:

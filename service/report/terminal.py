@@ -9,6 +9,7 @@ from rich.text import Text
 
 from service.common.plain import plain
 from service.report.blocks import (
+    NARROW,
     Block,
     Cell,
     Chapter,
@@ -46,7 +47,7 @@ def _chapter(chapter: Chapter) -> Iterator[RenderableType]:
 
 def _block(block: Block) -> Iterator[RenderableType]:
     if isinstance(block, Paragraph):
-        yield Text(plain(block.text), _TONES[block.tone])
+        yield Text(plain(block.text).replace(NARROW, ""), _TONES[block.tone])
     elif isinstance(block, Equation):
         yield Text(_line(block.formula), "italic")
     elif isinstance(block, Listing):

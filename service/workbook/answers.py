@@ -4,24 +4,29 @@ from typing import Any
 
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
+from service.tables import as_built, foundation
 from service.workbook.files import workbook
-from service.workbook.sheets import ANSWER, COUNTERWEIGHTS, FOUNDATION, Sheets, flat, table, written
+from service.workbook.sheets import ANSWER, BUILT, COUNTERWEIGHTS, FOUNDATION, Sheets, flat, table, written
 
 
 def answered(request: OptimizeRequest, answer: OptimizeAnswer) -> bytes:
     """Request, counterweights, and every figure of the answer by the path of its field; lists as JSON.
 
-    Counterweights and loads on the foundation have a sheet each, with a number in every cell.
+    Counterweights, loads on the foundation, and what is fitted beside the optimum have a sheet each, with a number in
+    every cell.
 
     What an answer says nothing of has no line.
     """
     said = answer.model_dump(mode="json", exclude_none=True)
     fitted = said.pop("counterweights")
-    loads = said.pop(FOUNDATION, [])
+    said.pop(FOUNDATION, None)
     fields = [[name, value] for name, value in flat(said)]
     sheets: Sheets = {COUNTERWEIGHTS: table(fitted) or [["web"]]}
-    if loads:
-        sheets[FOUNDATION] = table(loads)
+    built = as_built.as_built(request, answer)
+    if built is not None:
+        sheets[BUILT] = [*as_built.lines(built), [], [*as_built.RESIDUAL_HEADS], *as_built.residual(answer, built)]
+    if answer.foundation_loads:
+        sheets[FOUNDATION] = foundation.lines(answer.foundation_loads)
     return workbook({**_asked(request), **sheets, ANSWER: [["field", "value"], *fields]})
 
 

@@ -30,7 +30,7 @@ _ROWS = "rows"
 _THROW = "throw"
 _TABLES = (_THROWS, _ROWS, "webs", "bearings", "unbalances")
 #: sheets of an answer, which say nothing of the machine
-ANSWER, COUNTERWEIGHTS, FOUNDATION = "answer", "counterweights", "foundation_loads"
+ANSWER, COUNTERWEIGHTS, FOUNDATION, BUILT = "answer", "counterweights", "foundation_loads", "as_built"
 #: sheets of a request
 REQUEST = (FIELDS, *_TABLES)
 _JSON = ("[", "{", '"')
@@ -128,7 +128,7 @@ def read(sheets: Sheets) -> Read:
             reader.fields(lines)
         elif name in _TABLES:
             reader.table(name, lines)
-        elif name not in (ANSWER, COUNTERWEIGHTS, FOUNDATION):
+        elif name not in (ANSWER, COUNTERWEIGHTS, FOUNDATION, BUILT):
             names = ", ".join(REQUEST)
             reader.wrong.append(f"{name[:_LONGEST_TITLE]}: no sheet of a machine; these are {names}")
     return reader.found()

@@ -52,6 +52,8 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
     ]
     pictures = [path.rpartition("/")[2] for _, path in described if path.startswith("/v1/pictures/")]
     calls += [(service.picture, name, {}) for name in pictures]
+    tables = [path.rpartition("/")[2] for _, path in described if path.startswith("/v1/tables/")]
+    calls += [(service.table, name, {}) for name in tables]
     for call, *given in calls:
         with pytest.raises(_Sent):
             call(*given)

@@ -1,11 +1,20 @@
 """Loads on the foundation in the report's blocks and in the workbook: numbers in cells of their own."""
 
+import csv
+import io
+
+from starlette.testclient import TestClient
+from typer.testing import CliRunner
+
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
 from schemas.request.requests import OptimizeRequest
+from service.app import create_app
+from service.cli import app
 from service.documents.examples import bodies
-from service.report.blocks import Number, Paragraph, Table
+from service.report.blocks import Number, Paragraph, Table, digits
 from service.report.chapters.foundation import foundation_loads
+from service.settings import Settings
 from service.workbook.answers import answered
 from service.workbook.files import workbook_sheets
 from service.workbook.sheets import FOUNDATION, read
@@ -24,30 +33,61 @@ def test_the_chapter_holds_every_figure_and_no_row_of_zeros() -> None:
     assert found is not None
     chapter = foundation_loads(found)
     forces, couples = (block for block in chapter.blocks if isinstance(block, Table))
-    assert [row[0] for row in forces.rows] == ["1", "1", "2", "2", "4", "4", "6", "6"]
+    # regression: along y only what a counterweight alone leaves; order 6 is below a thousandth
+    assert [row[:2] for row in forces.rows] == [
+        ("1", "along x"),
+        ("1", "along y"),
+        ("2", "along x"),
+        ("4", "along x"),
+    ]
     assert "as built, N" in [column.title for column in forces.columns]
     built = found[0].as_built
     assert found[0].after is not None
     assert built is not None
     first = [cell.value for cell in forces.rows[0] if isinstance(cell, Number)]
-    sets = (found[0].before, found[0].after, built)
-    assert first == [value for one in sets for value in (one.force_x.amplitude_N, one.force_x.phase_deg)]
-    second = [cell.value for cell in couples.rows[3] if isinstance(cell, Number)]
-    assert second[0] == found[1].before.couple_of_y_forces.amplitude_Nm
-    words = " ".join(block.text for block in chapter.blocks if isinstance(block, Paragraph))
-    assert "Nothing of order 3, 5 loads the foundation." in words
+    told = [one.force_x for one in (found[0].before, found[0].after, built)]
+    assert first == [value for one in told for value in (one.amplitude_N, one.amplitude_N / 1e3, one.phase_deg)]
+    assert couples.rows[0][1] == "horizontal"
+    second = [cell.value for cell in couples.rows[0] if isinstance(cell, Number)]
+    assert second[0] == found[0].before.couple_of_x_forces.amplitude_Nm
+    words = [block.text for block in chapter.blocks if isinstance(block, Paragraph)]
+    left_out = max(one.after.force_x.amplitude_N for one in found[4:] if one.after is not None)
+    assert any(text.startswith(f"Forces that are not listed are at most {digits(left_out)} N") for text in words)
+
+
+def test_the_table_is_csv_of_numbers_by_rest_and_on_the_command_line() -> None:
+    request, answer = _solved()
+    with TestClient(create_app(Settings(), warm=False)) as client:
+        sent = client.post("/v1/tables/foundation_loads", json=request.model_dump(mode="json"))
+    assert sent.status_code == 200
+    assert sent.headers["content-type"] == "text/csv; charset=utf-8; header=present"
+    heads, *lines = csv.reader(io.StringIO(sent.text))
+    assert len(lines) == 24
+    row = dict(zip(heads, lines[2], strict=True))
+    assert row["load"] == "horizontal couple"
+    assert answer.foundation_loads is not None
+    built = answer.foundation_loads[0].as_built
+    assert built is not None
+    # analytic: both units of one amplitude
+    assert float(row["as built, N or N m"]) == built.couple_of_x_forces.amplitude_Nm
+    assert float(row["as built, kN or kN m"]) == built.couple_of_x_forces.amplitude_Nm / 1e3
+    ran = CliRunner().invoke(app, ["table", "foundation_loads", "-"], input=request.model_dump_json())
+    assert ran.exit_code == 0
+    assert ran.stdout.splitlines() == sent.text.splitlines()
+    assert CliRunner().invoke(app, ["table", "none", "-"], input="{}").exit_code == 2
 
 
 def test_the_workbook_has_a_sheet_of_numbers_that_is_read_back_as_nothing_of_the_machine() -> None:
     request, answer = _solved()
     sheets = workbook_sheets(answered(request, answer))
     heads, *lines = sheets[FOUNDATION]
-    assert len(lines) == 6
-    assert all(isinstance(cell, int | float) for line in lines for cell in line)
-    place = heads.index("as_built.couple_of_x_forces.amplitude_Nm")
+    assert len(lines) == 24
+    assert all(isinstance(cell, int | float) for line in lines for cell in (line[0], *line[2:]))
+    place = heads.index("as built, N or N m")
     assert answer.foundation_loads is not None
     built = answer.foundation_loads[0].as_built
     assert built is not None
-    assert lines[0][place] == built.couple_of_x_forces.amplitude_Nm
+    assert lines[2][place] == built.couple_of_x_forces.amplitude_Nm
+    assert lines[2][place + 1] == built.couple_of_x_forces.amplitude_Nm / 1e3
     assert not [line for line in sheets["answer"] if str(line[0]).startswith(FOUNDATION)]
     assert OptimizeRequest.model_validate(read(sheets).body) == request

@@ -19,6 +19,7 @@ from service.report.chapters.pins import pin_loads
 from service.report.chapters.roll import roll
 from service.report.chapters.worst_case import worst_case
 from service.report.chapters.worth_knowing import worth_knowing
+from service.tables.as_built import as_built
 
 #: chapters of the outputs, in the order in which they stand
 CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
@@ -46,14 +47,16 @@ CHAPTERS: Mapping[str, Callable[[Machine, Any], Chapter]] = {
 
 def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
     """Counterweights, what they leave, and the certificate; or why there are none."""
-    yield verdict.result(request, answer)
-    yield balance.counterweights(request, answer)
+    built = as_built(request, answer)
+    yield verdict.result(request, answer, built)
+    yield balance.counterweights(request, answer, built)
     yield from alternatives(answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
     yield balance.before_and_after(request, answer)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
+    yield from balance.prices(request, answer)
     if answer.stages is not None:
         yield balance.stages(request.machine, answer.stages, ())
     yield from outputs(request.machine, answer)

@@ -20,8 +20,10 @@ from service.report.blocks import (
     Table,
     facts,
     number,
+    settled,
     table,
 )
+from service.report.chapters.built import as_fitted
 from service.report.chapters.making import holding, outlines
 from service.report.chapters.orders import two_orders
 from service.report.first_order import hodographs
@@ -29,6 +31,7 @@ from service.report.formula import formula
 from service.report.front import front
 from service.report.side import side
 from service.report.stage_scheme import stage_scheme
+from service.tables.as_built import AsBuilt
 
 _FIRST_ORDER = (
     ("peak force, N", "force", "peak_N"),
@@ -41,8 +44,8 @@ _FIRST_ORDER = (
     ("peak moment, N m", "moment", "peak_Nm"),
     ("smallest moment over a revolution, N m", "moment", "minor_Nm"),
     ("direction of the peak moment, deg", "moment", "major_axis_deg"),
-    ("peak moment in the x plane, N m", "moment", "peak_x_Nm"),
-    ("peak moment in the y plane, N m", "moment", "peak_y_Nm"),
+    ("peak horizontal couple (of the x forces), N m", "moment", "peak_x_Nm"),
+    ("peak vertical couple (of the y forces), N m", "moment", "peak_y_Nm"),
     ("turning with the shaft |f|, N m", "moment", "co_rotating_Nm"),
     ("turning against the shaft |b|, N m", "moment", "counter_rotating_Nm"),
 )
@@ -56,12 +59,16 @@ _LIMITS = {
     "force_ceiling_x": "ceiling of the force along x",
     "force_ceiling_y": "ceiling of the force along y",
     "moment_ceiling": "ceiling of the moment",
-    "moment_ceiling_x": "ceiling of the moment along x",
-    "moment_ceiling_y": "ceiling of the moment along y",
+    "moment_ceiling_x": "ceiling of the horizontal couple",
+    "moment_ceiling_y": "ceiling of the vertical couple",
     "bearing_ceiling": "ceiling of the bearing loads",
     "specific_load_ceiling": "ceiling of the specific bearing loads",
     "bending_ceiling": "ceiling of the bending moments",
 }
+_SOURCES = (
+    "Sources: Qian and Qu (2017), inertia force and torque equilibrium of piston compressors; Balancing "
+    "(Уравновешивание), lecture slides on compressors, which name neither author nor year."
+)
 _VERDICT = {"fully": "fully", "partly": "partly", "no": "not"}
 
 
@@ -78,24 +85,27 @@ def which(answer: OptimizeAnswer) -> str:
     return "best compromise" if answer.infeasibility is not None else "with counterweights"
 
 
-def layout(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The machine with its counterweights, drawn."""
     fitted, _ = shown(answer)
     what = "counterweights of the best compromise" if answer.infeasibility is not None else "counterweights"
     return Chapter(
         "Layout",
         (
+            *(() if built is None else as_made(request.machine, fitted)),
             Figure(
-                (front(request.machine, fitted),),
+                (front(request.machine, fitted, () if built is None else built.counterweights),),
                 "Front view from +z at shaft angle 0, to scale: cranks black, row axes dash-dotted, "
                 f"{what} blue with their centres of mass as dots, angles that a web allows as green arcs. Areas of "
-                "counterweights are in proportion to their masses; their real shape is a matter of design.",
+                "counterweights are in proportion to their masses; their real shape is a matter of design."
+                + ("" if built is None else " As built: dashed, orange."),
             ),
             Figure(
                 (side(request.machine, fitted, answer.reference_plane_m),),
                 "Side view along the shaft, heights along the direction of the first crank, width of a counterweight "
-                "after its mass; the reference plane of the moments green and dash-dotted. The scales along and "
-                "across the shaft differ.",
+                "after its mass; the reference plane of the moments green and dash-dotted. Below: places z and "
+                "distances of the webs in mm; R is the radius of a centre of mass. Along and across the shaft the "
+                "scales differ.",
             ),
         ),
     )
@@ -110,7 +120,17 @@ def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[Fi
     values = table(
         "Values without counterweights, and what the counterweights leave",
         ["stage", "<subject", "#value", "#remaining", "unit", "can be balanced"],
-        [(one.stage, one.title, one.value, one.remaining, one.unit, _VERDICT[one.balanceable]) for one in found],
+        [
+            (
+                one.stage,
+                one.title,
+                one.value,
+                settled(one.remaining, one.value or 0.0),
+                one.unit,
+                _VERDICT[one.balanceable],
+            )
+            for one in found
+        ],
     )
     where = table(
         "Direction and frequency",
@@ -128,7 +148,7 @@ def stages(machine: Machine, found: Sequence[Stage] | None, missing: Sequence[Fi
         "dash-dotted, forces orange and dashed without counterweights, blue what they leave. What turns is a circle "
         "with an arrow, what keeps its direction a line; of a moment the line is the trace of its plane.",
     )
-    return Chapter(title, (drawn, values, where, formulas, *_rules(found)))
+    return Chapter(title, (drawn, values, where, formulas, *_rules(found), Paragraph(_SOURCES)))
 
 
 def _rules(found: Sequence[Stage]) -> Iterator[Block]:
@@ -147,7 +167,7 @@ def _rules(found: Sequence[Stage]) -> Iterator[Block]:
         yield table("Customary partial balances, for comparison", heads, rows)
 
 
-def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+def counterweights(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """One row for each web."""
     fitted, _ = shown(answer)
     blocks: list[Block] = []
@@ -160,9 +180,18 @@ def counterweights(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
         blocks.append(
             Paragraph("Angles are those of the centres of mass, counter-clockwise from +x, as drawn at shaft angle 0.")
         )
-    if fitted:
+    if built is not None:
+        blocks += as_fitted(built)
+    elif fitted:
         blocks += as_made(request.machine, fitted)
-    return Chapter("Counterweights", (*blocks, *shafts, *(_prices(request, answer) if fitted or shafts else ())))
+    return Chapter("Counterweights", (*blocks, *shafts))
+
+
+def prices(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chapter]:
+    """What the limits cost, where there are counterweights."""
+    blocks = tuple(_prices(request, answer))
+    if blocks and (shown(answer)[0] or answer.balance_shafts):
+        yield Chapter("Prices of the limits", blocks)
 
 
 def _balance_shafts(answer: OptimizeAnswer) -> Iterator[Block]:
@@ -187,16 +216,16 @@ def places(fitted: Sequence[Counterweight]) -> Table:
     return table(
             "",
             [
-                "web", "#mass, kg", "#angle, deg", "#from its crank, deg", "#mass times radius, kg m", "#x, kg m",
-                "#y, kg m", "limits reached",
+                "web", "#mass, kg", "#angle, deg", "#from its crank, deg", "#plane z, m", "#radius, m",
+                "#mass times radius, kg m", "limits reached",
             ],
             [
                 (
                     one.web,
                     *(
                         (
-                            one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.mass_radius_kg_m, one.x_kg_m,
-                            one.y_kg_m,
+                            one.mass_kg, one.angle_deg, one.angle_from_crank_deg, one.position_m, one.radius_m,
+                            one.mass_radius_kg_m,
                         )
                         if one.mass_kg > 0
                         else ("none", *5 * (None,))
@@ -266,12 +295,13 @@ def first_order(
     label : what these are.
     beside : the second order.
     """
+    scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
     rows = [
         (
             title,
-            getattr(getattr(was, vector), name),
-            getattr(getattr(left, vector), name) if left else None,
+            settled(getattr(getattr(was, vector), name), scales[vector]),
+            settled(getattr(getattr(left, vector), name), scales[vector]) if left else None,
             number(floors[name]) if name in floors else "",
         )
         for title, vector, name in _FIRST_ORDER

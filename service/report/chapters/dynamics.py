@@ -20,6 +20,7 @@ from schemas.answer.dynamics import (
     Torque,
 )
 from schemas.machine.machine import Machine
+from schemas.machine.reciprocating import ReciprocatingMachine
 from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Samples, extremes, facts, table
 from service.report.chapters.bearing_loci import bearing_loci
 from service.report.chapters.inputs import row_name
@@ -30,6 +31,11 @@ from service.report.indicator import MAX_ROWS, chamber_name, indicators
 Row = TypeVar("Row", bound=RowSeries)
 
 _CASES = {"running": "running", "no_load": "no load", "sudden_stop": "sudden stop"}
+_INERTIA_ALONE = "inertia only"
+_DRY = (
+    "Rows without a cylinder have no gas force: their rod loads are of inertia only, and friction where it is given. "
+    "They are no rating of rods and bolts."
+)
 #: rows whose piston forces are drawn part by part
 _MAX_APART = 4
 _EXTREMES = "Extremes among the samples"
@@ -142,10 +148,13 @@ def _parts(row: RowPistonForce) -> list[Line]:
 
 
 def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
+    dry = {(row.throw, row.row) for row in found.rows if not _has_gas(machine, row.throw, row.row)}
     cases = [
         (
             row_name(machine, row.throw, row.row),
-            _CASES[case.case] + (" (governs)" if case.case == row.governing_case else ""),
+            _INERTIA_ALONE
+            if (row.throw, row.row) in dry
+            else _CASES[case.case] + (" (governs)" if case.case == row.governing_case else ""),
             case.tension_N,
             case.tension_deg,
             case.compression_N,
@@ -153,6 +162,8 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
         )
         for row in found.rows
         for case in row.cases
+        # without gas there is one case: what turns and moves to and fro
+        if (row.throw, row.row) not in dry or case.case == "running"
     ]
     others = [
         (f"{row_name(machine, row.throw, row.row)}: {quantity}", values)
@@ -170,12 +181,19 @@ def _rod_loads(machine: Machine, found: RodLoads) -> Chapter:
     return Chapter(
         "Rod loads",
         (
+            *((Paragraph(_DRY, "warning"),) if dry else ()),
             facts("", [("largest rod force of the machine, N", found.governing_load_N)]),
             table("Rod force by load case", heads, cases),
             extremes("Forces on guide and crank pin, N", found.angle_deg, others),
             *(figure(title, "N", found.angle_deg, lines, f"{caption} {_SIGNS}") for title, caption, lines in series),
         ),
     )
+
+
+def _has_gas(machine: Machine, throw: int, row: int) -> bool:
+    """Whether a row has a cylinder whose gas acts on its rod."""
+    place = machine.throws[throw].rows[row] if isinstance(machine, ReciprocatingMachine) else None
+    return place is not None and (place.cylinder is not None or bool(place.cylinders))
 
 
 def _torque(machine: Machine, found: Torque) -> Chapter:

@@ -1,57 +1,75 @@
 """Loads on the foundation, order by order."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from schemas.answer.foundation import FoundationLoad, OrderOfFoundation
-from service.report.blocks import Cell, Chapter, Paragraph, Table, table
+from schemas.answer.foundation import OrderOfFoundation
+from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, Table, prose, settled, table
+from service.tables.foundation import oscillation, sets
 
-_SETS = {"before": "without counterweights", "after": "with counterweights", "as_built": "as built"}
-#: what is told in N, and what in N m
-_FORCES = {"force_x": "force along x", "force_y": "force along y"}
-_COUPLES = {"couple_of_x_forces": "couple of the x forces", "couple_of_y_forces": "couple of the y forces"}
+#: a load below this share of the largest of its kind is told in a sentence, not in a line
+_SMALL = 1e-3
+_KILO = 1e3
+_FORCES = {"force_x": "along x", "force_y": "along y"}
+#: as API 618 names them
+_COUPLES = {"couple_of_x_forces": "horizontal", "couple_of_y_forces": "vertical"}
+#: of a heading, as a column has room for it
+_SHORT = {"without counterweights": "before", "with counterweights": "after"}
+
+Row = tuple[int, str, tuple[tuple[float, float] | None, ...]]
 
 
 def foundation_loads(found: Sequence[OrderOfFoundation]) -> Chapter:
-    """A table of forces and one of couples; orders that load nothing are named in a sentence."""
-    sets = [name for name in _SETS if any(getattr(one, name) is not None for one in found)]
-    still = [one for one in found if all(_still(getattr(one, name)) for name in sets)]
-    shown = [one for one in found if one not in still]
-    words = [
-        f"The load is A cos(k psi - phase): k the order, psi the turn of the shaft in its sense of rotation since the "
+    """A table of forces and one of couples; loads that are small or nothing are named in a sentence."""
+    words = (
+        "The load is A cos(k psi - phase): k the order, psi the angle of the shaft in its sense of rotation since the "
         f"outer dead centre of throw 1, first row (shaft angle {found[0].dead_centre_deg:g} deg). Forces act on the "
-        "frame. Couples are sums of force times distance from the reference plane; that of the x forces turns about y.",
+        "frame. Couples are sums of force times distance from the reference plane. As in API 618 that of the x forces "
+        "is the horizontal couple, which turns about y, and that of the y forces the vertical one, which turns about x."
+    )
+    forces, couples = _tables(found, _FORCES, "Forces", "N"), _tables(found, _COUPLES, "Couples", "N m")
+    return Chapter("Loads on the foundation", (*forces, *couples, Paragraph(words)))
+
+
+def _tables(found: Sequence[OrderOfFoundation], names: Mapping[str, str], kind: str, unit: str) -> Iterator[Block]:
+    """The loads of one kind, and a sentence on those that are left out."""
+    shown = sets(found)
+    rows: list[Row] = [
+        (one.order, words, tuple(oscillation(getattr(one, each), name) for each in shown))
+        for one in found
+        for name, words in names.items()
     ]
-    if still:
-        words.append(f"Nothing of order {', '.join(str(one.order) for one in still)} loads the foundation.")
-    tables = [
-        _table(title, unit, names, shown, sets)
-        for title, unit, names in (("Forces", "N", _FORCES), ("Couples", "N m", _COUPLES))
-    ]
-    return Chapter("Loads on the foundation", (*map(Paragraph, words), *(tables if shown else ())))
+    largest = max(map(_largest, rows))
+    listed = [row for row in rows if _largest(row) > _SMALL * largest]
+    if listed:
+        yield _table(kind, unit, list(shown.values()), listed, largest)
+    rest = [row for row in rows if row not in listed]
+    if rest:
+        yield Paragraph(_left_out(kind, unit, rest, bool(listed)))
 
 
-def _table(
-    title: str, unit: str, names: dict[str, str], found: Sequence[OrderOfFoundation], sets: Sequence[str]
-) -> Table:
-    heads = ["order", "load", *(head for name in sets for head in (f"#{_SETS[name]}, {unit}", "#phase, deg"))]
-    rows = []
-    for one in found:
-        for name, words in names.items():
-            cells: list[Cell | float | None] = []
-            for of_set in sets:
-                load = getattr(one, of_set)
-                part = None if load is None else getattr(load, name)
-                cells += [
-                    None if part is None else getattr(part, f"amplitude_{unit.replace(' ', '')}"),
-                    None if part is None else part.phase_deg,
-                ]
-            rows.append((str(one.order), words, *cells))
-    return table(title, heads, rows)
+def _largest(row: Row) -> float:
+    return max((one[0] for one in row[2] if one is not None), default=0.0)
 
 
-def _still(load: FoundationLoad | None) -> bool:
-    """Whether all amplitudes of an order are 0."""
-    if load is None:
-        return True
-    forces, couples = (load.force_x, load.force_y), (load.couple_of_x_forces, load.couple_of_y_forces)
-    return all(one.amplitude_N == 0 for one in forces) and all(one.amplitude_Nm == 0 for one in couples)
+def _left_out(kind: str, unit: str, rest: Sequence[Row], some: bool) -> str:
+    most = max(map(_largest, rest))
+    what = f"{kind} of the orders asked for" if not some else f"{kind} that are not listed"
+    return f"{what} are 0." if most == 0.0 else f"{what} are at most {prose(most)} {unit}."
+
+
+def _table(kind: str, unit: str, headings: Sequence[str], rows: Sequence[Row], scale: float) -> Table:
+    heads = ["order", kind.lower().removesuffix("s")]
+    for words in headings:
+        heads += [f"#{_SHORT.get(words, words)}, {unit}", f"#k{unit}", "#phase, deg"]
+    return table(kind, heads, [(str(order), words, *_cells(parts, scale)) for order, words, parts in rows])
+
+
+def _cells(parts: Sequence[tuple[float, float] | None], scale: float) -> Iterator[Cell | float | None]:
+    """Amplitude in both units and phase; what rounding leaves beside the scale is 0, and its phase is none."""
+    for one in parts:
+        if one is None:
+            yield from (None, None, None)
+            continue
+        amplitude = settled(one[0], scale)
+        still = isinstance(amplitude, Number) and amplitude.text == "0"
+        yield from (amplitude, settled(one[0] / _KILO, scale / _KILO), None if still else one[1])

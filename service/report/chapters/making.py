@@ -1,4 +1,4 @@
-"""What a workshop has to know of counterweights beside masses and angles: planes, radii, bolts, outlines."""
+"""What a workshop has to know of counterweights beside masses, angles, planes and radii: bolts, outlines."""
 
 from collections.abc import Iterator, Sequence
 
@@ -8,14 +8,13 @@ from service.report.blocks import Block, digits, table
 
 
 def holding(machine: Machine, fitted: Sequence[Counterweight]) -> Iterator[Block]:
-    """Planes, radii and what bolts bear, where that is asked or one is not where its web has it; but for plates."""
-    radius = {web.name: web.counterweight_radius_m for web in machine.webs}
+    """What bolts bear, where that is asked; but for plates."""
     whole = [one for one in fitted if one.mass_kg > 0 and one.shape is None]
     bolted = machine.overspeed_rpm is not None or any(web.max_centrifugal_force_N is not None for web in machine.webs)
-    if whole and (bolted or any(radius.get(one.web) != one.radius_m for one in whole)):
-        rows = [(one.web, one.position_m, one.radius_m, one.centrifugal_force_N) for one in whole]
-        title = f"Where they are, and what holds them at {digits(machine.overspeed_rpm or machine.speed_rpm)} rpm"
-        yield table(title, ["web", "#plane z, m", "#centre of mass, m", "#bolts hold, N"], rows)
+    if whole and bolted:
+        rows = [(one.web, one.centrifugal_force_N) for one in whole]
+        title = f"What holds them at {digits(machine.overspeed_rpm or machine.speed_rpm)} rpm"
+        yield table(title, ["web", "#bolts hold, N"], rows)
 
 
 def outlines(fitted: Sequence[Counterweight]) -> Iterator[Block]:

@@ -5,9 +5,11 @@ from functools import partial
 
 from schemas.answer.first_order import ResidualOrders
 from schemas.answer.outputs import ForceOrder, MomentOrder, Order, OrdersComparison
-from service.report.blocks import Chapter, Figure, Paragraph, Table, table
-from service.report.charts import after, before, hodograph
+from service.report.blocks import Cell, Chapter, Figure, Paragraph, Table, settled, table
+from service.report.charts import COUPLE_AXES, FORCE_AXES, after, before, hodograph
 
+#: an order whose force and moment are below this share of the largest is not drawn
+_SMALL = 1e-3
 _HEADS = ["order", "#peak force, N", "#with counterweights, N", "#peak moment, N m", "#with counterweights, N m"]
 
 
@@ -15,35 +17,43 @@ def two_orders(found: ResidualOrders) -> Table:
     """What shakes once and what shakes twice a turn; counterweights change the first alone."""
     left: tuple[Order | None, ...] = found.after or (None, None)
     names = ("1, once a revolution", "2, twice a revolution")
-    rows = [_row(*each) for each in zip(names, found.before, left, strict=True)]
+    scale = found.before[0]
+    rows = [_row(*each, scale) for each in zip(names, found.before, left, strict=True)]
     return table("Orders 1 and 2", _HEADS, rows)
 
 
 def orders(found: OrdersComparison) -> Chapter:
     """Forces and moments by multiples of the shaft speed."""
     left = {one.order: one for one in found.after or ()}
-    rows = [_row(str(one.order), one, left.get(one.order)) for one in found.before]
+    rows = [_row(str(one.order), one, left.get(one.order), found.before[0]) for one in found.before]
     words = "Exact harmonics of the motion; counterweights on the shaft change the first order alone."
     return Chapter("Orders", (Paragraph(words), table("", _HEADS, rows), *order_hodographs(found)))
 
 
 def order_hodographs(found: OrdersComparison) -> Iterator[Figure]:
-    """The ellipses of every order that has any."""
+    """The ellipses of every order that has any worth a drawing."""
     left = {one.order: one for one in found.after or ()}
+    largest = {what: max((_peak(one, what) for one in found.before), default=0.0) for what in ("force", "moment")}
     for one in found.before:
+        if all(_peak(one, what) <= _SMALL * most for what, most in largest.items()):
+            continue
         drawn = _hodographs(one, left.get(one.order))
         if drawn is not None:
             yield drawn
 
 
+def _peak(one: Order, what: str) -> float:
+    return one.force.peak_N if what == "force" else one.moment.peak_Nm
+
+
 def _hodographs(was: Order, left: Order | None) -> Figure | None:
     """The ellipses of force and moment of one order; None where there is neither."""
     drawings = []
-    for what, unit in (("force", "N"), ("moment", "N m")):
+    for what, unit, axes in (("force", "N", FORCE_AXES), ("moment", "N m", COUPLE_AXES)):
         parts = [(before, was)] + ([] if left is None else [(partial(after, "with counterweights"), left)])
         ellipses = [make(*_ellipse(getattr(one, what), unit)) for make, one in parts]
         if any(one.major > 0.0 for one in ellipses):
-            drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses))
+            drawings.append(hodograph(f"the {what} of order {was.order}", unit, ellipses, axes=axes))
     times = "once" if was.order == 1 else f"{was.order} times"
     caption = f"Order {was.order}: the tip of the vector runs along its ellipse {times} a revolution."
     return Figure(tuple(drawings), caption) if drawings else None
@@ -57,11 +67,13 @@ def _ellipse(one: ForceOrder | MomentOrder, unit: str) -> tuple[float, float, fl
     return sum(sizes), abs(sizes[0] - sizes[1]), axis
 
 
-def _row(name: str, was: Order | None, left: Order | None) -> tuple[str | float | None, ...]:
+def _row(name: str, was: Order | None, left: Order | None, scale: Order | None) -> tuple[Cell, ...]:
+    """A line; what rounding leaves beside the first order without counterweights is 0."""
+    force, moment = (0.0, 0.0) if scale is None else (scale.force.peak_N, scale.moment.peak_Nm)
     return (
         name,
-        None if was is None else was.force.peak_N,
-        None if left is None else left.force.peak_N,
-        None if was is None else was.moment.peak_Nm,
-        None if left is None else left.moment.peak_Nm,
+        settled(None if was is None else was.force.peak_N, force),
+        settled(None if left is None else left.force.peak_N, force),
+        settled(None if was is None else was.moment.peak_Nm, moment),
+        settled(None if left is None else left.moment.peak_Nm, moment),
     )

@@ -1,26 +1,47 @@
 """Loads of the anti-rotation pins of a scroll."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from schemas.scroll.losses import Losses
-from schemas.scroll.pin_loads import PinLoads, PinLoadsAnswer, PinLoadsRequest
-from service.report.blocks import Block, Chapter, Equation, Paragraph, digits, facts, table
+from schemas.scroll.pin_loads import Pin, PinLoads, PinLoadsAnswer, PinLoadsRequest
+from service.report.blocks import Block, Chapter, Equation, Figure, Paragraph, Table, digits, facts, table
+from service.report.blocks import number as number_cell
 from service.report.chapters.dynamics import figure
 from service.report.charts import Line
 from service.report.formula import formula
+from service.tables.pins import dead_points, lines
+
+#: about so many lines of a table over a revolution
+_LINES = 18
+#: columns of it
+_MOST_PINS = 8
 
 
-def loaded(_: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
+def loaded(request: PinLoadsRequest, answer: PinLoadsAnswer) -> Iterator[Chapter]:
     """The answer to a request about pins alone."""
-    yield pin_loads(answer)
+    yield pin_loads(answer, request.pins or ())
 
 
-def pin_loads(found: PinLoads) -> Chapter:
-    """What the pins carry over a turn, and whether they hold the scroll."""
-    return Chapter("Pin loads", tuple(_blocks(found)))
+def pin_loads(found: PinLoads, pins: Sequence[Pin] = ()) -> Chapter:
+    """What the pins carry over a revolution, and whether they hold the scroll.
+
+    Parameters
+    ----------
+    pins : the pins one by one, where the request names them; else they are even.
+    """
+    return Chapter("Pin loads", tuple(_blocks(found, pins)))
 
 
-def _blocks(found: PinLoads) -> Iterator[Block]:
+def pin_figure(found: PinLoads) -> Figure:
+    """Load of every pin over a revolution."""
+    lines = [Line(f"pin {pin.index}", pin.load_N) for pin in found.pins]
+    if found.drive_bearing is not None:
+        lines.append(Line("drive bearing", found.drive_bearing.load_N))
+    caption = "Load of the pins: the force on the orbiting scroll, positive along the eccentric."
+    return figure("pin load", "N", found.angle_deg, lines, caption)
+
+
+def _blocks(found: PinLoads, pins: Sequence[Pin]) -> Iterator[Block]:
     for warning in found.warnings:
         yield Paragraph(warning.message[:1].upper() + warning.message[1:] + ".", "warning")
     held = found.equilibrium
@@ -30,6 +51,7 @@ def _blocks(found: PinLoads) -> Iterator[Block]:
         reason = f": {held.reason}" if held.reason else ""
         yield Paragraph(f"The pins do not hold the scroll at every angle{reason}.", "warning")
     yield Equation(formula("Q_i = 2 T/(n R) sin(theta - 2π(i - 1)/n)   for n evenly spaced pins on radius R"))
+    yield Paragraph(_assumption(pins))
     yield facts(
         "",
         [
@@ -40,7 +62,7 @@ def _blocks(found: PinLoads) -> Iterator[Block]:
             *_of_drive(found),
             ("work of the pins over one pitch, J", found.energy.pins_work_J),
             ("work of the torque over one pitch, J", found.energy.torque_work_J),
-            ("dead points, deg", ", ".join(map(digits, found.dead_points_deg)) or "none"),
+            ("dead points of all pins together, deg", ", ".join(map(digits, found.dead_points_deg)) or "none"),
             ("degrees of freedom of the mechanism", found.mechanism.degrees_of_freedom),
         ],
     )
@@ -62,15 +84,42 @@ def _blocks(found: PinLoads) -> Iterator[Block]:
         "#to, deg",
     ]  # fmt: skip
     yield table("Pins", heads, rows)
-    lines = [Line(f"pin {pin.index}", pin.load_N) for pin in found.pins]
-    if found.drive_bearing is not None:
-        lines.append(Line("drive bearing", found.drive_bearing.load_N))
-    caption = "Load of the pins: the force on the orbiting scroll, positive along the eccentric."
-    yield figure("pin load", "N", found.angle_deg, lines, caption)
+    yield _data(found, pins)
+    yield pin_figure(found)
+    if len(found.pins) <= _MOST_PINS:
+        step = max(1, len(found.angle_deg) // _LINES)
+        titles, *cells = lines(found, step)
+        yield table("Q_i over the revolution", [f"#{title}" for title in titles], cells)
     if found.comparison is not None:
         yield from _compared(found, found.comparison)
     turning = [Line("rotation torque", found.rotation_torque_Nm)]
-    yield figure("rotation torque", "N m", found.angle_deg, turning, "Torque that turns the scroll about itself.")
+    if len(set(found.rotation_torque_Nm)) > 1:
+        yield figure("rotation torque", "N m", found.angle_deg, turning, "Torque that turns the scroll about itself.")
+
+
+def _assumption(pins: Sequence[Pin]) -> str:
+    stated = any(pin.stiffness_N_per_m is not None for pin in pins)
+    play = any(pin.clearance_m > 0 or pin.eccentricity_error_m != 0 for pin in pins)
+    shared = "The stiffnesses below share the load." if stated else "Assumption: all pins have equal stiffness."
+    return (
+        f"T is the rotation torque, n the number of pins, R their radius, theta the shaft angle. {shared} "
+        f"{'Clearances and errors of eccentricity are as below.' if play else 'No pin has clearance.'} "
+        "At its dead points the crank of a pin lies along its radius and turns nothing; the other pins hold the scroll."
+    )
+
+
+def _data(found: PinLoads, pins: Sequence[Pin]) -> Table:
+    """What each pin is, and its dead points."""
+    rows = []
+    for number, pin in enumerate(found.pins):
+        one = pins[number] if pins else None
+        stiffness = "equal" if one is None or one.stiffness_N_per_m is None else number_cell(one.stiffness_N_per_m)
+        play = (0.0, 0.0) if one is None else (one.clearance_m, one.eccentricity_error_m)
+        rows.append((str(pin.index), *dead_points(pin.phase_deg), stiffness, *play))
+    heads = [
+        "pin", "#dead point, deg", "#and, deg", "#stiffness, N/m", "#clearance, m", "#error of eccentricity, m",
+    ]  # fmt: skip
+    return table("Dead points, stiffness and clearance", heads, rows)
 
 
 def _of_drive(found: PinLoads) -> Iterator[tuple[str, float | None]]:
@@ -91,5 +140,5 @@ def _compared(found: PinLoads, losses: Losses) -> Iterator[Block]:
         ],
     )
     first, second = zip(*ring.scroll_keys_N, strict=True)
-    lines = [Line("in the frame", ring.frame_key_N), Line("in the scroll", first), Line("its opposite", second)]
-    yield figure("key load", "N", found.angle_deg, lines, "Keys of the Oldham ring, without the friction's own effect.")
+    keys = [Line("in the frame", ring.frame_key_N), Line("in the scroll", first), Line("its opposite", second)]
+    yield figure("key load", "N", found.angle_deg, keys, "Keys of the Oldham ring, without the friction's own effect.")

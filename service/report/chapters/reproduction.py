@@ -10,10 +10,12 @@ from optimizer.effects.registry import EFFECTS
 from schemas.answer.answers import EffectUse
 from schemas.base.version import package_version
 from schemas.request.report import ReportRequest
-from service.report.blocks import Chapter, Listing, Paragraph, table
+from service.report.blocks import Chapter, Listing, Paragraph, facts, table
 
 #: characters of a line of the listing
 _LINE = 130
+#: characters of a logo that are listed
+_SHOWN = 40
 #: fields that are the document's own, and no part of the optimisation
 _DOCUMENTS = ("document", "versions")
 _PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
@@ -22,20 +24,18 @@ _PACKAGES = ("numpy", "scipy", "clarabel", "cvxpy")
 def effects(uses: Mapping[str, EffectUse], asked: tuple[str, ...]) -> Chapter:
     """Every effect, whether it was simulated and for what."""
     rows = [
-        (
-            name.replace("_", " "),
-            EFFECTS[name].meaning,
-            "yes" if use.simulated else "no",
-            ", ".join(use.needed_by) or None,
-        )
+        (name.replace("_", " "), EFFECTS[name].meaning, ", ".join(use.needed_by) or None)
         for name, use in uses.items()
+        if use.simulated
     ]
+    idle = [name.replace("_", " ") for name, use in uses.items() if not use.simulated]
     words = (
         f"Asked for: {', '.join(asked)}. Only the effects that these need were simulated; the first order of force and "
         "moment needs nothing but masses and geometry."
     )
-    heads = ["effect", "<what it simulates", "simulated", "<for"]
-    return Chapter("Which effects were simulated", (Paragraph(words), table("", heads, rows)))
+    rest = (Paragraph(f"Not simulated: {', '.join(idle)}."),) if idle else ()
+    heads = ["effect", "<what it simulates", "<for"]
+    return Chapter("Which effects were simulated", (Paragraph(words), table("", heads, rows), *rest))
 
 
 def versions() -> dict[str, str]:
@@ -52,6 +52,14 @@ def body(request: ReportRequest) -> dict[str, Any]:
 def request_json(request: ReportRequest) -> str:
     """The request as it was read: SI units, defaults filled in, sorted keys, ASCII only."""
     return "\n".join(_lines(body(request), _LINE))
+
+
+def _without_pixels(found: dict[str, Any]) -> dict[str, Any]:
+    """The request as it is listed: of a logo, which nobody reads, the beginning."""
+    head = found.get("document", {})
+    if head.get("logo") is None:
+        return found
+    return {**found, "document": {**head, "logo": f"{head['logo'][:_SHOWN]}..."}}
 
 
 def _lines(value: Any, room: int, before: int = 0) -> Iterator[str]:
@@ -93,8 +101,8 @@ def digest(request: ReportRequest) -> str:
     return hashlib.sha256(content.encode()).hexdigest()
 
 
-def appendix(request: ReportRequest) -> Chapter:
-    """The request and its digest."""
+def appendix(request: ReportRequest, at: str) -> Chapter:
+    """The request, then versions, time and its digest."""
     own = [name for name in _DOCUMENTS if name in request.model_fields_set]
     without = f" without {' and '.join(own)}" if own else ""
     words = (
@@ -106,7 +114,9 @@ def appendix(request: ReportRequest) -> Chapter:
         "Its digest is SHA-256 of the JSON without blanks and with sorted keys, in Python "
         'hashlib.sha256(json.dumps(request, sort_keys=True, separators=(",", ":")).encode()).hexdigest():'
     )
+    used = ", ".join(f"{name} {version}" for name, version in versions().items())
+    made = facts("", [("computed with", used), ("at", at), ("digest of the request", digest(request))])
     return Chapter(
         "Appendix: request",
-        (Paragraph(words), Paragraph(check), Listing(digest(request)), Listing(request_json(request))),
+        (Paragraph(words), Listing("\n".join(_lines(_without_pixels(body(request)), _LINE))), Paragraph(check), made),
     )

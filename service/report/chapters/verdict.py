@@ -7,33 +7,39 @@ from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import CeilingField
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
-from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, digits, facts, table
+from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
 from service.report.chapters.balance import limits, shown, which
+from service.report.chapters.built import decision
 from service.report.formula import formula
+from service.tables.as_built import AsBuilt
 
 _CEILINGS: Mapping[CeilingField, str] = {
     "force_ceiling_N": "force",
     "force_ceiling_x_N": "force along x",
     "force_ceiling_y_N": "force along y",
     "moment_ceiling_Nm": "moment",
-    "moment_ceiling_x_Nm": "moment along x",
-    "moment_ceiling_y_Nm": "moment along y",
+    "moment_ceiling_x_Nm": "horizontal couple",
+    "moment_ceiling_y_Nm": "vertical couple",
     "bearing_ceiling_N": "bearing loads",
     "specific_load_ceiling_Pa": "specific bearing loads",
     "bending_ceiling_Nm": "bending moments",
 }
 
 
-def result(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
+def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
     """The answer in plain words and a few figures."""
     was, (_, left) = answer.residual.before, shown(answer)
     if answer.infeasibility is not None:
         words: list[Block] = list(reachable(request.objective, answer.infeasibility))
     else:
         words = [_certified(request, answer)]
+    if built is not None:
+        return Chapter("Result", (*words, *decision(answer, built)))
+    force, moment = was.force.peak_N, was.moment.peak_Nm
+    left_force, left_moment = (left.force.peak_N, left.moment.peak_Nm) if left else (None, None)
     rows = [
-        ("peak force, N", was.force.peak_N, left.force.peak_N if left else None, answer.floor.force_N),
-        ("peak moment, N m", was.moment.peak_Nm, left.moment.peak_Nm if left else None, answer.floor.moment_Nm),
+        ("peak force, N", force, settled(left_force, force), settled(answer.floor.force_N, force)),
+        ("peak moment, N m", moment, settled(left_moment, moment), settled(answer.floor.moment_Nm, moment)),
     ]
     heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
     figures = table("First-order peaks over a revolution", heads, rows)
@@ -66,7 +72,7 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
         )
     return Paragraph(
         "Proven optimal: no counterweights within these limits bring the objective below "
-        f"{digits(proof.lower_bound)}, and those below reach {digits(proof.objective)}. The difference is "
+        f"{prose(proof.lower_bound)}, and those below reach {prose(proof.objective)}. The difference is "
         f"{_percent(proof.relative_gap)} of the objective without counterweights.",
         "key",
     )
@@ -129,21 +135,21 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
                     "A lower bound in closed form on the smallest excess over the ceilings is above zero, which proves "
                     "that no counterweights satisfy them. Bounds of the same kind certify the smallest peaks, each "
                     "without the other ceiling: the force is never below "
-                    f"{digits(why.smallest_force_lower_bound_N)} N and the moment never below "
-                    f"{digits(why.smallest_moment_lower_bound_Nm)} N m."
+                    f"{prose(why.smallest_force_lower_bound_N)} N and the moment never below "
+                    f"{prose(why.smallest_moment_lower_bound_Nm)} N m."
                 ),
             ),
         )
     words = (
-        f"Without counterweights the objective is {digits(proof.objective_without_counterweights)}. The counterweights "
-        f"bring it to {digits(proof.objective)}, recomputed from their masses and angles. "
+        f"Without counterweights the objective is {prose(proof.objective_without_counterweights)}. The counterweights "
+        f"bring it to {prose(proof.objective)}, recomputed from their masses and angles. "
     )
     if proof.lower_bound is None or proof.relative_gap is None:
         words += "No lower bound is proven."
     else:
         words += (
             f"{_what_bounds(proof)} bring it below "
-            f"{digits(proof.lower_bound)}. Other counterweights gain at most {_percent(proof.relative_gap)} of the "
+            f"{prose(proof.lower_bound)}. Other counterweights gain at most {_percent(proof.relative_gap)} of the "
             "objective without counterweights."
         )
     blocks: list[Block] = [Paragraph(words), _bound()]
@@ -162,7 +168,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
         blocks.append(
             Paragraph(
                 f"Among all counterweights that reach this objective, none weigh less than "
-                f"{digits(proof.mass_lower_bound_kg)} kg together, by the same kind of bound."
+                f"{prose(proof.mass_lower_bound_kg)} kg together, by the same kind of bound."
             )
         )
         rows += [

@@ -7,13 +7,17 @@ from schemas.machine.machine import Machine
 from service.drawings.parts import parts
 from service.drawings.sheet import sheet
 from service.report.blocks import Chapter, Figure
+from service.tables.as_built import AsBuilt
 
 
-def sheets(machine: Machine, answer: OptimizeAnswer) -> Iterator[Chapter]:
+def sheets(machine: Machine, answer: OptimizeAnswer, built: AsBuilt | None) -> Iterator[Chapter]:
     """A sheet for each part number, where there are plates; the same as `/v1/drawings` has."""
-    found = parts(machine, (one for one in answer.counterweights if one.mass_kg > 0))
+    every = answer.counterweights if built is None else built.counterweights
+    found = parts(machine, (one for one in every if one.mass_kg > 0))
     if found:
-        yield Chapter("Workshop sheets", tuple(Figure((sheet(part),), _caption(len(part.places))) for part in found))
+        yield Chapter(
+            "Workshop sheets", tuple(Figure((sheet(part, built),), _caption(len(part.places))) for part in found)
+        )
 
 
 def _caption(pieces: int) -> str:

@@ -1,0 +1,34 @@
+"""The command that writes one table of the answer as CSV."""
+
+from pathlib import Path
+from pkgutil import resolve_name
+from typing import Annotated
+
+import typer
+
+from service.cli.terminal import File, answer, asked, fail, put
+from service.computations import COMPUTATIONS
+
+_PREFIX = "table_"
+NAMES = tuple(name.removeprefix(_PREFIX) for name in COMPUTATIONS if name.startswith(_PREFIX))
+
+NameOfTable = Annotated[str, typer.Argument(metavar="TABLE", help=f"One of: {', '.join(NAMES)}.")]
+Target = Annotated[
+    Path | None, typer.Option("-o", "--to", metavar="FILE.csv", help="File to write; else standard output.")
+]
+
+
+def table(name: NameOfTable, file: File, to: Target = None) -> None:
+    """Optimise a machine and write one table of the answer as CSV."""
+    if name not in NAMES:
+        fail(f"there is no table {name}; these are {', '.join(NAMES)}")
+    one = COMPUTATIONS[_PREFIX + name]
+    request, where = asked(one.asks, file)
+    written = resolve_name(one.forms[0].write)(answer(one.function, request, where))
+    if to is None:
+        put(written.decode().replace("\r\n", "\n").rstrip("\n"))
+        return
+    try:
+        to.write_bytes(written)
+    except OSError as error:
+        fail(f"cannot write {to}: {error.strerror}")

@@ -1,0 +1,156 @@
+"""What is fitted beside the optimum: counterweights, what they leave, and the tolerance that they bear.
+
+Figures are recomputed by the mechanics from the masses and angles that are fitted; nothing is certified of them.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import chain
+from typing import NamedTuple
+
+from optimizer.analyze import analyze
+from optimizer.errors import OutOfRange
+from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer
+from schemas.answer.counterweights import Counterweight
+from schemas.answer.first_order import FirstOrder
+from schemas.base.model import FieldProblem
+from schemas.machine.fitted import GivenCounterweight
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from service.tables.lines import Cell, Lines
+
+#: share of the objective without counterweights that what is off may cost
+ALLOWANCE = 0.01
+#: errors up to which the rise of a convex objective is at most in proportion to them [deg, per cent]
+_KNOWN = 1.0
+
+HEADS = (
+    "web", "optimum, kg", "as built, kg", "difference, kg", "tolerance, +- kg",
+    "optimum, deg", "as built, deg", "difference, deg", "tolerance, +- deg",
+)  # fmt: skip
+RESIDUAL_HEADS = ("first-order peak", "without counterweights", "optimum", "as built", "difference")
+
+
+class Tolerance(NamedTuple):
+    """Errors that all counterweights may have together, each alone; None where nothing is known."""
+
+    share: float | None
+    angle_deg: float | None
+
+
+class Pair(NamedTuple):
+    """A web with its optimum and what is fitted."""
+
+    web: str
+    optimum: Counterweight | None
+    built: Counterweight | None
+
+    @property
+    def masses(self) -> tuple[float, float]:
+        return _mass(self.optimum), _mass(self.built)
+
+    @property
+    def turned_deg(self) -> float | None:
+        """From the optimum to what is fitted, in [-180, 180); None where one of them is none."""
+        if self.optimum is None or self.built is None or not all(self.masses):
+            return None
+        return (self.built.angle_deg - self.optimum.angle_deg + 180.0) % 360.0 - 180.0
+
+
+@dataclass(frozen=True)
+class AsBuilt:
+    """What is fitted, evaluated.
+
+    counterweights : on the crankshaft and the balance shafts.
+    left : first-order force and moment with them.
+    tolerance : about the optimum.
+    """
+
+    counterweights: tuple[Counterweight, ...]
+    left: FirstOrder
+    total_mass_kg: float
+    pairs: tuple[Pair, ...]
+    tolerance: Tolerance
+
+
+def as_built(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt | None:
+    """What a request says is fitted; None where it says nothing."""
+    if not request.fitted:
+        return None
+    given = tuple(GivenCounterweight(**one.model_dump()) for one in request.fitted)
+    found = analyze(AnalyzeRequest(machine=request.machine, counterweights=given, outputs=("residual",)))
+    assert found.residual is not None  # it is asked for
+    assert found.residual.after is not None
+    built, optimum = _every(found), _every(answer)
+    pairs = tuple(_pairs(optimum, built))
+    return AsBuilt(built, found.residual.after, found.total_mass_kg, pairs, _tolerance(answer))
+
+
+def _every(answer: OptimizeAnswer | AnalyzeAnswer) -> tuple[Counterweight, ...]:
+    return (*answer.counterweights, *chain.from_iterable(shaft.counterweights for shaft in answer.balance_shafts))
+
+
+def _pairs(optimum: Sequence[Counterweight], built: Sequence[Counterweight]) -> Iterator[Pair]:
+    best, fitted = ({one.web: one for one in some} for some in (optimum, built))
+    for web in dict.fromkeys((*best, *fitted)):
+        yield Pair(web, best.get(web), fitted.get(web))
+
+
+def _tolerance(answer: OptimizeAnswer) -> Tolerance:
+    rise, proof = answer.sensitivity, answer.certificate
+    if rise is None or proof is None:
+        return Tolerance(None, None)
+    room = ALLOWANCE * proof.yardstick
+    share, angle = (
+        min(room / per, _KNOWN) if per > 0.0 else _KNOWN
+        for per in (rise.objective_rise_per_percent, rise.objective_rise_per_deg)
+    )
+    return Tolerance(share / 100.0, angle)
+
+
+def _mass(one: Counterweight | None) -> float:
+    return 0.0 if one is None else one.mass_kg
+
+
+def lines(found: AsBuilt) -> Lines:
+    """Headings, and a line for each web."""
+    return [[*HEADS], *(line(one, found.tolerance) for one in found.pairs)]
+
+
+def line(one: Pair, tolerance: Tolerance) -> list[Cell]:
+    """Cells under :data:`HEADS`."""
+    best, built = one.masses
+    off = None if tolerance.share is None else tolerance.share * best
+    angles = (_angle(one.optimum), _angle(one.built), one.turned_deg)
+    return [one.web, best, built, built - best, off, *angles, tolerance.angle_deg if best else None]
+
+
+def _angle(one: Counterweight | None) -> float | None:
+    return one.angle_deg if one is not None and one.mass_kg else None
+
+
+def residual(answer: OptimizeAnswer, found: AsBuilt) -> Lines:
+    """Peaks without counterweights, at the optimum, as built; cells under :data:`RESIDUAL_HEADS`, heads left out."""
+    was, best, now = answer.residual.before, answer.residual.after, found.left
+    rows: Lines = []
+    for name, values in (
+        ("force, N", [one.force.peak_N if one else None for one in (was, best, now)]),
+        ("moment, N m", [one.moment.peak_Nm if one else None for one in (was, best, now)]),
+        ("total mass, kg", [0.0, answer.total_mass_kg, found.total_mass_kg]),
+    ):
+        before, optimum, built = values
+        rows.append([name, before, optimum, built, None if optimum is None or built is None else built - optimum])
+    return rows
+
+
+def required(request: OptimizeRequest, answer: OptimizeAnswer) -> AsBuilt:
+    """The same where it is asked for by itself.
+
+    Raises
+    ------
+    OutOfRange
+        if the request says nothing of it.
+    """
+    found = as_built(request, answer)
+    if found is None:
+        raise OutOfRange([FieldProblem(("fitted",), "say what is fitted: there is nothing to set beside the optimum")])
+    return found

@@ -1,0 +1,57 @@
+"""Loads on the foundation as a table: a line for each load of each order, in N and kN."""
+
+from collections.abc import Iterator, Sequence
+
+from schemas.answer.foundation import FoundationLoad, OrderOfFoundation
+from service.tables.lines import Cell, Lines
+
+#: loads in the words of API 618, which has x level and y upright
+FORCES = {"force_x": "force along x", "force_y": "force along y"}
+COUPLES = {
+    "couple_of_x_forces": "horizontal couple",
+    "couple_of_y_forces": "vertical couple",
+}
+_LOADS = {**FORCES, **COUPLES}
+_KILO = 1e3
+
+
+def sets(loads: Sequence[OrderOfFoundation]) -> dict[str, str]:
+    """The sets of counterweights that loads are told of: the field of each, and its heading."""
+    built = any(one.as_built is not None for one in loads)
+    names = {"before": "without counterweights", "after": "optimum" if built else "with counterweights"}
+    headings = {**names, "as_built": "as built"}
+    return {name: words for name, words in headings.items() if any(getattr(one, name) is not None for one in loads)}
+
+
+def oscillation(load: FoundationLoad | None, name: str) -> tuple[float, float] | None:
+    """Amplitude [N or N m] and phase [deg] of one load of a set; None where the set has none."""
+    if load is None:
+        return None
+    part = getattr(load, name)
+    return (part.amplitude_N if name in FORCES else part.amplitude_Nm), part.phase_deg
+
+
+def lines(loads: Sequence[OrderOfFoundation]) -> Lines:
+    """The headings, and a line for each load of each order."""
+    shown = sets(loads)
+    heads = ["order", "load"]
+    for words in shown.values():
+        heads += [f"{words}, N or N m", f"{words}, kN or kN m", f"{words}, phase, deg"]
+    return [
+        [*heads, "phases count from shaft angle, deg"],
+        *(_line(one, name, list(shown)) for one, name in _each(loads)),
+    ]
+
+
+def _each(loads: Sequence[OrderOfFoundation]) -> Iterator[tuple[OrderOfFoundation, str]]:
+    for one in loads:
+        for name in _LOADS:
+            yield one, name
+
+
+def _line(one: OrderOfFoundation, name: str, shown: Sequence[str]) -> list[Cell]:
+    cells: list[Cell] = [one.order, _LOADS[name]]
+    for each in shown:
+        found = oscillation(getattr(one, each), name)
+        cells += [None] * 3 if found is None else [found[0], found[0] / _KILO, found[1]]
+    return [*cells, one.dead_centre_deg]

@@ -1,0 +1,123 @@
+"""As built is what is filed: beside the optimum in report, workbook, table and drawings."""
+
+import csv
+import io
+import json
+from math import radians
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optimizer.analyze import analyze
+from optimizer.errors import OutOfRange
+from optimizer.optimize import optimize
+from schemas.request.drawings import DrawingsRequest
+from schemas.request.report import ReportRequest
+from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from service.documents.examples import bodies
+from service.drawings.bill import as_csv
+from service.drawings.drawn import drawings
+from service.drawings.sheet import sheet
+from service.report.blocks import Number, Paragraph, Table
+from service.report.document import report
+from service.tables import as_built, tables
+from service.workbook.answers import answered
+from service.workbook.files import workbook_sheets
+from service.workbook.sheets import BUILT, read
+from tests.report_document.conftest import AT
+
+FITTED = [
+    {"web": "1a", "mass_kg": 60.0, "angle_deg": 180.0},
+    {"web": "1b", "mass_kg": 59.5, "angle_deg": 181.0},
+    {"web": "2a", "mass_kg": 52.5, "angle_deg": 359.0},
+]
+
+
+def request(**rest: Any) -> dict[str, Any]:
+    return {**bodies()["2d12"], "fitted": FITTED, **rest}
+
+
+def test_the_report_tells_what_the_mechanics_find_of_what_is_fitted() -> None:
+    """Independent: the same counterweights given to an analysis."""
+    asked = ReportRequest.model_validate(request())
+    alone = analyze(AnalyzeRequest.model_validate({"machine": request()["machine"], "counterweights": FITTED}))
+    best = optimize(asked.alone)
+    assert alone.residual is not None
+    assert alone.residual.after is not None
+    assert best.residual.after is not None
+    made = report(asked, AT)
+    found = {block.title: block for chapter in made.chapters for block in chapter.blocks if isinstance(block, Table)}
+    decision = found["Decision"]
+    assert [column.title for column in decision.columns][2:5] == ["optimum", "as built", "difference"]
+    values = [cell.value for cell in decision.rows[0] if isinstance(cell, Number)]
+    optimum, built = best.residual.after.force.peak_N, alone.residual.after.force.peak_N
+    assert values[1:4] == [optimum, built, built - optimum]
+    assert found["Optimum and as built"].rows[3][0] == "2b"
+    words = " ".join(block.text for block in made.chapters[0].blocks if isinstance(block, Paragraph))
+    assert "nothing is certified of it" in words
+
+
+def test_differences_and_tolerance() -> None:
+    asked = OptimizeRequest.model_validate(request())
+    answer = optimize(asked)
+    found = as_built.required(asked, answer)
+    lines = {line[0]: dict(zip(as_built.HEADS, line, strict=True)) for line in as_built.lines(found)[1:]}
+    # analytic: the shorter way round, and a web that carries nothing
+    assert lines["2a"]["difference, deg"] == pytest.approx(-1.0)
+    assert lines["2b"]["as built, kg"] == 0.0
+    assert lines["2b"]["as built, deg"] is None
+    # independent: all angles off by the tolerance cost the allowance at most
+    bears = found.tolerance
+    assert bears.angle_deg is not None
+    assert answer.certificate is not None
+    weight = 1.0 / 0.56
+    for side in (-1.0, 1.0):
+        turned = [
+            {"web": one.web, "mass_kg": one.mass_kg, "angle_deg": one.angle_deg + side * bears.angle_deg}
+            for one in answer.counterweights
+        ]
+        off = analyze(AnalyzeRequest.model_validate({"machine": request()["machine"], "counterweights": turned}))
+        assert off.residual is not None
+        assert off.residual.after is not None
+        objective = off.residual.after.force.peak_N + weight * off.residual.after.moment.peak_Nm
+        rise = objective - answer.certificate.objective
+        assert 0.0 < rise <= as_built.ALLOWANCE * answer.certificate.yardstick
+
+
+def test_the_workbook_and_the_table_hold_numbers_and_are_read_back() -> None:
+    asked = OptimizeRequest.model_validate(request())
+    sheets = workbook_sheets(answered(asked, optimize(asked)))
+    heads, *lines = tables.built(asked)
+    assert sheets[BUILT][0] == heads
+    for cells, line in zip(sheets[BUILT][1:5], lines, strict=True):
+        # a cell has 16 digits
+        assert [*cells, *(None,) * (len(line) - len(cells))] == [
+            pytest.approx(one, rel=1e-14) if isinstance(one, float) else one for one in line
+        ]
+    assert tuple(sheets[BUILT][6]) == as_built.RESIDUAL_HEADS
+    assert OptimizeRequest.model_validate(read(sheets).body) == asked
+    with pytest.raises(OutOfRange) as refused:
+        tables.built(OptimizeRequest.model_validate(request(fitted=[])))
+    assert refused.value.problems[0].path == ("fitted",)
+
+
+def test_drawings_are_of_what_is_built() -> None:
+    body = json.loads(Path("examples/drawings/2d12-plates.json").read_text())
+    best = drawings(DrawingsRequest.model_validate({**body, "counterweights": None}))
+    assert best.built is None
+    one = best.parts[0].places[0]
+    fitted = [{"web": one.web, "mass_kg": 0.9 * one.mass_kg, "angle_deg": one.angle_deg + 2.0}]
+    drawn = drawings(DrawingsRequest.model_validate({**body, "counterweights": None, "fitted": fitted}))
+    (part,) = drawn.parts
+    (place,) = part.places
+    assert place.mass_kg == pytest.approx(0.9 * one.mass_kg)
+    assert place.shape is not None
+    assert part.half_angle == radians(place.shape.half_angle_deg)
+    (row,) = csv.DictReader(io.StringIO(as_csv(drawn).decode()))
+    assert float(row["optimum, kg"]) == one.mass_kg
+    assert float(row["difference, kg"]) == place.mass_kg - one.mass_kg
+    assert float(row["difference, deg"]) == pytest.approx(2.0)
+    said = sheet(part, drawn.built).svg()
+    assert f"as built {place.mass_kg:.6g} kg; optimum {one.mass_kg:.6g} kg" in said
+    assert "tolerance ±" in said

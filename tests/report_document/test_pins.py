@@ -1,0 +1,78 @@
+"""Pins of a scroll as a table, a picture and a chapter: loads by pin, dead points, what is assumed."""
+
+import csv
+import io
+from math import pi, sin
+from xml.etree import ElementTree
+
+import pytest
+from starlette.testclient import TestClient
+
+from optimizer.pins.answer import pin_loads
+from schemas.scroll.pin_loads import PinLoadsRequest
+from service.app import create_app
+from service.computations import COMPUTATIONS
+from service.report.blocks import Number, Paragraph, Table
+from service.report.chapters.pins import loaded
+from service.settings import Settings
+from service.tables.pins import lines
+from tests.report_document.conftest import asked
+
+EVEN = {"pin_count": 3, "pin_circle_radius_m": 0.05, "rotation_torque_Nm": 12.5}
+
+
+def test_the_table_is_the_formula() -> None:
+    """Analytic: Q_i = 2 T/(n R) sin(theta - 2 pi (i - 1)/n)."""
+    heads, *rows = lines(pin_loads(PinLoadsRequest.model_validate(EVEN)))
+    assert heads == ["shaft angle, deg", "Q 1, N", "Q 2, N", "Q 3, N", "rotation torque, N m"]
+    assert len(rows) == 360
+    for angle, *loads, torque in rows:
+        assert torque == 12.5
+        for pin, load in enumerate(loads):
+            expected = 2 * 12.5 / (3 * 0.05) * sin(float(angle or 0.0) * pi / 180 - 2 * pi * pin / 3)
+            assert load == pytest.approx(expected, abs=1e-9)
+
+
+def test_dead_points_are_where_a_load_is_nothing() -> None:
+    request = PinLoadsRequest.model_validate(EVEN)
+    answer = pin_loads(request)
+    (chapter,) = loaded(request, answer)
+    tables = {block.title: block for block in chapter.blocks if isinstance(block, Table)}
+    data = tables["Dead points, stiffness and clearance"]
+    dead = [[cell.value for cell in row[1:3] if isinstance(cell, Number)] for row in data.rows]
+    # analytic: pins a third of a revolution apart
+    assert [pytest.approx(one) for one in dead] == [[0, 180], [120, 300], [240, 60]]
+    for pin, angles in zip(answer.pins, dead, strict=True):
+        assert [pin.load_N[round(angle)] for angle in angles] == [pytest.approx(0.0, abs=1e-9)] * 2
+    assert [row[3] for row in data.rows] == ["equal"] * 3
+    assert len(tables["Q_i over the revolution"].rows) == 18
+    words = " ".join(block.text for block in chapter.blocks if isinstance(block, Paragraph))
+    assert "all pins have equal stiffness" in words
+
+
+def test_stiffness_and_clearance_are_in_view() -> None:
+    pins = [
+        {"angle_deg": 120 * k, "radius_m": 0.05, "stiffness_N_per_m": 2e7, "clearance_m": 1e-5 * k} for k in range(3)
+    ]
+    request = PinLoadsRequest.model_validate({"pins": pins, "rotation_torque_Nm": 12.5})
+    (chapter,) = loaded(request, pin_loads(request))
+    tables = {block.title: block for block in chapter.blocks if isinstance(block, Table)}
+    rows = tables["Dead points, stiffness and clearance"].rows
+    assert [row[3].value for row in rows if isinstance(row[3], Number)] == [2e7] * 3
+    assert [row[4].value for row in rows if isinstance(row[4], Number)] == [0.0, 1e-5, 2e-5]
+    assert "equal stiffness" not in " ".join(block.text for block in chapter.blocks if isinstance(block, Paragraph))
+
+
+def test_the_picture_draws_every_pin_and_a_crank_has_none() -> None:
+    one = COMPUTATIONS["picture_pin_loads"]
+    texts = [each.text for each in ElementTree.fromstring(one.function(asked("scroll-three-pins")).svg()).iter()]
+    assert {"pin 1", "pin 2", "pin 3"} <= set(texts)
+    with TestClient(create_app(Settings(), warm=False)) as client:
+        sent = client.post("/v1/scroll/pin-loads", json=EVEN, headers={"Accept": "text/csv"})
+        assert sent.status_code == 200
+        assert len(list(csv.reader(io.StringIO(sent.text)))) == 361
+        assert client.post("/v1/scroll/pin-loads", json=EVEN).headers["content-type"] == "application/json"
+        drawn = client.post("/v1/scroll/pin-loads", json=EVEN, headers={"Accept": "image/svg+xml"})
+        assert drawn.text.startswith("<svg")
+        body = asked("2d12").alone.model_dump(mode="json")
+        assert client.post("/v1/tables/pin_loads", json=body).status_code == 422
