@@ -9,6 +9,7 @@ from tests.browser.portal import ALL_PANELS, Portal, ask, cells
 
 ALWAYS = (
     "counterweights",
+    "foundation",
     "what-if",
     "versions",
     "hodographs",
