@@ -147,14 +147,15 @@ export class Parts {
   // one row each in a table; below it what has no column
   tabled(name, at, description, table) {
     const source = new ListSource(this.form, at, description);
+    const more = Object.keys(description.items.properties).some((field) => !table.columns.includes(field));
     return this.fold({ class: "group tabled" }, `${description.title} (${source.entries().length})`, at, () => {
       const inner = description.items.properties.rows && this.form.schema.describe(description.items.properties.rows);
       const rows = inner && new RowsSource(this.form, at, inner);
       return [
         this.grid(table, source),
         rows ? [h("h3", {}, "Rows"), this.grid(tableAt(`${at}/0/rows`), rows)] : [],
-        h("p", { class: "about" }, `${description.about}; everything else of each:`),
-        source.entries().map((_, index) => this.item(name, at, index, description, null)),
+        h("p", { class: "about" }, `${description.about}${more ? "; everything else of each:" : "."}`),
+        more ? source.entries().map((_, index) => this.item(name, at, index, description, null)) : [],
       ].flat();
     });
   }
