@@ -7,12 +7,13 @@ import { beside, figure, number, share } from "./format.js";
 import { ofTheShaft, refusal, weighed } from "./objective.js";
 import { order } from "./order.js";
 import { reports } from "./report.js";
+import { change, responses } from "./responses.js";
 import { scales } from "./scales.js";
 
 export function showAnswer(place, request, answer, outputs) {
   const { counterweights: fitted, balance_shafts: shafts } = found(answer);
   place.replaceChildren(
-    h("h2", { class: `status ${answer.status}` }, headline(answer)),
+    h("h2", { class: `status ${answer.status}` }, headline(request, answer)),
     ...(fitted.length ? [order(fitted)] : []),
     ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name)),
     h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m)),
@@ -26,15 +27,12 @@ export function showAnswer(place, request, answer, outputs) {
 // what was found, or the closest compromise where the ceilings cannot be met
 const found = (answer) => (answer.counterweights.length ? answer : answer.infeasibility?.closest ?? answer);
 
-function headline(answer) {
-  const { status, total_mass_kg: mass, residual } = answer;
+// what got worse is said as what got better is
+function headline(request, answer) {
+  const { status, total_mass_kg: mass } = answer;
   if (status === "infeasible") return "No counterweights meet these ceilings";
-  const [before, after] = [residual.before, residual.after];
-  const peaks = [["force", before.force.peak_N, after.force.peak_N], ["moment", before.moment.peak_Nm, after.moment.peak_Nm],
-    ...ofTheShaft(answer).map(([what, , was, now]) => [what, was, now]).filter(([, was, now]) => Math.abs(now - was) > 5e-5 * was)];
-  const changes = peaks.filter(([, was]) => was > 0)
-    .map(([what, was, now]) => `${what} ${now > was * (1 + 1e-9) ? "+" : "−"}${share(Math.abs(now / was - 1))}`).join(", ");
-  return `${figure(mass)} kg of counterweights: ${changes || "there was nothing to balance"}`;
+  const changes = responses(request, answer).map(change).filter(Boolean).join(", ");
+  return `${figure(mass)} kg of counterweights: ${changes || "nothing changes"}`;
 }
 
 // An engineer's sentences, from the certificate.
