@@ -36,9 +36,9 @@ function headline(request, answer) {
 }
 
 // An engineer's sentences, from the certificate.
-function proof(request, { status, certificate, infeasibility, floor, timing, residual }) {
+function proof(request, { status, certificate, infeasibility, floor, timing, residual, total_mass_kg: mass }) {
   if (infeasibility) return refusal(request, infeasibility);
-  const { objective, lower_bound: bound, gap, objective_without_counterweights: bare } = certificate;
+  const { objective, lower_bound: bound, relative_gap: gap, objective_without_counterweights: bare } = certificate;
   const how = weighed(request.objective);
   const small = 1e-6 * bare;
   const sentences = [];
@@ -46,20 +46,18 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
   else if (objective <= small) sentences.push(`These counterweights cancel ${how} completely. It was ${figure(bare)} without them.`);
   else if (bound === null) sentences.push(`Nothing is proven of these counterweights: ${figure(objective, 8)}, without any ${figure(bare, 8)}.`);
   else {
-    const near = share(Math.max(0, gap) / Math.max(bound, small));
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
-      + `this is within ${near} of it, at ${figure(objective, 8)}. Without counterweights it is ${figure(bare, 8)}.`);
+      + `these come to ${figure(objective, 8)}. The gap is ${gap === null ? "not known" : share(Math.max(0, gap))}. Without counterweights it is ${figure(bare, 8)}.`);
   }
-  if (status === "inaccurate") sentences.push("That is a wider margin than was asked for: take the figure as it stands, not as the optimum.");
+  if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
   if (certificate.mass_lower_bound_kg > 0) {
-    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg `
-      + `(proved to within ${share(Math.max(0, certificate.mass_relative_gap))}).`);
+    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg; these weigh ${figure(mass, 7)} kg.`);
   }
   const { force, moment } = residual.before;
   const rest = [floor.force_N > 1e-9 * force.peak_N ? `${figure(floor.force_N)} N of force` : null,
     floor.moment_Nm > 1e-9 * moment.peak_Nm ? `${figure(floor.moment_Nm)} N m of moment` : null].filter(Boolean);
   if (rest.length) sentences.push(`${rest.join(" and ")} turn${rest.length > 1 ? "" : "s"} against the shaft, which no counterweight on it can lower.`);
-  sentences.push(`Found and proved in ${figure(timing.total_ms, 3)} ms (${certificate.method}).`);
+  sentences.push(`Computed in ${figure(timing.total_ms, 3)} ms (${certificate.method}).`);
   return sentences;
 }
 
