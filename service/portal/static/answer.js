@@ -12,10 +12,12 @@ import { scales } from "./scales.js";
 
 export function showAnswer(place, request, answer, outputs) {
   const { counterweights: fitted, balance_shafts: shafts } = found(answer);
+  // what keeps no ceilings is nothing to fit
+  const title = answer.infeasibility ? "The closest compromise, which does not keep the ceilings" : undefined;
   place.replaceChildren(
     h("h2", { class: `status ${answer.status}` }, headline(request, answer)),
-    ...(fitted.length ? [order(fitted)] : []),
-    ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name)),
+    ...(fitted.length ? [order(fitted, null, title)] : []),
+    ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name, title)),
     h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m)),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
