@@ -14,6 +14,7 @@ from playwright.sync_api import ConsoleMessage, Locator, Page, Request
 ARTEFACTS = Path(__file__).parents[2] / "artefacts" / "portal"
 ALL_PANELS = (
     "counterweights",
+    "foundation",
     "what-if",
     "versions",
     "cranks",

@@ -9,6 +9,7 @@ from tests.browser.portal import ALL_PANELS, Portal, ask, cells
 
 ALWAYS = (
     "counterweights",
+    "foundation",
     "what-if",
     "versions",
     "hodographs",
@@ -97,6 +98,8 @@ def test_infeasible_ceilings_are_explained(portal: Portal) -> None:
     portal.input("/objective/force_ceiling_N").fill("1 kN")
     portal.optimise()
     assert "No counterweights meet these ceilings" in portal.page.locator("#answer h2").inner_text()
+    captions = portal.page.locator("#answer caption").all_inner_texts()
+    assert captions[0] == "The closest compromise, which does not keep the ceilings"
     # analytic: half of the unbalanced 26.07 kg turns against the shaft, whatever the counterweights
     floor = 26.07 * 0.14 * (500 * 3.141592653589793 / 30) ** 2 / 2
     assert f"{floor:,.0f}" in portal.page.locator(".proof").inner_text()

@@ -74,7 +74,9 @@ def test_versions_stand_side_by_side(portal: Portal) -> None:
     panel.get_by_label("compare slow").check()
     results, asked = panel.locator(".compared table").all()
     rows = {row[0]: row[1:] for row in cells(results)}
-    slow, fast = (_number(text) for text in rows["peak force, N"])
+    # the smaller one is marked, and the other says by how much it is above it
+    assert [text.partition(" (")[2] for text in rows["peak force, N"]] == ["best)", "+120 %)"]
+    slow, fast = (_number(text.partition(" (")[0]) for text in rows["peak force, N"])
     # analytic: forces grow with the square of the speed
     assert fast == pytest.approx(2.25 * slow, rel=1e-3)
     assert cells(asked) == [["machine speed_rpm", "600", "900"]]

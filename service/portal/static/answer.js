@@ -7,14 +7,17 @@ import { beside, figure, number, share } from "./format.js";
 import { ofTheShaft, refusal, weighed } from "./objective.js";
 import { order } from "./order.js";
 import { reports } from "./report.js";
+import { change, responses } from "./responses.js";
 import { scales } from "./scales.js";
 
 export function showAnswer(place, request, answer, outputs) {
   const { counterweights: fitted, balance_shafts: shafts } = found(answer);
+  // what keeps no ceilings is nothing to fit
+  const title = answer.infeasibility ? "The closest compromise, which does not keep the ceilings" : undefined;
   place.replaceChildren(
-    h("h2", { class: `status ${answer.status}` }, headline(answer)),
-    ...(fitted.length ? [order(fitted)] : []),
-    ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name)),
+    h("h2", { class: `status ${answer.status}` }, headline(request, answer)),
+    ...(fitted.length ? [order(fitted, null, title)] : []),
+    ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name, title)),
     h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m)),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
@@ -26,21 +29,18 @@ export function showAnswer(place, request, answer, outputs) {
 // what was found, or the closest compromise where the ceilings cannot be met
 const found = (answer) => (answer.counterweights.length ? answer : answer.infeasibility?.closest ?? answer);
 
-function headline(answer) {
-  const { status, total_mass_kg: mass, residual } = answer;
+// what got worse is said as what got better is
+function headline(request, answer) {
+  const { status, total_mass_kg: mass } = answer;
   if (status === "infeasible") return "No counterweights meet these ceilings";
-  const [before, after] = [residual.before, residual.after];
-  const peaks = [["force", before.force.peak_N, after.force.peak_N], ["moment", before.moment.peak_Nm, after.moment.peak_Nm],
-    ...ofTheShaft(answer).map(([what, , was, now]) => [what, was, now]).filter(([, was, now]) => Math.abs(now - was) > 5e-5 * was)];
-  const changes = peaks.filter(([, was]) => was > 0)
-    .map(([what, was, now]) => `${what} ${now > was * (1 + 1e-9) ? "+" : "−"}${share(Math.abs(now / was - 1))}`).join(", ");
-  return `${figure(mass)} kg of counterweights: ${changes || "there was nothing to balance"}`;
+  const changes = responses(request, answer).map(change).filter(Boolean).join(", ");
+  return `${figure(mass)} kg of counterweights: ${changes || "nothing changes"}`;
 }
 
 // An engineer's sentences, from the certificate.
-function proof(request, { status, certificate, infeasibility, floor, timing, residual }) {
+function proof(request, { status, certificate, infeasibility, floor, timing, residual, total_mass_kg: mass }) {
   if (infeasibility) return refusal(request, infeasibility);
-  const { objective, lower_bound: bound, gap, objective_without_counterweights: bare } = certificate;
+  const { objective, lower_bound: bound, relative_gap: gap, objective_without_counterweights: bare } = certificate;
   const how = weighed(request.objective);
   const small = 1e-6 * bare;
   const sentences = [];
@@ -48,20 +48,18 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
   else if (objective <= small) sentences.push(`These counterweights cancel ${how} completely. It was ${figure(bare)} without them.`);
   else if (bound === null) sentences.push(`Nothing is proven of these counterweights: ${figure(objective, 8)}, without any ${figure(bare, 8)}.`);
   else {
-    const near = share(Math.max(0, gap) / Math.max(bound, small));
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
-      + `this is within ${near} of it, at ${figure(objective, 8)}. Without counterweights it is ${figure(bare, 8)}.`);
+      + `these come to ${figure(objective, 8)}. The gap is ${gap === null ? "not known" : share(Math.max(0, gap))}. Without counterweights it is ${figure(bare, 8)}.`);
   }
-  if (status === "inaccurate") sentences.push("That is a wider margin than was asked for: take the figure as it stands, not as the optimum.");
+  if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
   if (certificate.mass_lower_bound_kg > 0) {
-    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg `
-      + `(proved to within ${share(Math.max(0, certificate.mass_relative_gap))}).`);
+    sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg; these weigh ${figure(mass, 7)} kg.`);
   }
   const { force, moment } = residual.before;
   const rest = [floor.force_N > 1e-9 * force.peak_N ? `${figure(floor.force_N)} N of force` : null,
     floor.moment_Nm > 1e-9 * moment.peak_Nm ? `${figure(floor.moment_Nm)} N m of moment` : null].filter(Boolean);
   if (rest.length) sentences.push(`${rest.join(" and ")} turn${rest.length > 1 ? "" : "s"} against the shaft, which no counterweight on it can lower.`);
-  sentences.push(`Found and proved in ${figure(timing.total_ms, 3)} ms (${certificate.method}).`);
+  sentences.push(`Computed in ${figure(timing.total_ms, 3)} ms (${certificate.method}).`);
   return sentences;
 }
 

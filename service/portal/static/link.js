@@ -29,8 +29,8 @@ export async function unpack(text) {
   return JSON.parse(new TextDecoder().decode(await through(new DecompressionStream("deflate-raw"), bytes)));
 }
 
-// what panels remember: what is traded, the chosen point of the front, the last sweep, the parts that were weighed
-const KEPT = ["point", "trade", "count", "sweep", "match"];
+// what panels remember: the unit of loads, what is traded, the chosen point of the front, the last sweep, the parts that were weighed
+const KEPT = ["unit", "point", "trade", "count", "sweep", "match"];
 
 // {example, request, open, kept}: an example stands for its request as long as nobody has edited it; "" is the empty machine
 export async function readLink(fragment) {

@@ -12,6 +12,7 @@ import { counterweights } from "./panels/counterweights.js";
 import { cranks } from "./panels/cranks.js";
 import { flywheel, mainBearings, rodLoads, torque } from "./panels/dynamics.js";
 import { hodographs, orders, overAngle } from "./panels/first_order.js";
+import { foundation } from "./panels/foundation.js";
 import { match } from "./panels/match.js";
 import { missing, offered, Panels } from "./panels/panels.js";
 import { pareto } from "./panels/pareto.js";
@@ -31,7 +32,7 @@ import { workbooks } from "./workbook.js";
 
 const MODEL = "OptimizeRequest";
 /** @type {{ id: string, title: string, output?: string, [more: string]: any }[]} */
-const PANELS = [counterweights, whatIf, versions, cranks, hodographs, turning, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, bearingCurves, pins, match, sweep];
+const PANELS = [counterweights, foundation, whatIf, versions, cranks, hodographs, turning, overAngle, orders, orderHodographs, stageScheme, pareto, accuracy, indicator, torque, rodLoads, flywheel, mainBearings, bearingCurves, pins, match, sweep];
 
 const schema = schemas();
 const examples = get("v1/examples");
@@ -52,7 +53,7 @@ const outputs = (of) => ({ machine: given }) => {
 };
 
 const run = new Run({
-  work, panels, embedding, schema, sketch, examples, form: () => form, outputs: { all: outputs(PANELS), first: outputs([hodographs, orders]) },
+  work, panels, embedding, schema, sketch, examples, form: () => form, outputs: { all: outputs(PANELS), first: outputs([hodographs, orders, foundation]) },
   context: { schema, model: MODEL, keep, adopt: (other) => take(other, null) },
 });
 const opening = new Opening({ take, complain: (error) => run.complain(error), open: (ids) => panels.open(ids), fresh: () => run.count === 0, work, form: () => form });

@@ -7,7 +7,7 @@ const MEASURES = { rms: "the largest root mean square of a bearing load", specif
 
 export const CEILINGS = {
   force_ceiling_N: "force", force_ceiling_x_N: "force along x", force_ceiling_y_N: "force along y",
-  moment_ceiling_Nm: "moment", moment_ceiling_x_Nm: "moment along x", moment_ceiling_y_Nm: "moment along y", bearing_ceiling_N: "bearing loads",
+  moment_ceiling_Nm: "moment", moment_ceiling_x_Nm: "couple of the x forces", moment_ceiling_y_Nm: "couple of the y forces", bearing_ceiling_N: "bearing loads",
   specific_load_ceiling_Pa: "specific bearing loads", bending_ceiling_Nm: "bending moment",
 };
 

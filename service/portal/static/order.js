@@ -12,8 +12,8 @@ function shaped({ shape, mass_kg: mass, fixed }) {
   return shape.chord_height_m === null ? `sector, ${half}` : `segment, chord at ${figure(1000 * shape.chord_height_m, 4)}, ${half}`;
 }
 
-export function order(counterweights, shaft = null) {
-  return table(`Counterweights to fit${shaft ? ` to balance shaft ${shaft}` : ""}`,
+export function order(counterweights, shaft = null, title = "Counterweights to fit") {
+  return table(`${title}${shaft ? ` to balance shaft ${shaft}` : ""}`,
     ["web", "mass, kg", "plane, mm", "radius, mm", "from own crank, °", "as drawn, °", "shape, mm"],
     counterweights.map((one) => (one.mass_kg > 0
       ? [one.web, number(one.mass_kg), millimetres(one.position_m), millimetres(one.radius_m), number(one.angle_from_crank_deg), number(one.angle_deg), shaped(one)]

@@ -88,7 +88,7 @@ export class Schema {
 
   list(node) {
     const items = this.describe(node.items);
-    return items.kind === "number" ? { kind: "numbers", items } : { kind: "list", items };
+    return items.kind === "number" ? { kind: "numbers", items } : { kind: "list", items, most: node.maxItems ?? Infinity };
   }
 
   // the least that a new thing needs; examples stand for what has no default

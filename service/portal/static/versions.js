@@ -1,5 +1,7 @@
 // Versions of machines under names, kept in this browser: what was asked and what came of it.
 
+import { responses } from "./responses.js";
+
 const PLACE = "counterweight-versions";
 const FIELDS = ["name", "at", "request", "result"];
 
@@ -22,10 +24,15 @@ export function keepVersions(list) {
   }
 }
 
-export const resultOf = ({ status, total_mass_kg: mass, residual, counterweights }) => ({
-  status, total_mass_kg: mass, force_peak_N: residual.after?.force.peak_N ?? null, moment_peak_Nm: residual.after?.moment.peak_Nm ?? null,
-  counterweights: counterweights.map(({ web, mass_kg, angle_deg }) => ({ web, mass_kg, angle_deg })),
+export const resultOf = (request, answer) => ({
+  status: answer.status, total_mass_kg: answer.total_mass_kg,
+  responses: responses(request, answer).map(({ name, unit, after }) => ({ name, unit, value: after })),
+  counterweights: answer.counterweights.map(({ web, mass_kg, angle_deg }) => ({ web, mass_kg, angle_deg })),
 });
+
+// what came of a version; those that were kept before there were responses have two peaks
+export const responsesOf = ({ responses: kept, force_peak_N: force, moment_peak_Nm: moment }) => kept
+  ?? [{ name: "force", unit: "N", value: force }, { name: "moment", unit: "N m", value: moment }];
 
 // [[pointer, value of each], ...] where requests differ
 export function differences(requests) {

@@ -8,6 +8,7 @@ import { ListSource, RowsSource } from "../grid/sources.js";
 import { get, join } from "../pointer.js";
 import { another } from "../schema.js";
 import { field } from "./fields.js";
+import { fieldsAt, shared, SIZES, titled } from "./sizes.js";
 
 const NOT_ASKED = new Set(["outputs"]);
 const SINGLE = new Set(["number", "text", "boolean", "choice", "numbers"]);
@@ -41,10 +42,12 @@ export class Parts {
   inside(object, pointer) {
     /** @type {Map<string, { plain: any[], more: any[], groups: any[] }>} */
     const sections = new Map();
-    for (const [name, node] of Object.entries(object.properties)) {
+    const chosen = Boolean(get(this.form.request, SIZES));
+    for (const [name, at, node] of fieldsAt(pointer, object.properties, this.form.schema, chosen)) {
       if (pointer === "" && NOT_ASKED.has(name)) continue;
-      const description = this.form.schema.describe(node);
-      const at = join(pointer, name);
+      const described = titled(at, this.form.schema.describe(node));
+      // the pieces stand among the sizes without a heading of their own
+      const description = pointer === SIZES ? { ...described, group: "" } : described;
       const value = get(this.form.request, at);
       const required = object.required.has(name);
       if (description.kind === "constant" || this.covered(at, description)) continue;
@@ -53,7 +56,7 @@ export class Parts {
       sections.set(heading, section);
       if (SINGLE.has(description.kind)) {
         const made = field(name, at, description, value, required, (given) => this.form.edit(at, given));
-        (required || value !== undefined || description.longest <= 64 ? section.plain : section.more).push(made);
+        (required || value !== undefined || description.longest <= 64 || pointer === SIZES ? section.plain : section.more).push(made);
       } else section.groups.push(this.part(name, at, description, required));
     }
     return [...sections].flatMap(([heading, section]) => this.section(sections.size > 1 ? heading : "", section));
@@ -105,12 +108,13 @@ export class Parts {
     const details = this.fold({ class: "group" }, description.title, at, () => {
       const remove = () => {
         this.form.put(at, undefined);
-        this.redraw(details, this.part(name, at, description, required), false);
+        if (shared(at)) this.form.refresh();
+        else this.redraw(details, this.part(name, at, description, required), false);
       };
       return [
         description.kind === "union" ? this.kind(name, at, description, required, () => details) : [],
         this.inside(shape, at),
-        optional && description.nullable ? h("button", { type: "button", click: remove }, `Remove ${label(name)}`) : [],
+        optional && description.nullable ? h("button", { type: "button", click: remove }, `Remove ${titled(at, {}).title?.toLowerCase() ?? label(name)}`) : [],
       ].flat(2);
     });
     return details;
@@ -120,8 +124,11 @@ export class Parts {
     const box = h("div", { class: "absent", dataset: { pointer: at } },
       h("button", { type: "button", click: () => {
         this.form.put(at, this.form.schema.blank(description));
-        this.redraw(box, this.part(name, at, description, required));
-      } }, `Add ${label(name)}`),
+        if (shared(at)) {
+          this.form.refresh();
+          this.form.opened(at)?.querySelector("summary")?.focus();
+        } else this.redraw(box, this.part(name, at, description, required));
+      } }, `Add ${titled(at, {}).title?.toLowerCase() ?? label(name)}`),
       h("span", { class: "about" }, ` ${description.about}`),
       h("p", { class: "error", id: `error-${at}` }));
     return box;
@@ -147,14 +154,15 @@ export class Parts {
   // one row each in a table; below it what has no column
   tabled(name, at, description, table) {
     const source = new ListSource(this.form, at, description);
+    const more = Object.keys(description.items.properties).some((field) => !table.columns.includes(field));
     return this.fold({ class: "group tabled" }, `${description.title} (${source.entries().length})`, at, () => {
       const inner = description.items.properties.rows && this.form.schema.describe(description.items.properties.rows);
       const rows = inner && new RowsSource(this.form, at, inner);
       return [
         this.grid(table, source),
         rows ? [h("h3", {}, "Rows"), this.grid(tableAt(`${at}/0/rows`), rows)] : [],
-        h("p", { class: "about" }, `${description.about}; everything else of each:`),
-        source.entries().map((_, index) => this.item(name, at, index, description, null)),
+        h("p", { class: "about" }, `${description.about}${more ? "; everything else of each:" : "."}`),
+        more ? source.entries().map((_, index) => this.item(name, at, index, description, null)) : [],
       ].flat();
     });
   }

@@ -1,23 +1,26 @@
-// What stands in the tables of throws, rows and webs: paths from the item, in the order of a spreadsheet.
+// What stands in the tables of throws, rows, webs, bearings and fitted weights: paths from the item, in the order of a spreadsheet.
 
 import { label } from "../format.js";
 
-const THROWS = { item: "throw", columns: ["name", "position_m", "crank_radius_m", "crank_angle_deg", "rotating_mass_kg"], groups: {} };
+const THROWS = { item: "throw", title: "throws", columns: ["name", "position_m", "crank_radius_m", "crank_angle_deg", "rotating_mass_kg"], groups: {} };
 const ROWS = {
-  item: "row", groups: { offsets: ["offset_m"] },
+  item: "row", title: "rows", groups: { offsets: ["offset_m"] },
   columns: ["name", "axis_deg", "reciprocating_mass_kg", "connecting_rod/length_m", "connecting_rod/mass_kg", "connecting_rod/reciprocating_share"],
 };
 const WEBS = {
-  item: "web", columns: ["name", "position_m", "counterweight_radius_m", "max_mass_kg"],
+  item: "web", title: "webs", columns: ["name", "position_m", "counterweight_radius_m", "max_mass_kg"],
   groups: {
     sectors: ["sector/centre_deg", "sector/half_angle_deg"],
     envelopes: ["envelope/shape", "envelope/inner_radius_m", "envelope/outer_radius_m", "envelope/thickness_m", "envelope/max_half_angle_deg"],
   },
 };
-/** @type {[RegExp, { item: string, columns: string[], groups: { [name: string]: string[] } }][]} */
+const BEARINGS = { item: "bearing", title: "main bearings", columns: ["name", "position_m", "diameter_m", "length_m"], groups: {} };
+const FITTED = { item: "weight", title: "fitted counterweights", columns: ["web", "mass_kg", "angle_deg"], groups: {} };
+/** @type {[RegExp, { item: string, title: string, columns: string[], groups: { [name: string]: string[] } }][]} */
 const TABLES = [
   [/^\/machine\/throws\/\d+\/rows$/, ROWS], [/^\/machine\/throws$/, THROWS],
   [/^\/machine(?:\/balance_shafts\/\d+)?\/webs$/, WEBS],
+  [/^\/machine\/bearings$/, BEARINGS], [/^\/fitted$/, FITTED],
 ];
 const ITEM = /^(.*)\/(\d+)\/([^\d].*)$/;
 

@@ -1,4 +1,4 @@
-// A table to type into: one row each for throws, rows of cylinders, or webs.
+// A table to type into: one row each for throws, rows of cylinders, webs, bearings or fitted weights.
 
 import { h } from "../dom.js";
 import { label, nameOf, written } from "../format.js";
@@ -6,6 +6,7 @@ import { get, join } from "../pointer.js";
 import { meant, quantity, read } from "../quantity.js";
 import { columnsOf, tableAt } from "./columns.js";
 import { copied } from "./copied.js";
+import { elsewhere, moved } from "./home.js";
 import { knownHeads, placed, withUnit } from "./paste.js";
 import { blankOf } from "./sources.js";
 
@@ -155,7 +156,7 @@ export class Grid {
       of("Duplicate", () => { this.source.add(this.current, entry().index); this.again(this.current + 1); }),
       of("Up", () => move(-1)), of("Down", () => move(1)),
       of("Remove", () => { this.source.remove(entry()); this.again(Math.max(0, this.current - 1)); }),
-      this.source.owners ? null : h("span", { class: "mirror" }, button("Mirror about", mirror), about, " m"),
+      this.source.items.properties.position_m ? h("span", { class: "mirror" }, button("Mirror about", mirror), about, " m") : null,
       this.table.item === "web" && this.form.request.machine?.throws ? button("Sectors opposite their cranks", () => this.opposite()) : null,
       button("Copy table", () => copied(this.text(), this.said)),
       Object.keys(this.table.groups).map((name) => button(label(name), () => this.toggle(name), { "aria-pressed": String(this.shown.has(name)) })));
@@ -193,6 +194,12 @@ export class Grid {
     // one value goes where the caret is; several tables are no table
     if ((!/[\t\n]/.test(text.trim()) && cell) || /\n[\t; \r]*\n\s*\S/.test(text)) return;
     event.preventDefault();
+    const other = elsewhere(this, text);
+    if (other) {
+      this.said.replaceChildren(h("p", { class: "error" }, `This is a table of ${other.table.title}: nothing was pasted here. `,
+        h("button", { type: "button", class: "small", click: () => moved(other, text) }, `Paste it into the ${other.table.title}`)));
+      return;
+    }
     const first = this.source.owners ? 2 : 1;
     const start = cell ? [...cell.parentElement.children].indexOf(cell) - first : this.source.owners ? -1 : 0;
     this.fill(text, cell ? [...this.body.children].indexOf(cell.parentElement) : 0, start, {});
@@ -201,6 +208,10 @@ export class Grid {
   fill(text, row, start, accepted) {
     const columns = this.pasteable();
     const { rows, places, unknown } = placed(text, columns, start + (this.source.owners ? 1 : 0), accepted);
+    if (row + rows.length > this.source.most) {
+      this.said.replaceChildren(h("p", { class: "error" }, `${rows.length} lines are more than the ${this.source.most} ${this.table.title} that a machine may have: nothing was pasted.`));
+      return 0;
+    }
     rows.forEach((cells, index) => {
       while (this.source.entries().length <= row + index) this.source.add();
       const before = this.source.entries()[row + index];
@@ -227,15 +238,19 @@ export class Grid {
     const { form: { schema }, source } = this;
     const row = source.items.properties.rows ? schema.describe(source.items.properties.rows).items : null;
     const rows = row ? columnsOf(schema, row, tableAt(`${source.pointer}/0/rows`), new Set()).filter(({ path }) => path !== "name") : [];
-    return [...(source.owners ? [{ path: "throw", name: "throw", head: "throw", kind: "owner" }] : []), ...this.columns, ...this.hidden,
+    const own = [...this.columns, ...this.hidden].map((column) => (column.path === "name" ? { ...column, also: this.table.item } : column));
+    return [...(source.owners ? [{ path: "throw", name: "throw", head: "throw", kind: "owner" }] : []), ...own,
       ...rows.map((column) => ({ ...column, path: `rows/0/${column.path}`, row }))];
   }
 
-  // how many of some heads are columns here; those of rows count beside those of throws
-  heads(cells) {
+  // how many columns here some heads name, those of rows beside those of throws, and how many that must be given they miss
+  fit(cells) {
     const all = this.pasteable();
     const own = knownHeads(cells, all.filter((column) => !column.row));
-    return own > 1 ? knownHeads(cells, all) : own;
+    return {
+      heads: own.size > 1 ? knownHeads(cells, all).size : own.size,
+      missing: all.filter(({ mandatory, nullable, row, path }, index) => mandatory && !nullable && !row && path !== "name" && !own.has(index)).length,
+    };
   }
 
   give(entry, name) {

@@ -17,16 +17,16 @@ export function headOf(head) {
   return [word?.trim() ?? "", unit?.trim() ?? ""];
 }
 
-// a head is its column's path, its last name, or how it is shown, with or without a unit
+// a head is its column's path, its last name, how it is shown, or what it names, with or without a unit
 function column(head, columns, accepted = {}) {
   const [word, unit] = headOf(head);
   const plain = (accepted[head] ?? word).toLowerCase();
-  const index = columns.findIndex(({ path, name, head: shown }) => [path, name, shown, shown.replace(/ /g, "_")].some((one) => one.toLowerCase() === plain));
+  const index = columns.findIndex(({ path, name, head: shown, also }) => [path, name, shown, shown.replace(/ /g, "_"), also ?? ""].some((one) => one.toLowerCase() === plain));
   return { index, unit };
 }
 
-// how many of some heads are known
-export const knownHeads = (heads, columns) => heads.filter((head) => head && column(head, columns).index >= 0).length;
+// the columns that some heads name
+export const knownHeads = (heads, columns) => new Set(heads.filter(Boolean).map((head) => column(head, columns).index).filter((index) => index >= 0));
 
 /**
  * What of a pasted table goes where.

@@ -3,10 +3,8 @@
 
 import { read } from "../quantity.js";
 import { nearest } from "../words.js";
+import { home, moved } from "./home.js";
 import { cellsOf, headOf, numeric, withUnit } from "./paste.js";
-
-const LISTS = ["/machine/throws", "/machine/webs"];
-const FEWEST_HEADS = 2;
 
 export class Sheet {
   // whether a text is tables at all
@@ -14,11 +12,12 @@ export class Sheet {
 
   constructor(form, text) {
     this.form = form;
-    for (const list of LISTS) form.opened(list);
     /** @type {{ grid: any, text: string }[]} */
     this.tables = [];
     /** @type {string[][]} */
     this.values = [];
+    /** @type {string[]} why a table has no place */
+    this.refusals = [];
     for (const block of blocksOf(text)) this.sort(block);
   }
 
@@ -29,11 +28,11 @@ export class Sheet {
     const first = cells.findIndex((line) => !named(line));
     this.values.push(...cells.slice(0, first < 0 ? undefined : first));
     if (first < 0) return;
-    const grids = LISTS.flatMap((list) => this.form.gridsOf(list));
     // a line of one word above the heads is a title
     const start = cells[first].filter(Boolean).length === 1 && lines.length > first + 1 ? first + 1 : first;
-    const known = grids.map((grid) => ({ grid, heads: grid.heads(cells[start]) })).sort((one, other) => other.heads - one.heads)[0];
-    if (known?.heads >= FEWEST_HEADS) this.tables.push({ grid: known.grid, text: lines.slice(start).join("\n") });
+    const grid = home(this.form, cells[start], start > first ? lines[first] : "");
+    if (grid && this.has(grid.table.item)) this.refusals.push(`There are two tables of ${grid.table.title}: paste one machine at a time.`);
+    else if (grid) this.tables.push({ grid, text: lines.slice(start).join("\n") });
     else this.values.push(...cells.slice(start));
   }
 
@@ -44,15 +43,13 @@ export class Sheet {
   // what was done, in words
   fill() {
     const unknown = this.values.filter((line) => !this.value(line)).map(([name]) => name);
-    const order = ["throw", "row", "web"];
+    const order = ["throw", "row", "web", "bearing", "weight"];
     const done = [...this.tables].sort((one, other) => order.indexOf(one.grid.table.item) - order.indexOf(other.grid.table.item)).map(({ grid, text }) => {
-      // the one that stands in its place by now
-      const now = this.form.gridsOf(grid.source.pointer).find((one) => one.table === grid.table);
-      const count = now.fill(text, 0, 0, {});
+      const count = moved(grid, text);
       return `${count} ${grid.table.item}${count === 1 ? "" : "s"}`;
     });
     if (this.values.length) this.form.refresh();
-    return `Pasted: ${[...done, ...this.values.filter(([name]) => !unknown.includes(name)).map(([name]) => name)].join(", ") || "nothing"}.`
+    return `${this.refusals.map((one) => `${one} `).join("")}Pasted: ${[...done, ...this.values.filter(([name]) => !unknown.includes(name)).map(([name]) => name)].join(", ") || "nothing"}.`
       + `${unknown.length ? ` Not understood: ${unknown.join(", ")}.` : ""}`;
   }
 

@@ -18,6 +18,7 @@ export class ListSource {
     this.form = form;
     this.pointer = pointer;
     this.items = description.items;
+    this.most = description.most;
   }
 
   entries() {
@@ -71,6 +72,11 @@ export class ListSource {
 }
 
 export class RowsSource extends ListSource {
+  constructor(form, pointer, description) {
+    super(form, pointer, description);
+    this.most = description.most * this.lists().length;
+  }
+
   lists() {
     return listed(this.form.request, this.pointer).map((_, index) => `${this.pointer}/${index}/rows`);
   }

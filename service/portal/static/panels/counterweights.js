@@ -7,7 +7,7 @@ const LIMITS = {
   max_mass: "mass", envelope: "envelope", max_centrifugal_force: "centrifugal force", sector: "sector", max_total_mass: "limit of the total mass",
   force_ceiling: "ceiling of the force", moment_ceiling: "ceiling of the moment",
   force_ceiling_x: "ceiling of the force along x", force_ceiling_y: "ceiling of the force along y",
-  moment_ceiling_x: "ceiling of the moment along x", moment_ceiling_y: "ceiling of the moment along y",
+  moment_ceiling_x: "ceiling of the couple of the x forces", moment_ceiling_y: "ceiling of the couple of the y forces",
   bearing_ceiling: "ceiling of the bearing loads", specific_load_ceiling: "ceiling of the specific bearing loads",
   bending_ceiling: "ceiling of the bending moment",
 };

@@ -6,8 +6,8 @@ import { closed, colours, line, overTurn, places, plot } from "../plots.js";
 import { calm, scales } from "../scales.js";
 
 const PARTS = [
-  { name: "force", unit: "N", x: "force_x_N", y: "force_y_N", floor: "force_N", peak: "peak_N" },
-  { name: "moment", unit: "N m", x: "moment_x_Nm", y: "moment_y_Nm", floor: "moment_Nm", peak: "peak_Nm" },
+  { name: "force", unit: "N", x: "force_x_N", y: "force_y_N", axes: ["force x", "force y"], floor: "force_N", peak: "peak_N" },
+  { name: "moment", unit: "N m", x: "moment_x_Nm", y: "moment_y_Nm", axes: ["couple of the x forces", "couple of the y forces"], floor: "moment_Nm", peak: "peak_Nm" },
 ];
 
 // the largest that is drawn, before and after
@@ -47,8 +47,8 @@ export const hodographs = {
         }
         if (radius > 0) traces.push({ x: turn.map((angle) => radius * Math.cos(angle)), y: turn.map((angle) => radius * Math.sin(angle)),
           name: "floor", mode: "lines", line: { color: floor, width: 1.5, dash: "dot" }, hoverinfo: "name" });
-        return { traces, layout: { height: 360, xaxis: { title: `${part.name} x, ${part.unit}`, ...range },
-          yaxis: { title: `${part.name} y, ${part.unit}`, scaleanchor: "x", ...range } },
+        return { traces, layout: { height: 360, xaxis: { title: `${part.axes[0]}, ${part.unit}`, ...range },
+          yaxis: { title: `${part.axes[1]}, ${part.unit}`, scaleanchor: "x", ...range } },
         label: `Hodograph of the ${part.name}. ${peaks(answer, part)} Floor ${figure(radius)} ${part.unit}.` };
       });
     }));
@@ -69,8 +69,8 @@ export const overAngle = {
         const last = hodograph.after ?? hodograph.before;
         const traces = [line(angles, size(hodograph.before), "before", { color: before, dash: "dash" })];
         if (hodograph.after) traces.push(line(angles, size(hodograph.after), "after", { color: after, width: 3 }));
-        traces.push(line(angles, last[part.x], "its x", { color: series[2], dash: "dot", width: 1.5 }),
-          line(angles, last[part.y], "its y", { color: series[3], dash: "dashdot", width: 1.5 }));
+        traces.push(line(angles, last[part.x], part.axes[0], { color: series[2], dash: "dot", width: 1.5 }),
+          line(angles, last[part.y], part.axes[1], { color: series[3], dash: "dashdot", width: 1.5 }));
         return { traces, layout: overTurn(`${part.name}, ${part.unit}`, angles, range),
           label: `First-order ${part.name} over the shaft angle. ${peaks(answer, part)}` };
       });

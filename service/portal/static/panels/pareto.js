@@ -1,4 +1,4 @@
-// The trade-off of any two responses, or of numbers: every point is a set of counterweights.
+// The trade-off of any two or three responses, or of numbers: every point is a set of counterweights.
 
 import { h, table } from "../dom.js";
 import { front } from "../drawing/front.js";
@@ -11,7 +11,11 @@ import { missing } from "./panels.js";
 const POINTS = 21;
 // over the whole turn a point takes several programs
 const POINTS_OVER_THE_TURN = 11;
+// as many as lie on a triangle of four to a side
+const POINTS_OF_THREE = 10;
 const USUAL = ["force", "moment"];
+// what the front of the first order does not take
+const PLAIN = /^(orders|bearing_measure|(bearing|specific_load|bending)_ceiling_.*)$/;
 const WORDS = { force: "peak force", moment: "peak moment", bearings: "largest bearing load", bending: "largest bending moment", mass: "total mass", roll: "roll moment" };
 const NEEDS = { bearings: ["rods", "bearings"], bending: ["rods", "bearings"], roll: ["rods"] };
 const WHY = {
@@ -23,8 +27,8 @@ const WHY = {
 };
 
 export const pareto = {
-  id: "pareto", title: "Trade-off of any two responses",
-  about: "Points that no other counterweights beat in both. Choose one to see its counterweights.",
+  id: "pareto", title: "Trade-off of any two or three responses",
+  about: "Points that no other counterweights beat in all that is traded. Choose one to see its counterweights.",
   async draw(body, context) {
     const { request, ask, keep, kept } = context;
     const again = (name, value) => {
@@ -34,8 +38,16 @@ export const pareto = {
     };
     const { choice, ends, found: answered } = chosenFrom(request.machine) ? counted(context, again) : await traded(context, again);
     body.replaceChildren(choice);
-    const { angles: _angles, fidelity: _fidelity, ...rest } = request;
-    const found = await answered(rest, ask);
+    const { angles: _angles, fidelity: _fidelity, fitted: _fitted, ...rest } = request;
+    let found;
+    try {
+      found = await answered(rest, ask);
+    } catch (error) {
+      if (error.name === "AbortError") throw error;
+      // the choice stays: another one may have an answer
+      body.append(h("p", { class: "error", role: "alert" }, [error.message, ...(error.errors ?? []).map((one) => `${one.pointer.slice(1).replaceAll("/", " ")}: ${one.message}.`)].join(" ")));
+      return;
+    }
     if (!found.points.length) {
       body.append(h("p", {}, "No counterweights satisfy the ceilings: there is no front."));
       return;
@@ -57,56 +69,69 @@ export const pareto = {
       return choose(index);
     };
     body.replaceChildren(...[choice, node,
-      h("div", { class: "slide" }, h("label", { for: "pareto-point" }, `Point, from ${ends}`), slider),
+      h("div", { class: "slide" }, h("label", { for: "pareto-point" }, `Point${ends ? `, from ${ends}` : ""}`), slider),
       found.reason || found.about ? h("p", { class: "about" }, WHY[found.reason] ?? found.about) : null, picked].filter(Boolean));
     const before = Number(kept.point) - 1;
     await choose(found.points[before] ? before : found.knee ?? 0);
   },
 };
 
-// {choice, ends, found}: two responses, and the front of them
+// {choice, ends, found}: two or three responses, and the front of them
 async function traded({ request, kept, schema }, again) {
   const names = (await schema).options("ParetoRequest", "responses").filter((name) => !missing({ needs: NEEDS[name] }, request.machine).length);
   const asked = kept.trade?.split(",") ?? USUAL;
-  const pair = new Set(asked).size === 2 && asked.every((name) => names.includes(name)) ? asked : USUAL;
+  const traded = [2, 3].includes(new Set(asked).size) && new Set(asked).size === asked.length && asked.every((name) => names.includes(name)) ? asked : USUAL;
   return {
-    choice: axes(names, pair, (chosen) => again("trade", chosen.join(","))),
-    ends: `least ${pair[0]} to least ${pair[1]}`,
-    found: (rest, ask) => frontOf(pair, rest, ask),
+    choice: axes(names, traded, (chosen) => again("trade", chosen.join(","))),
+    ends: traded.length === 2 ? `least ${traded[0]} to least ${traded[1]}` : "",
+    found: (rest, ask) => frontOf(traded, rest, ask),
   };
 }
 
 // which is traded for which; the one that is chosen twice makes the other give way
-function axes(names, [x, y], chosen) {
-  const select = (id, title, value, other, order) => h("div", { class: "choose" }, h("label", { for: id }, title),
-    h("select", { id, change: (event) => chosen(order(event.target.value, event.target.value === other ? value : other)) },
-      names.map((name) => h("option", { value: name, selected: name === value }, WORDS[name] ?? name))));
-  return h("div", { class: "controls" }, select("trade-x", "Trade", x, y, (mine, other) => [mine, other]), select("trade-y", "for", y, x, (mine, other) => [other, mine]));
+function axes(names, traded, chosen) {
+  const put = (place, name) => {
+    const made = [...traded];
+    const other = traded.indexOf(name);
+    if (other >= 0) made[other] = traded[place];
+    made[place] = name;
+    return chosen(made.filter(Boolean));
+  };
+  const select = (place, id, title) => h("div", { class: "choose" }, h("label", { for: id }, title),
+    h("select", { id, change: (event) => put(place, event.target.value) }, place === 2 ? h("option", { value: "" }, "nothing else") : null,
+      names.map((name) => h("option", { value: name, selected: name === traded[place] }, WORDS[name] ?? name))));
+  return h("div", { class: "controls" }, select(0, "trade-x", "Trade"), select(1, "trade-y", "for"), select(2, "trade-z", "and"));
 }
 
 // {points: [{values, total_mass_kg, counterweights, gap}], titles, bare, reason, knee}
-async function frontOf(pair, request, ask) {
-  if (pair.every((name, index) => name === USUAL[index])) {
-    const answer = await ask("v1/pareto", { ...request, points: POINTS });
+async function frontOf(traded, request, ask) {
+  // weights and the order of goals play no part in a front
+  const { bearing_weight: _bearing, bending_weight: _bending, roll_weight: _roll, priorities: _priorities, ...limits } = request.objective ?? {};
+  const objective = Object.fromEntries(Object.entries(limits).filter(([, value]) => value !== null));
+  const asked = { ...request, ...(request.objective ? { objective } : {}) };
+  if (traded.join() === USUAL.join() && !Object.keys(objective).some((name) => PLAIN.test(name))) {
+    const answer = await ask("v1/pareto", { ...asked, points: POINTS });
     const [found] = answer.fronts;
     const bare = answer.without_counterweights;
     return { ...found, titles: ["peak force, N", "peak moment, N m"], bare: [bare.force.peak_N, bare.moment.peak_Nm],
       points: found.points.map((one) => ({ ...one, values: [one.force_peak_N, one.moment_peak_Nm] })) };
   }
-  const [found] = (await ask("v1/pareto", { ...request, points: POINTS_OVER_THE_TURN, responses: pair })).trades;
+  const [found] = (await ask("v1/pareto", { ...asked, points: traded.length > 2 ? POINTS_OF_THREE : POINTS_OVER_THE_TURN, responses: traded })).trades;
   return { ...found, titles: found.responses.map((one) => `${WORDS[one.response] ?? one.response}, ${one.unit}`), bare: found.responses.map((one) => one.without_counterweights) };
 }
 
 function picture({ points, titles, bare, whole }, chosen, click) {
   const { before, after, mark } = colours();
+  const third = titles[2];
   const here = points[chosen].values;
   const of = (axis) => points.map(({ values }) => values[axis]);
   return {
     click,
     traces: [
-      { x: of(0), y: of(1), mode: "lines+markers", name: "front", meta: "front", line: { color: after },
-        marker: { size: 9, color: after }, customdata: points.map((point) => point.total_mass_kg),
-        hovertemplate: "%{x:.5~s}, %{y:.5~s}, %{customdata:.5~s} kg<extra></extra>" },
+      { x: of(0), y: of(1), mode: third ? "markers" : "lines+markers", name: "front", meta: "front", line: { color: after },
+        marker: third ? { size: 12, color: of(2), colorscale: "Viridis", colorbar: { title: { text: third, side: "right" } } } : { size: 9, color: after },
+        customdata: third ? of(2) : points.map((point) => point.total_mass_kg),
+        hovertemplate: `%{x:.5~s}, %{y:.5~s}, %{customdata:.5~s} ${third ? third.split(", ").at(-1) : "kg"}<extra></extra>` },
       { x: [here[0]], y: [here[1]], mode: "markers", name: "chosen", hoverinfo: "skip",
         marker: { size: 17, symbol: "circle-open", color: mark, line: { width: 3 } } },
       ...bare ? [{ x: [bare[0]], y: [bare[1]], mode: "markers", name: "without counterweights",
@@ -119,10 +144,11 @@ function picture({ points, titles, bare, whole }, chosen, click) {
 
 function show(place, machine, { points, titles }, index) {
   const point = points[index];
+  const weighed = titles.some((title) => title.startsWith(WORDS.mass));
   place.replaceChildren(
     h("h3", {}, `Point ${index + 1} of ${points.length}`),
-    table("The chosen point", [...titles, "all counterweights, kg", "proved to within"],
-      [[figure(point.values[0]), number(point.values[1]), number(point.total_mass_kg),
+    table("The chosen point", [...titles, ...(weighed ? [] : ["all counterweights, kg"]), "gap"],
+      [[figure(point.values[0]), ...point.values.slice(1).map((value) => number(value)), ...(weighed ? [] : [number(point.total_mass_kg)]),
         { number: true, text: point.certificate.relative_gap === null ? "none" : share(Math.max(0, point.certificate.relative_gap)) }]]),
     h("div", { class: "beside" }, front(machine, point.counterweights), counterweightTable(point.counterweights)));
 }

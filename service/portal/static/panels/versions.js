@@ -2,8 +2,8 @@
 
 import { h, table } from "../dom.js";
 import { saveJson } from "../files.js";
-import { figure, number } from "../format.js";
-import { differences, keepVersions, resultOf, versions as kept } from "../versions.js";
+import { figure, share } from "../format.js";
+import { differences, keepVersions, responsesOf, resultOf, versions as kept } from "../versions.js";
 
 const MOST_DIFFERENCES = 60;
 
@@ -26,7 +26,7 @@ export const versions = {
       let free = title;
       for (let count = 2; taken.has(free); count += 1) free = `${title} (${count})`;
       chosen.add(free);
-      save([...kept(), { name: free, at: new Date().toISOString(), request: structuredClone(request), result: resultOf(answer) }]);
+      save([...kept(), { name: free, at: new Date().toISOString(), request: structuredClone(request), result: resultOf(request, answer) }]);
     };
     const read = async (event) => {
       const [file] = event.target.files;
@@ -70,14 +70,30 @@ export const versions = {
 function results(some) {
   const webs = [...new Set(some.flatMap(({ result }) => result.counterweights.map((one) => one.web)))];
   const of = (title, value) => [title, ...some.map((one) => value(one.result))];
+  const all = new Map(some.flatMap(({ result }) => responsesOf(result)).map(({ name, unit }) => [name, unit]));
+  const valueOf = (name) => (result) => responsesOf(result).find((one) => one.name === name)?.value ?? null;
+  /** @type {[string, (result: any) => number | null][]} */
+  const names = [...[...all].map(([name, unit]) => /** @type {any} */ ([`peak ${name}, ${unit}`.replace("peak root", "root"), valueOf(name)])),
+    ["total mass, kg", (result) => result.total_mass_kg]];
   const weight = (web) => (result) => {
     const one = result.counterweights.find((each) => each.web === web);
     return { number: true, text: one ? `${figure(one.mass_kg)} kg at ${figure(one.angle_deg, 4)}°` : "–" };
   };
   return table("What came of them", ["", ...some.map((one) => one.name)], [
-    of("status", (result) => result.status), of("peak force, N", (result) => number(result.force_peak_N)),
-    of("peak moment, N m", (result) => number(result.moment_peak_Nm)), of("total mass, kg", (result) => number(result.total_mass_kg)),
+    of("status", (result) => result.status), ...names.map(([title, value]) => [title, ...ranked(some.map((one) => value(one.result)))]),
     ...webs.map((web) => of(web, weight(web)))]);
+}
+
+// the smallest is marked, and the others say by how much they are above it
+function ranked(values) {
+  const known = values.filter((value) => value !== null && value !== undefined);
+  const best = Math.min(...known);
+  const same = (value) => value <= best + 1e-6 * Math.abs(best);
+  return values.map((value) => {
+    const beside = value === null || value === undefined || known.every(same) ? ""
+      : same(value) ? " (best)" : best > 1e-9 * value ? ` (+${share(value / best - 1)})` : ` (+${figure(value - best)})`;
+    return { number: true, text: `${figure(value)}${beside}` };
+  });
 }
 
 function asked(some) {

@@ -1,0 +1,52 @@
+// What a machine answers, without counterweights and with them: every response that was weighed or limited.
+
+import { figure, share } from "./format.js";
+import { scales } from "./scales.js";
+
+// what is below this share of what there was is rounding
+const DUST = 1e-6;
+
+const largest = (values) => (values.every((value) => typeof value === "number") ? Math.max(...values) : null);
+const set = (value) => value !== undefined && value !== null && value !== 0;
+
+/**
+ * `after` is null where nothing was found.
+ * @param {any} request @param {any} answer
+ * @returns {{ name: string, unit: string, before: number, after: number | null }[]}
+ */
+export function responses({ machine, objective = {} }, answer) {
+  const { residual, main_bearings: shaft, roll } = answer;
+  const { before, after } = residual;
+  const scale = scales(machine, answer);
+  const turn = residual.turn;
+  const ofBearings = (of) => (when) => (shaft.bearings.every((one) => one[when]) ? largest(shaft.bearings.map((one) => one[when][of])) : null);
+  const row = (name, unit, of, size = 0) => {
+    const [was, now] = [of("before"), of("after")];
+    // a residue of rounding is nothing
+    return { name, unit, before: was, after: now !== null && Math.abs(now) < DUST * Math.max(was, size) ? 0 : now };
+  };
+  const state = { before, after };
+  const along = (part, axis, unit) => (when) => state[when]?.[part][`peak_${axis}_${unit}`] ?? null;
+  const axes = ["x", "y"].flatMap((axis) => [
+    objective[`force_ceiling_${axis}_N`] === undefined ? null : row(`force along ${axis}`, "N", along("force", axis, "N"), scale.force),
+    objective[`moment_ceiling_${axis}_Nm`] === undefined ? null : row(`couple of the ${axis} forces`, "N m", along("moment", axis, "Nm"), scale.moment)]);
+  return /** @type {any[]} */ ([
+    row("force", "N", (when) => state[when]?.force.peak_N ?? null, scale.force),
+    row("moment", "N m", (when) => state[when]?.moment.peak_Nm ?? null, scale.moment),
+    ...axes,
+    objective.orders === "all" && turn ? row("force of all orders", "N", (when) => turn[when]?.force_peak_N ?? null, scale.force) : null,
+    objective.orders === "all" && turn ? row("moment of all orders", "N m", (when) => turn[when]?.moment_peak_Nm ?? null, scale.moment) : null,
+    shaft ? row("bearing load", "N", ofBearings("peak_N")) : null,
+    shaft && objective.bearing_measure === "rms" ? row("root mean square of a bearing load", "N", ofBearings("rms_N")) : null,
+    shaft && (objective.bearing_measure === "specific" || set(objective.specific_load_ceiling_Pa)) ? row("specific bearing load", "Pa", ofBearings("specific_load_Pa")) : null,
+    shaft ? row("bending moment", "N m", (when) => (shaft.bending[`${when}_Nm`] ? largest(shaft.bending[`${when}_Nm`]) : null)) : null,
+    roll && set(objective.roll_weight) ? row("roll moment", "N m", (when) => roll[when]?.peak_Nm ?? null) : null,
+  ]).filter((one) => one !== null && one.before !== null);
+}
+
+// how a response has changed, in words; "" where it has not
+export function change({ name, unit, before, after }) {
+  if (after === null || Math.abs(after - before) <= 5e-5 * before || (after === 0 && before === 0)) return "";
+  if (before < DUST * after) return `${name} ${figure(before < 1e-9 * after ? 0 : before)} → ${figure(after)} ${unit}`;
+  return `${name} ${after > before ? "+" : "−"}${share(Math.abs(after / before - 1))}`;
+}

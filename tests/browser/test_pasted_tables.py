@@ -1,0 +1,97 @@
+"""Tables that are pasted find their place: bearings and fitted weights have one, and the wrong table is refused."""
+
+from typing import Any
+
+import pytest
+from playwright.sync_api import expect
+
+from tests.browser.portal import Portal
+
+BEARINGS = "Bearing;Position (mm);Diameter (mm)\nA;-400,5;180\nB;0;180\nC;400,5;180\n"
+READ = [("A", "-400.5 mm", "180 mm"), ("B", "0 mm", "180 mm"), ("C", "400.5 mm", "180 mm")]
+
+
+def _request(portal: Portal) -> Any:
+    portal.optimise()
+    return portal.bodies("/v1/optimize")[-1]
+
+
+def _bearings(request: Any) -> list[tuple[str, str, str]]:
+    return [(one["name"], one["position_m"], one["diameter_m"]) for one in request["machine"]["bearings"]]
+
+
+def test_bearings_pasted_beside_the_form_leave_the_throws(portal: Portal) -> None:
+    portal.open("v60")
+    before = portal.bodies("/v1/optimize")[-1]["machine"]
+    portal.paste("body", BEARINGS)
+    expect(portal.page.locator("#progress")).to_have_text("Pasted: 3 bearings. Press Optimise.")
+    request = _request(portal)
+    assert _bearings(request) == READ
+    assert [request["machine"][name] for name in ("throws", "webs")] == [before[name] for name in ("throws", "webs")]
+
+
+def test_bearings_pasted_into_throws_are_refused_with_their_place(portal: Portal) -> None:
+    portal.open("v60")
+    before = portal.bodies("/v1/optimize")[-1]["machine"]
+    portal.paste("#form .grid-throw .wide", BEARINGS)
+    said = portal.page.locator("#form .grid-throw .said")
+    expect(said).to_contain_text("This is a table of main bearings: nothing was pasted here.")
+    assert _request(portal)["machine"] == before
+    portal.paste("#form .grid-throw .wide", BEARINGS)
+    said.get_by_role("button", name="Paste it into the main bearings").click()
+    expect(portal.page.locator("#form .grid-bearing tbody tr")).to_have_count(3)
+    request = _request(portal)
+    assert _bearings(request) == READ
+    assert request["machine"]["throws"] == before["throws"]
+
+
+@pytest.mark.parametrize(
+    ("head", "table", "kind"),
+    [("Throw", "throws", "throw"), ("Web", "webs", "web"), ("Bearing", "bearings", "bearing")],
+)
+def test_the_head_of_a_table_gives_names(portal: Portal, head: str, table: str, kind: str) -> None:
+    portal.open("2d12")
+    portal.unfold("/machine/bearings")
+    portal.paste(f"#form .grid-{kind} .wide", f"{head}\tposition\ndrive end\t0,45\nfree end\t-0,45\n")
+    items = _request(portal)["machine"][table][:2]
+    assert [(one["name"], one["position_m"]) for one in items] == [("drive end", 0.45), ("free end", -0.45)]
+    assert portal.page.locator(f"#form .grid-{kind} .said").inner_text() == ""
+
+
+def test_fitted_weights_are_a_table(portal: Portal) -> None:
+    portal.open("2d12", ("foundation",))
+    portal.paste("body", "Web\tMass (kg)\tAngle (deg)\n1a\t30,5\t170\n2b\t25\t10\n")
+    expect(portal.page.locator("#progress")).to_have_text("Pasted: 2 weights. Press Optimise.")
+    assert _request(portal)["fitted"] == [
+        {"web": "1a", "mass_kg": 30.5, "angle_deg": 170},
+        {"web": "2b", "mass_kg": 25, "angle_deg": 10},
+    ]
+    assert "as built" in portal.panel("foundation").inner_text()
+
+
+@pytest.mark.parametrize(("title", "place"), [("", "bearings"), ("Main bearings\n", "bearings"), ("Webs\n", "webs")])
+def test_names_and_planes_alone_are_bearings_unless_a_title_says_otherwise(
+    portal: Portal, title: str, place: str
+) -> None:
+    portal.open("2d12")
+    before = portal.bodies("/v1/optimize")[-1]["machine"]
+    portal.paste("body", f"{title}Name\tPosition (mm)\nD\t-410\nE\t410\n")
+    expect(portal.page.locator("#progress")).to_have_text(f"Pasted: 2 {place}. Press Optimise.")
+    machine = _request(portal)["machine"]
+    assert [one["name"] for one in machine[place]][:2] == ["D", "E"]
+    assert machine["throws"] == before["throws"]
+
+
+def test_two_machines_and_ten_thousand_lines_are_refused(portal: Portal) -> None:
+    portal.open("2d12")
+    before = portal.bodies("/v1/optimize")[-1]["machine"]
+    webs = "Web\tposition\tcounterweight radius\nx\t0\t0,3\n"
+    portal.paste("body", f"{webs}\n{webs}")
+    expect(portal.page.locator("#progress")).to_contain_text(
+        "There are two tables of webs: paste one machine at a time."
+    )
+    portal.page.click("#undo")
+    portal.paste("#form .grid-web .wide", "Web\tposition\n" + "x\t0\n" * 10_000)
+    said = portal.page.locator("#form .grid-web .said")
+    expect(said).to_contain_text("10000 lines are more than the 500 webs that a machine may have: nothing was pasted.")
+    assert _request(portal)["machine"] == before
