@@ -1,4 +1,4 @@
-"""The table of what goes together in docs/api.md, cell by cell against what requests are refused (property)."""
+"""The table of docs/api/together.md, cell by cell against what requests are refused (property)."""
 
 import json
 import re
@@ -13,7 +13,7 @@ from schemas.match.request import MatchRequest
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
-from tests.docs.reading import ROOT, section
+from tests.docs.reading import ROOT, document
 
 Machine = dict[str, Any]
 CATALOGUE = "catalogue, holes, `max_counterweights`"
@@ -76,7 +76,7 @@ ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
 
 
 def cells() -> list[tuple[str, str, str]]:
-    rows = re.findall(r"^\|([^-].*)\|$", section("docs/api.md", "What goes together"), re.MULTILINE)
+    rows = re.findall(r"^\|([^-].*)\|$", document("docs/api/together.md"), re.MULTILINE)
     head, *body = [[cell.strip() for cell in row.split("|")] for row in rows]
     return [(row[0], over, cell) for row in body for over, cell in zip(head[1:], row[1:], strict=True) if cell]
 
