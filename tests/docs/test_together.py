@@ -59,7 +59,7 @@ FIELDS: dict[str, Callable[[Machine], None]] = {
 PARTS = {"class": "piston", "names": ["p"], "masses_kg": [5], "rows": [{"throw": 0, "row": 0}]}
 ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
     "ceilings, or a budget": (OptimizeRequest, {"objective": {"force_ceiling_N": 6e4}}),
-    "goals over the whole turn": (OptimizeRequest, {"objective": {"bearing_weight": 1}}),
+    "goals over a revolution": (OptimizeRequest, {"objective": {"bearing_weight": 1}}),
     "goals in their order: `priorities`": (OptimizeRequest, {"objective": {"priorities": [{"goal": "external"}]}}),
     "`orders: all` with a ceiling along an axis": (
         OptimizeRequest,
