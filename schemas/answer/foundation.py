@@ -9,7 +9,7 @@ from schemas.base.model import Model
 from schemas.base.quantities import Degrees, NewtonMetres, Newtons
 
 _PHASE = (
-    "phase in [0, 360): the load is A cos(order psi - phase), psi the turn of the shaft since the outer dead centre,"
+    "phase in [0, 360): the load is A cos(order psi - phase), psi the angle of the shaft since the outer dead centre,"
     " in the sense of rotation; 0 where the amplitude is 0"
 )
 

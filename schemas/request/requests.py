@@ -100,7 +100,7 @@ class OptimizeRequest(Scene, Ruled):
     fitted: tuple[FittedCounterweight, ...] = Field(
         (),
         max_length=MAX_WEBS,
-        description="counterweights that are fitted, as cast and set: told beside the optimum, and choose nothing;"
+        description="counterweights that are fitted, as cast and set: shown beside the optimum, and choose nothing;"
         " webs that are not named carry none but what is fixed",
         examples=[[{"web": "1a", "mass_kg": 24.5, "angle_deg": 180}]],
     )

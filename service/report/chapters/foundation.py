@@ -17,7 +17,7 @@ def foundation_loads(found: Sequence[OrderOfFoundation]) -> Chapter:
     still = [one for one in found if all(_still(getattr(one, name)) for name in sets)]
     shown = [one for one in found if one not in still]
     words = [
-        f"The load is A cos(k psi - phase): k the order, psi the turn of the shaft in its sense of rotation since the "
+        f"The load is A cos(k psi - phase): k the order, psi the angle of the shaft in its sense of rotation since the "
         f"outer dead centre of throw 1, first row (shaft angle {found[0].dead_centre_deg:g} deg). Forces act on the "
         "frame. Couples are sums of force times distance from the reference plane; that of the x forces turns about y.",
     ]
