@@ -28,7 +28,7 @@ from schemas.request.objective import Objective
 
 @remembered
 def span(machine: Machine) -> Reals:
-    """Axial span L of throws and webs, m; 1 m if that is zero (docs/api.md)."""
+    """Axial span L of throws and webs, m; 1 m if that is zero (docs/api/optimize.md)."""
     if isinstance(machine, ReciprocatingMachine):
         planes = [throw.position_m for throw in machine.throws]
     else:

@@ -14,7 +14,7 @@ _ROUNDING = 32.0 * np.finfo(float).eps
 
 
 class Oscillation(NamedTuple):
-    """A load along one axis, A cos(k psi - phase), psi the turn of the shaft since the dead centre."""
+    """A load along one axis, A cos(k psi - phase), psi the angle of the shaft since the dead centre."""
 
     amplitude: Real  # (...) N or N m
     phase_deg: Real  # (...) in [0, 360); 0 where the amplitude is 0

@@ -13,7 +13,7 @@ from optimizer.program.statement import Statement
 
 #: an excess that rounding alone may make, as a share of the size: solvers keep the ceilings they are given up to here
 CEILING_ROUNDING = 1e-13
-#: optima are within this share of the objective without counterweights (docs/api.md)
+#: optima are within this share of the objective without counterweights (docs/api/certificate.md)
 OPTIMUM_SHARE = 1e-6
 #: counterweights below this share of the largest are left out where the answer stays optimal
 NEGLIGIBLE = 1e-7

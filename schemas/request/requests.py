@@ -26,7 +26,7 @@ from schemas.request.objective import Objective
 from schemas.request.scenarios import MAX_SCENARIOS, Scenario, Tolerances, scenario_rules
 from schemas.request.scene import Scene
 
-#: ways round what does not go together, see "What goes together" in docs/api.md
+#: ways round what does not go together, see docs/api/together.md
 _FIX_THE_CHOICE = "choose without, then ask with the choice as fixed weights"
 
 

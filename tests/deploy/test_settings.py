@@ -46,7 +46,7 @@ def test_no_document_names_a_setting_that_there_is_not() -> None:
         *(f"COUNTERWEIGHT_{name}" for name in script),
         *(f"COUNTERWEIGHT_{name}" for name in compose),
     }
-    for file in [*DEPLOY.rglob("*"), *(ROOT / "docs").glob("*.md"), ROOT / "README.md"]:
+    for file in [*DEPLOY.rglob("*"), *(ROOT / "docs").rglob("*.md"), ROOT / "README.md"]:
         if file.is_file() and file.suffix != ".pyc":
             named = set(re.findall(r"\bCOUNTERWEIGHT_[A-Z_]+[A-Z]\b", file.read_text("utf-8")))
             assert named <= settings_variables() | others, file

@@ -10,9 +10,14 @@ import pytest
 ROOT = Path(__file__).parents[2]
 
 
-def section(document: str, heading: str) -> str:
-    """Text below a heading of the second rank."""
-    return (ROOT / document).read_text().split(f"\n## {heading}\n")[1].split("\n## ")[0]
+def document(name: str) -> str:
+    """Text of a file of the tree."""
+    return (ROOT / name).read_text()
+
+
+def section(name: str, heading: str) -> str:
+    """Text below a heading of the second rank in a document."""
+    return document(name).split(f"\n## {heading}\n")[1].split("\n## ")[0]
 
 
 def blocks(text: str) -> list[Any]:

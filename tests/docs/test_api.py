@@ -26,28 +26,34 @@ from service.common.problems import problem
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES
 from service.settings import Settings
-from tests.docs.reading import ROOT, agrees, blocks, section
+from tests.docs.reading import ROOT, agrees, blocks, document, section
 
-API = "docs/api.md"
+INDEX = document("docs/api.md")
+#: the pages by route in the order of the index: later calls go on from earlier ones
+PAGES = {name: document(f"docs/api/{name}.md") for name in re.findall(r"\]\(api/([\w-]+)\.md\)", INDEX)}
 _CALL = re.compile(r"```sh\n(.*?)```\n(?:\n```text\n(.*?)```)?", re.DOTALL)
 _WRITTEN = "http://127.0.0.1:8000"
 
 
-def first_column(heading: str) -> list[str]:
+def first_column(page: str, heading: str) -> list[str]:
     """Names in the first column of the tables of a section."""
-    rows = re.findall(r"^\| (`[^|]+) \|", section(API, heading), re.MULTILINE)
+    rows = re.findall(r"^\| (`[^|]+) \|", section(f"docs/api/{page}.md", heading), re.MULTILINE)
     return [name for row in rows for name in re.findall(r"`([^`]+)`", row)]
 
 
 def test_the_table_of_routes_is_complete() -> None:
     paths = create_app(Settings()).openapi()["paths"]
-    head = (ROOT / API).read_text().split("\n## ")[0]
-    listed = [name for row in re.findall(r"^\| (.+?) \|", head, re.MULTILINE) for name in re.findall(r"`(.+?)`", row)]
+    listed = [name for row in re.findall(r"^\| (.+?) \|", INDEX, re.MULTILINE) for name in re.findall(r"`(.+?)`", row)]
     assert sorted(listed) == sorted(f"{method.upper()} {path}" for path, found in paths.items() for method in found)
 
 
+def test_the_index_leads_to_every_page_and_no_page_is_long() -> None:
+    assert sorted(PAGES) == sorted(path.stem for path in (ROOT / "docs" / "api").iterdir())
+    assert max(text.count("\n") for text in PAGES.values()) <= 200
+
+
 def test_the_calls_print_what_stands_below_them(url: str, tmp_path: Path) -> None:
-    calls = _CALL.findall((ROOT / API).read_text())
+    calls = _CALL.findall("".join(PAGES.values()))
     script = "".join(code.replace(_WRITTEN, url) for code, _ in calls)
     command = ["bash", "-euo", "pipefail", "-c", script]
     ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=300, check=False)
@@ -57,7 +63,7 @@ def test_the_calls_print_what_stands_below_them(url: str, tmp_path: Path) -> Non
 
 
 def test_the_request_its_answer_and_the_infeasible_one() -> None:
-    request, shown, infeasible = blocks(section(API, "POST /v1/optimize"))
+    request, shown, infeasible = blocks(PAGES["optimize"])
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
     request["objective"]["force_ceiling_N"] = 300
     found = optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json")
@@ -66,7 +72,7 @@ def test_the_request_its_answer_and_the_infeasible_one() -> None:
 
 
 def test_the_whole_turn() -> None:
-    request, shown, infeasible = blocks(section(API, "The whole turn"))
+    request, shown, infeasible = blocks(PAGES["revolution"])
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
     # analytic: an allowance is a share of the moment without counterweights, weighed by the span of 0.16 m
     found = optimize(OptimizeRequest.model_validate({**request, "objective": {}}))
@@ -78,23 +84,23 @@ def test_the_whole_turn() -> None:
 
 
 def test_the_balance_shafts() -> None:
-    request, shown = blocks(section(API, "Balance shafts"))
+    request, shown = blocks(PAGES["balance-shafts"])
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_scenarios_and_tolerances() -> None:
-    request, shown = blocks(section(API, "Scenarios and tolerances"))
+    request, shown = blocks(PAGES["scenarios"])
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_what_is_cut_from_a_plate() -> None:
-    request, shown = blocks(section(API, "Cut from a plate"))
+    request, shown = blocks(PAGES["plates"])
     agrees(shown, optimize(OptimizeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_what_a_shadow_price_promises() -> None:
     """Analytic: below the optimum mass every kilogram takes R omega^2 = 877.3 N off the peak."""
-    request, *_ = blocks(section(API, "POST /v1/optimize"))
+    request, *_ = blocks(PAGES["optimize"])
     before = optimize(OptimizeRequest.model_validate(request)).certificate
     request["machine"]["max_total_mass_kg"] += 0.1
     after = optimize(OptimizeRequest.model_validate(request)).certificate
@@ -104,36 +110,34 @@ def test_what_a_shadow_price_promises() -> None:
 
 
 def test_the_methods_of_the_certificate() -> None:
-    listed = re.findall(
-        r"`((?:interior point|cone program|closed form|cuts), [^`]+)` ?[|,]", section(API, "POST /v1/optimize")
-    )
+    listed = re.findall(r"`((?:interior point|cone program|closed form|cuts), [^`]+)` ?[|,]", PAGES["certificate"])
     finer = [precision.name for precision in finer_numbers.PRECISIONS]
     assert listed == [solution.INTERIOR_POINT, solution.CONE_PROGRAM, *finer, solution.CLOSED_FORM, cuts.METHOD]
 
 
 def test_the_machine_with_gas() -> None:
-    _, request, shown = blocks(section(API, "POST /v1/analyze"))
+    _, request, shown = blocks(section("docs/api/analyze.md", "POST /v1/analyze"))
     agrees(shown, analyze(AnalyzeRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_front() -> None:
-    (shown,) = blocks(section(API, "POST /v1/pareto"))
+    (shown,) = blocks(section("docs/api/studies.md", "POST /v1/pareto"))
     request = ParetoRequest.model_validate({**bodies("")["2d12"], "points": 3})
     agrees(shown, pareto(request).model_dump(mode="json"))
 
 
 def test_the_rating() -> None:
-    request, shown = blocks(section(API, "POST /v1/rating"))
+    request, shown = blocks(PAGES["rating"])
     agrees(shown, rate(RatingRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_matching() -> None:
-    request, shown = blocks(section(API, "POST /v1/match"))
+    request, shown = blocks(PAGES["match"])
     agrees(shown, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_effects() -> None:
-    (shown,) = blocks(section(API, "GET /v1/effects"))
+    (shown,) = blocks(section("docs/api/analyze.md", "GET /v1/effects"))
     found = catalogue().model_dump(mode="json")
     for key, entries in shown.items():
         by_name = {one["name"]: one for one in found[key]}
@@ -142,15 +146,15 @@ def test_the_effects() -> None:
 
 
 def test_the_table_of_outputs_is_complete() -> None:
-    assert first_column("POST /v1/analyze") == list(get_args(OutputName))
+    assert first_column("analyze", "POST /v1/analyze") == list(get_args(OutputName))
 
 
 def test_the_table_of_scopes_is_complete() -> None:
-    assert first_column("Keys") == list(SCOPES)
+    assert first_column("service", "Keys") == list(SCOPES)
 
 
 def test_the_table_of_problems_is_complete() -> None:
-    rows = re.findall(r"^\| (\d{3}) \| (.+?) \|", section(API, "Errors"), re.MULTILINE)
+    rows = re.findall(r"^\| (\d{3}) \| (.+?) \|", section("docs/api/service.md", "Errors"), re.MULTILINE)
     listed = {(int(status), kind) for status, kinds in rows for kind in re.findall(r"`(.+?)`", kinds)}
     found = set()
     for kind, describe in FAULTS.items():
@@ -164,6 +168,6 @@ def test_the_table_of_problems_is_complete() -> None:
 
 
 def test_the_examples_that_hold_an_objective_are_named() -> None:
-    words = section(API, "POST /v1/analyze").split("```")[0]
+    words = section("docs/api/analyze.md", "POST /v1/analyze").split("```")[0]
     refused = {name for name, body in bodies().items() if set(body) - set(AnalyzeRequest.model_fields)}
     assert {name for name in bodies() if f"`{name}`" in words} == refused

@@ -1,4 +1,4 @@
-"""The table of what goes together in docs/api.md, cell by cell against what requests are refused (property)."""
+"""The table of docs/api/together.md, cell by cell against what requests are refused (property)."""
 
 import json
 import re
@@ -13,7 +13,7 @@ from schemas.match.request import MatchRequest
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
-from tests.docs.reading import ROOT, section
+from tests.docs.reading import ROOT, document
 
 Machine = dict[str, Any]
 CATALOGUE = "catalogue, holes, `max_counterweights`"
@@ -59,7 +59,7 @@ FIELDS: dict[str, Callable[[Machine], None]] = {
 PARTS = {"class": "piston", "names": ["p"], "masses_kg": [5], "rows": [{"throw": 0, "row": 0}]}
 ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
     "ceilings, or a budget": (OptimizeRequest, {"objective": {"force_ceiling_N": 6e4}}),
-    "goals over the whole turn": (OptimizeRequest, {"objective": {"bearing_weight": 1}}),
+    "goals over a revolution": (OptimizeRequest, {"objective": {"bearing_weight": 1}}),
     "goals in their order: `priorities`": (OptimizeRequest, {"objective": {"priorities": [{"goal": "external"}]}}),
     "`orders: all` with a ceiling along an axis": (
         OptimizeRequest,
@@ -76,7 +76,7 @@ ASKED: dict[str, tuple[type[BaseModel], dict[str, Any]]] = {
 
 
 def cells() -> list[tuple[str, str, str]]:
-    rows = re.findall(r"^\|([^-].*)\|$", section("docs/api.md", "What goes together"), re.MULTILINE)
+    rows = re.findall(r"^\|([^-].*)\|$", document("docs/api/together.md"), re.MULTILINE)
     head, *body = [[cell.strip() for cell in row.split("|")] for row in rows]
     return [(row[0], over, cell) for row in body for over, cell in zip(head[1:], row[1:], strict=True) if cell]
 

@@ -13,7 +13,7 @@ from tests.hard.program import Body, Goal, Machine, Pair, Term, goal, machine
 
 #: proven gap at which a reference is good enough, relative to the objective without counterweights
 PROVEN = mp.mpf(10) ** -18
-#: optima are within this share of the objective without counterweights (docs/api.md)
+#: optima are within this share of the objective without counterweights (docs/api/certificate.md)
 OPTIMUM_SHARE = mp.mpf(10) ** -6
 #: a ceiling counts as kept up to this share of the larger of itself and the response without counterweights
 CEILING_TOLERANCE = mp.mpf(10) ** -9
