@@ -87,8 +87,7 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
 
     What nearly goes as far as it can goes so far. Other counterweights make up for it; the last is the cut as it is.
     """
-    size, limits = np.abs(cut.unbalance), whole.limits
-    held = (size >= limits.reach[0] * (1.0 - _NEAR)) | at_edge(limits, cut.unbalance[None], _NEAR)[0]
+    size, limits, held = np.abs(cut.unbalance), whole.limits, _at_limits(whole, cut)
     for near in _ONE_SIZE:
         near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
         order = np.lexsort((near_full, plates.kinds))
@@ -113,6 +112,25 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
             for u, opened in ((balanced, moved), (put, angle)):
                 yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
     yield cut
+
+
+def emptied(whole: Statement, plates: Plates, cut: Cut, empty: np.ndarray) -> Cut:
+    """The same with some webs (K,) bool left empty, for which counterweights between their limits make up."""
+    limits, put = whole.limits, np.where(empty, 0.0, cut.unbalance)
+    room = np.where(empty | _at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
+    change = whole.every_influence[0] @ (put - cut.unbalance)
+    balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
+    u = np.where(room > 0, limits.into(balanced[None])[0], put)
+    angle = np.where(room[plates.webs] > 0, plates.opened(np.abs(u[plates.webs])), cut.angle)
+    angle = np.where(empty[plates.webs], 0.0, angle)
+    return Cut(u, angle, float(total_mass(whole, plates, u, angle)))
+
+
+def _at_limits(whole: Statement, cut: Cut) -> np.ndarray:
+    """Webs (K,) that are all but full, or next to an edge of their sector."""
+    limits = whole.limits
+    full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - _NEAR)
+    return np.asarray(full | at_edge(limits, cut.unbalance[None], _NEAR)[0])
 
 
 def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
