@@ -58,19 +58,28 @@ def alike(
         return cut
     clusters = list(_clusters(plates, cut))
     apart = [each for each in clusters if each.high - each.low > _SAME * each.high]
-    held = np.abs(cut.unbalance) == 0.0
+    if not apart:
+        return cut
+    admitted = _admitted(whole, cut, optimum, least_mass)
+    empty = np.abs(cut.unbalance) == 0.0
+    every = empty.copy()
+    every[plates.webs[np.concatenate([each.places for each in clusters])]] = True
     if len(apart) > 1:
         # all at once, which mostly does
-        every = held.copy()
-        every[plates.webs[np.concatenate([each.places for each in clusters])]] = True
-        found = _opened(whole, plates, nodes, cut, every, apart, optimum, least_mass)
+        found = _opened(whole, plates, nodes, cut, every, apart, admitted)
         if found is not None:
             return found
-    for each in clusters if apart else ():
+    one_by_one, held, left = cut, empty.copy(), False
+    for each in clusters:
         held[plates.webs[each.places]] = True
         if each.high - each.low > _SAME * each.high:
-            cut = _opened(whole, plates, nodes, cut, held, [each], optimum, least_mass) or cut
-    return cut
+            found = _opened(whole, plates, nodes, one_by_one, held, [each], admitted)
+            one_by_one, left = found or one_by_one, left or found is None
+    if not left:
+        return one_by_one
+    # an optimum may be nearer to the smallest objective, and is then turned as that is
+    turned = _turned(whole, plates, nodes, cut, empty, admitted)
+    return _opened(whole, plates, nodes, turned, every, apart, admitted) or one_by_one
 
 
 def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
@@ -78,8 +87,7 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
 
     What nearly goes as far as it can goes so far. Other counterweights make up for it; the last is the cut as it is.
     """
-    size, limits = np.abs(cut.unbalance), whole.limits
-    held = (size >= limits.reach[0] * (1.0 - _NEAR)) | at_edge(limits, cut.unbalance[None], _NEAR)[0]
+    size, limits, held = np.abs(cut.unbalance), whole.limits, _at_limits(whole, cut)
     for near in _ONE_SIZE:
         near_full = np.where(cut.angle >= plates.most - near, plates.most, cut.angle)
         order = np.lexsort((near_full, plates.kinds))
@@ -104,6 +112,25 @@ def one_size(whole: Statement, plates: Plates, cut: Cut) -> Iterator[Cut]:
             for u, opened in ((balanced, moved), (put, angle)):
                 yield Cut(u, opened, float(total_mass(whole, plates, u, opened)))
     yield cut
+
+
+def emptied(whole: Statement, plates: Plates, cut: Cut, empty: np.ndarray) -> Cut:
+    """The same with some webs (K,) bool left empty, for which counterweights between their limits make up."""
+    limits, put = whole.limits, np.where(empty, 0.0, cut.unbalance)
+    room = np.where(empty | _at_limits(whole, cut), 0.0, np.abs(cut.unbalance))
+    change = whole.every_influence[0] @ (put - cut.unbalance)
+    balanced = put + made_up(limits.alike, whole.every_influence, room[None], change[None])[0]
+    u = np.where(room > 0, limits.into(balanced[None])[0], put)
+    angle = np.where(room[plates.webs] > 0, plates.opened(np.abs(u[plates.webs])), cut.angle)
+    angle = np.where(empty[plates.webs], 0.0, angle)
+    return Cut(u, angle, float(total_mass(whole, plates, u, angle)))
+
+
+def _at_limits(whole: Statement, cut: Cut) -> np.ndarray:
+    """Webs (K,) that are all but full, or next to an edge of their sector."""
+    limits = whole.limits
+    full = np.abs(cut.unbalance) >= limits.reach[0] * (1.0 - _NEAR)
+    return np.asarray(full | at_edge(limits, cut.unbalance[None], _NEAR)[0])
 
 
 def total_mass(whole: Statement, plates: Plates, u: Complex, angle: Real) -> Real:
@@ -137,6 +164,37 @@ def _clusters(plates: Plates, cut: Cut) -> Iterator[_Cluster]:
                 yield _Cluster(some, float(np.min(angle)), float(high), to_the_end)
 
 
+class _Admitted(NamedTuple):
+    """What a cut has to keep to be no worse than the one that is proven."""
+
+    bound: float  # proven of the objective
+    objective: float
+    excess: float  # relative, over the ceilings
+    mass: float  # kg
+    least_mass: bool  # the mass counts
+
+
+def _admitted(whole: Statement, cut: Cut, optimum: tuple[float, float], least_mass: float) -> _Admitted:
+    u = cut.unbalance
+    heaviest = max(cut.mass, least_mass / (1.0 - _OF_MASS * MASS_GAP))
+    return _Admitted(
+        optimum[0],
+        float(np.maximum(optimum[1], whole.objective(u)[0])),
+        float(np.maximum(excess_at(whole, u[None])[0], CEILING_ROUNDING)),
+        min(heaviest, max(cut.mass, float(whole.limits.max_total_mass[0]))),
+        bool(np.isfinite(least_mass)),
+    )
+
+
+def _turned(whole: Statement, plates: Plates, nodes: Real, cut: Cut, empty: np.ndarray, admitted: _Admitted) -> Cut:
+    """The same with every counterweight turned to where it is for the smallest objective, and no heavier."""
+    share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
+    smallest = _others(whole, plates, nodes, empty, np.zeros_like(cut.unbalance)[None], share, False)[0]
+    size = np.abs(smallest)
+    turned = np.abs(cut.unbalance) * smallest / np.where(size > 0, size, 1.0)
+    return cut._replace(unbalance=np.where(size > 0, turned, cut.unbalance))
+
+
 def _opened(
     whole: Statement,
     plates: Plates,
@@ -144,8 +202,7 @@ def _opened(
     before: Cut,
     held: np.ndarray,
     clusters: Sequence[_Cluster],
-    optimum: tuple[float, float],
-    least_mass: float,
+    admitted: _Admitted,
 ) -> Cut | None:
     """The same with the plates of each cluster opened alike, None where that is worse.
 
@@ -157,21 +214,18 @@ def _opened(
     webs, size = plates.webs[places], [each.places.size for each in clusters]
     low, high = (np.repeat([getattr(each, name) for each in clusters], size) for name in ("low", "high"))
     full, u = any(each.full for each in clusters), before.unbalance
-    largest = float(np.maximum(optimum[1], whole.objective(u)[0]))
-    heaviest = max(before.mass, least_mass / (1.0 - _OF_MASS * MASS_GAP))
-    heaviest = min(heaviest, max(before.mass, float(whole.limits.max_total_mass[0])))
     for _ in range(_ROUNDS):
         openings = np.repeat(before.angle[None], _TRIED, axis=0)
         openings[:, places] = np.linspace(low, high, _TRIED)
         tried = np.repeat(u[None], _TRIED, axis=0)
         tried[:, webs] = plates.unbalance(openings)[:, places] * (u[webs] / np.abs(u[webs]))
-        share = _OF_OBJECTIVE * (largest - optimum[0])
-        tried = _others(many, plates, nodes, held, tried, share, np.isfinite(least_mass))
-        close = many.objective(tried) <= largest + many.rounding(tried)
-        close &= excess_at(many, tried) <= np.maximum(excess_at(whole, u[None])[0], CEILING_ROUNDING)
+        share = _OF_OBJECTIVE * (admitted.objective - admitted.bound)
+        tried = _others(many, plates, nodes, held, tried, share, admitted.least_mass)
+        close = many.objective(tried) <= admitted.objective + many.rounding(tried)
+        close &= excess_at(many, tried) <= admitted.excess
         opened = plates.opened(np.abs(tried[:, plates.webs]))
         mass = total_mass(whole, plates, tried, opened)
-        light = mass <= heaviest
+        light = mass <= admitted.mass
         if np.any(close & light):
             best = -1 if full and close[-1] & light[-1] else int(np.argmax(close & light))
             return Cut(tried[best], opened[best], float(mass[best]))

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from optimizer.choices.equal_plates import Cut, alike, one_size, total_mass
+from optimizer.choices.equal_plates import Cut, alike, emptied, one_size, total_mass
 from optimizer.choices.plate_guess import guessed
 from optimizer.choices.plate_pieces import Pieces, Webs, chords, closer_nodes, first_nodes, pieces, tangents
 from optimizer.formulation.demand import demand
@@ -44,6 +44,10 @@ _ROUNDS = 12
 _WITH_CHORDS = 0.99
 #: how often it is guessed where
 _GUESSES = 3
+#: how often a point without some webs is sought, each time about what was found before
+_CLEARINGS = 4
+#: of the way from one cut to another
+_PARTS = np.linspace(0.0, 1.0, 17)[1:-1]
 #: masses that are not told apart are at most this many times as large with the radius that is cut as with the longest:
 #: the centre of half a disc is at 0.42 of its radius
 _NEARER = 2.5
@@ -72,17 +76,18 @@ def certified_shapes(
     task = _Task(request, whole, cut, omega_squared, solver, request.accuracy.relative_gap, every)
     nodes, tried = task.guessed(first_nodes(cut)), []
     for _ in range(_ROUNDS):
-        found = task.round(nodes)
-        tried.append(found)
+        tried.append(task.round(nodes))
+        found = task.lightest(tried)
         if not task.too_heavy(found):
             asked, best = task.judged_alike(task.without_dust(found, nodes), nodes)
             if best.status[0] != "inaccurate":
                 return asked, best
         if thread_time() > end:
             break
-        nodes = closer_nodes(nodes, task.opened(found.called_for))
+        nodes = closer_nodes(nodes, task.opened(tried[-1].called_for))
     # of those that are equally near the last
-    return min((task.judged(found.proven, found.cut) for found in reversed(tried)), key=lambda each: _gap(each[1]))
+    attempts = (*reversed(tried), task.lightest(tried))
+    return min((task.judged(found.proven, found.cut) for found in attempts), key=lambda each: _gap(each[1]))
 
 
 def _gap(found: Certified) -> float:
@@ -158,6 +163,32 @@ class _Task:
         mass = float(total_mass(whole, self.plates, u, angle))
         return _Round(replace(proven, certify_s=spent), Cut(u, angle, mass), called_for)
 
+    def lightest(self, tried: Sequence[_Round]) -> _Round:
+        """The last round, or the lightest of all cuts with the largest bound of the mass: proofs hold for all cuts."""
+        *_, last = tried
+        if not self.request.objective.least_mass or last.proven.unreachable[0]:
+            return last
+        proven = max((each.proven for each in reversed(tried)), key=lambda each: float(each.mass_lower_bound[0]))
+        optima = [each.cut for each in tried if self._keeps(proven, each.cut)]
+        return _Round(proven, self._between(optima), last.called_for) if optima else last
+
+    def _between(self, optima: Sequence[Cut]) -> Cut:
+        """The lightest of some cuts and of what lies between it and them: objective and mass are convex."""
+        lightest = min(optima, key=lambda each: each.mass)
+        for other in optima:
+            u = lightest.unbalance + _PARTS[:, None] * (other.unbalance - lightest.unbalance)
+            angle = self.plates.opened(np.abs(u[:, self.plates.webs]))
+            mass = total_mass(self.whole, self.plates, u, angle)
+            n = int(np.argmin(mass))
+            if mass[n] < lightest.mass:
+                lightest = Cut(u[n], angle[n], float(mass[n]))
+        return lightest
+
+    def _keeps(self, proven: Optima, cut: Cut) -> bool:
+        """Whether a cut is an optimum by its objective."""
+        objective, rounding = self.whole.objective(cut.unbalance)[0], self.whole.rounding(cut.unbalance)[0]
+        return bool(not proven.unreachable[0] and objective <= self._largest(proven) + rounding)
+
     def _optimum(self, webs: Webs) -> tuple[Pieces, Optima]:
         laid, gap = pieces(self.whole, self.plates, webs, self.left), self.relative_gap
         if np.isfinite(self.whole.limits.max_total_mass[0]):
@@ -171,17 +202,27 @@ class _Task:
             empty = dust(self._masses(found.cut))
             if not empty.any():
                 break
-            left, share = left & ~empty, _WITH_ROOM * allowed
-            for _ in range(_GUESSES):
-                cleared = found._replace(cut=replace(self, left=left, relative_gap=share).round(nodes).cut)
+            rounded = found._replace(cut=emptied(self.whole, self.plates, found.cut, empty))
+            if self._optimal(found.proven, rounded.cut) is not None:
+                found, left = rounded, left & ~empty
+                continue
+            left, share, laid = left & ~empty, _WITH_ROOM * allowed, nodes
+            optima = list[Cut]()
+            for _ in range(_CLEARINGS):
+                other = replace(self, left=left, relative_gap=share).round(laid)
+                optima += [other.cut] if self._keeps(found.proven, other.cut) else []
+                cleared = found._replace(cut=self._between(optima) if optima else other.cut)
                 if self._optimal(found.proven, cleared.cut) is not None:
                     found = cleared
                     break
                 # the smallest objective of these webs is larger: what it is above is no longer to be spent on mass
-                over = float(self.whole.objective(cleared.cut.unbalance)[0] - self._largest(found.proven))
-                share -= max(1.01 * over / float(self.size[0]), (1.0 - _WITH_ROOM) * allowed)
+                over = float(self.whole.objective(other.cut.unbalance)[0] - self._largest(found.proven))
+                if over > 0.0:
+                    share -= max(1.01 * over / float(self.size[0]), (1.0 - _WITH_ROOM) * allowed)
                 if share <= 0.0:
                     return found
+                # what is too heavy is so because the nodes lie about other plates
+                laid = closer_nodes(laid, self.opened(other.called_for))
             else:
                 break
         return found
@@ -227,8 +268,7 @@ class _Task:
 
     def _optimal(self, proven: Optima, cut: Cut) -> tuple[OptimizeRequest, Certified] | None:
         """What may be claimed of another cut, None where that is not an optimum."""
-        objective, rounding = self.whole.objective(cut.unbalance)[0], self.whole.rounding(cut.unbalance)[0]
-        if not proven.unreachable[0] and objective > self._largest(proven) + rounding:
+        if not proven.unreachable[0] and not self._keeps(proven, cut):
             return None
         asked, best = self.judged(proven, cut)
         return (asked, best) if best.status[0] == "optimal" else None

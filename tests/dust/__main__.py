@@ -10,10 +10,12 @@ from tests.dust.modes import MODES
 def _summary(mode: str, found: list[Judgement]) -> int:
     """Print what a mode came to; how many machines are at fault."""
     dust, unlike = (sum(bool(getattr(each, name)) for each in found) for name in ("dust", "unlike"))
+    needed = sum(each.needed for each in found)
     cpu_s = sum(each.cpu_s for each in found)
     print(
         f"{mode:17} machines {len(found):5}, answers {sum(each.answers for each in found):6}, "
-        f"open {sum(each.open for each in found):3}, dust {dust:3}, unlike plates {unlike:3}, {cpu_s:6.1f} s CPU",
+        f"open {sum(each.open for each in found):3}, dust {dust:3}, needed {needed:2}, "
+        f"unlike plates {unlike:3}, {cpu_s:6.1f} s CPU",
         flush=True,
     )
     for each in found:

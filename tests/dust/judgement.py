@@ -24,6 +24,7 @@ class Judgement:
     answers: int
     open: int  # answers that are neither optimal nor infeasible
     dust: tuple[str, ...]  # what is wrong with each answer that is at fault
+    needed: int  # webs that carry next to nothing and of which it is proven that no such answer lacks them
     unlike: tuple[str, ...]
     cpu_s: float
 
@@ -38,10 +39,11 @@ def judgement(mode: str, seed: int) -> Judgement:
     began = time.process_time()
     answers = list(MODES[mode].answers(body))
     spent = time.process_time() - began
-    dust = [each for answer in answers for each in _dust(answer)]
+    small = [(answer, web) for answer in answers for web in _dust(answer)]
+    dust = [_told(answer, web) for answer, web in small if not answer.needs(web)]
     unlike = [each for answer in answers for each in _unlike(body, answer)]
     left = sum(each.status not in ("optimal", "infeasible") for each in answers)
-    return Judgement(mode, seed, len(answers), left, tuple(dust), tuple(unlike), spent)
+    return Judgement(mode, seed, len(answers), left, tuple(dust), len(small) - len(dust), tuple(unlike), spent)
 
 
 def seeds(count: int, only: str | None = None) -> Iterator[tuple[str, int]]:
@@ -55,11 +57,14 @@ def seeds(count: int, only: str | None = None) -> Iterator[tuple[str, int]]:
             yield name, seed
 
 
-def _dust(answer: Fitted) -> Iterator[str]:
+def _dust(answer: Fitted) -> list[str]:
+    """Webs that carry next to nothing."""
     most = max(answer.mass_kg.values(), default=0.0)
-    for web, mass in answer.mass_kg.items():
-        if 0 < mass <= DUST * most:
-            yield f"{web}: {mass:.2e} kg beside {most:.3g} kg"
+    return [web for web, mass in answer.mass_kg.items() if 0 < mass <= DUST * most]
+
+
+def _told(answer: Fitted, web: str) -> str:
+    return f"{web}: {answer.mass_kg[web]:.2e} kg beside {max(answer.mass_kg.values()):.3g} kg"
 
 
 def _unlike(body: Body, answer: Fitted) -> Iterator[str]:

@@ -1,6 +1,7 @@
 """What is asked of random machines: each mode draws a request and tells the counterweights of all its answers."""
 
 from collections.abc import Callable, Iterator, Mapping
+from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -13,6 +14,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from service.common.validation import check
 from tests.dust import machines
+from tests.dust.need import is_needed
 from tests.hard.cases.case import Body
 
 Draw = Callable[[np.random.Generator], Body]
@@ -26,6 +28,7 @@ class Fitted(NamedTuple):
     status: str
     mass_kg: Mapping[str, float]  # by their webs; none that were there already
     opened_deg: Mapping[str, float]  # half-angles of plates that are cut
+    needs: Callable[[str], bool] = lambda web: False  # whether it is proven of a web that no such answer lacks it
 
 
 class Mode(NamedTuple):
@@ -43,12 +46,13 @@ def _masses_and_openings(counterweights: Any) -> tuple[dict[str, float], dict[st
 
 
 def of_request(body: Body) -> Iterator[Fitted]:
-    answer = optimize(check(OptimizeRequest, body))
+    request = check(OptimizeRequest, body)
+    answer = optimize(request)
     everywhere = [
         *answer.counterweights,
         *(one for shaft in answer.balance_shafts or () for one in shaft.counterweights),
     ]
-    yield Fitted(answer.status, *_masses_and_openings(everywhere))
+    yield Fitted(answer.status, *_masses_and_openings(everywhere), partial(is_needed, request, answer))
 
 
 def of_front(body: Body) -> Iterator[Fitted]:

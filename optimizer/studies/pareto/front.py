@@ -16,6 +16,7 @@ from optimizer.program.certificate import Multipliers, ceiling_allowance, normal
 from optimizer.program.methods.feasibility_phase import Unreachable
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
+from optimizer.program.methods.rounding import has_dust
 from optimizer.program.reference.solver import Solver
 from optimizer.program.solution import OPTIMUM_SHARE, Solution
 from optimizer.program.statement import Statement
@@ -31,6 +32,8 @@ _NARROW = 1e-9
 _END_SLACK = 0.1
 #: the least mass at an end may give away this part of what it may elsewhere
 _END_SHARE = 0.3
+#: share of the range within which an end stays that is sought again
+_NEAR_END = 1e-3
 #: most lines that find an end
 _END_STEPS = 12
 #: parts of the asked share of t, each tried where the least mass could not be certified with the one before
@@ -297,13 +300,25 @@ def _points(
     share *= min(1.0, float(np.min(size / span)))
     spread = _spread(trade, start, step, count, share, solver)
     between = [_meet(trade, start + each * step, span, least_mass, share, solver) for each in spread[1:-1]]
-    first, last = (
-        replace(
-            _meet(trade, end.peaks, span, least_mass, _END_SHARE * share, solver), corner=end.corner, proof=end.proof
-        )
-        for end in ends
-    )
+    first, last = (_at_end(trade, end, span, size, share, least_mass, solver) for end in ends)
     return (first, *between, last)
+
+
+def _at_end(trade: Trade, end: _End, span: Real, size: Real, share: float, least_mass: bool, solver: Solver) -> Point:
+    """The point at an end, whose gap is of the sizes: where a share of the range leaves dust, one of these may not."""
+    limits = trade.both.limits
+
+    def nearest(unit: Real) -> Point:
+        found = _meet(trade, end.peaks, unit, least_mass, _END_SHARE * share, solver)
+        return replace(found, corner=end.corner, proof=end.proof)
+
+    point = nearest(span)
+    if not has_dust(limits, point.solution.unbalance):
+        return point
+    other = nearest(size)
+    peaks = trade.peaks(other.solution.unbalance)
+    close = np.all(np.abs(peaks - end.peaks) <= _NEAR_END * span) and np.all(peaks - end.corner <= share * size)
+    return other if close and not has_dust(limits, other.solution.unbalance) else point
 
 
 def _spread(trade: Trade, start: Real, step: Real, count: int, share: float, solver: Solver) -> Real:
