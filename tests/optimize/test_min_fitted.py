@@ -77,7 +77,9 @@ def test_one_between_nothing_and_the_least() -> None:
         assert found.certificate is not None
         assert found.certificate.objective == pytest.approx(left * OMEGA**2, rel=2e-6)
         (one,) = found.counterweights
-        assert (one.mass_kg, one.angle_deg) == pytest.approx((10 * least, 210.0) if left < 1 else (0, 0), rel=1e-6)
+        assert one.mass_kg == pytest.approx(10 * least if left < 1 else 0, rel=1e-6)
+        # at its optimum the objective is flat in the angle: the asked gap leaves a twentieth of a degree open
+        assert one.angle_deg == pytest.approx(210.0 if left < 1 else 0, abs=2e-3)
 
 
 def random_machine(seed: int, webs: int) -> dict[str, Any]:
