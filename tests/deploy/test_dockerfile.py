@@ -56,6 +56,18 @@ def test_the_base_is_named_by_digest() -> None:
     assert [rest.split()[0] for kind, rest in instructions() if kind == "FROM"] == ["${BASE}", "${BASE}"]
 
 
+def test_kernels_are_compiled_of_what_is_installed() -> None:
+    """They are kept by the path of their source, and Python prefers sources in the working directory."""
+    steps = instructions()
+    (compiling,) = (n for n, (kind, rest) in enumerate(steps) if kind == "RUN" and "compile_kernels" in rest)
+    (installed,) = (
+        n for n, (kind, rest) in enumerate(steps) if kind == "RUN" and "pip" in rest and "--no-deps" in rest
+    )
+    *_, folder = (rest for kind, rest in steps[:compiling] if kind == "WORKDIR")
+    *_, sources = (rest for kind, rest in steps[:installed] if kind == "WORKDIR")
+    assert folder != sources
+
+
 def test_nobody_is_root_in_it() -> None:
     user, group = map(int, last("USER").split(":"))
     assert user > 0
@@ -105,7 +117,7 @@ def test_the_kernels_are_compiled_by_commands_that_there_are() -> None:
     assert len(commands) == 2
     for _, name, source in commands:
         assert name in get_command(app).commands  # type: ignore[attr-defined]
-        assert (ROOT / source).exists()
+        assert (ROOT / Path(source).relative_to("/src")).exists()
 
 
 _V3 = "fpu sse4_2 avx avx2 bmi1 bmi2 f16c fma abm movbe xsave"
