@@ -5,7 +5,6 @@ import os
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -21,10 +20,6 @@ os.environ["COUNTERWEIGHT_ALLOWED_HOSTS"] = "testserver"
 # a machine that is busy is no database that is away, and no computation that does not end
 os.environ["COUNTERWEIGHT_DATABASE_BUSY_S"] = "60"
 os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
-
-_TESTS = Path(__file__).parent
-#: folders whose tests wait for other processes
-_WAITING = {"browser", "clients", "deploy", "freecad", "jobs", "network", "service"}
 
 # times are for benchmarks, and a run that failed must fail again;
 # HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time
@@ -47,11 +42,6 @@ def server_log_reaches_the_root() -> Iterator[None]:
     for name in ("uvicorn", "uvicorn.error"):
         logger = logging.getLogger(name)
         assert (logger.propagate, logger.handlers) == (True, []), f"{name} keeps what this file did to it: log_config"
-
-
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Files that mostly wait, for servers and browsers, come first: those that compute fill the cores beside them."""
-    items.sort(key=lambda item: item.path.relative_to(_TESTS).parts[0] not in _WAITING)
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
