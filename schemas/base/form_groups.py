@@ -29,7 +29,7 @@ _SCENE: Groups = {
     "Answer": ("outputs", "foundation_orders", "angles", "fidelity"),
 }
 _OPTIMIZE: Groups = {
-    "What is to be small": ("objective", "accuracy", "scenarios", "tolerances"),
+    "What is to be small": ("objective", "accuracy", "scenarios", "tolerances", "alternatives"),
     "What is fitted": ("fitted",),
 }
 
