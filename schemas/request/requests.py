@@ -152,9 +152,10 @@ class OptimizeRequest(Scene, Ruled):
             yield Rule(broken, ("machine", *path), said)
 
     def worst_case_rules(self, message: str) -> Iterator[Rule]:
-        """Scenarios and tolerances that are given where only the machine as it is can be asked for."""
+        """Scenarios, tolerances and allowances that are given where only the machine as it is can be asked for."""
         yield Rule(bool(self.scenarios), ("scenarios",), message)
         yield Rule(self.tolerances is not None, ("tolerances",), message)
+        yield Rule(bool(self.alternatives), ("alternatives",), message)
 
     def _alternative_rules(self) -> Iterator[Rule]:
         """What cheaper choices are listed of."""

@@ -5,7 +5,11 @@ from typing import Any
 import pytest
 
 from schemas.answer.answers import OptimizeAnswer
+from schemas.base.model import Model
+from schemas.front.pareto import ParetoRequest
+from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import OptimizeRequest
+from schemas.sweep.request import SweepRequest
 from service.report.chapters.alternatives import alternatives as chapter
 from tests.optimize.machines import web
 from tests.optimize.test_catalogue import every_set, twin
@@ -130,6 +134,19 @@ def test_refusals_name_the_field(more: dict[str, Any], words: str) -> None:
     body = question({**small(), **more.pop("machine", {})})
     with pytest.raises(ValueError, match=words):
         OptimizeRequest.model_validate({**body, **more})
+
+
+@pytest.mark.parametrize("model", [ParetoRequest, AccuracyRequest, SweepRequest])
+def test_what_lists_none_refuses_them(model: type[Model]) -> None:
+    """Fronts, ladders and sweeps have no such list, and say so at the field."""
+    body = question(small())
+    asked = (
+        {"base": body, "axes": [{"path": "/machine/speed_rpm", "values": [400, 500]}]}
+        if model is SweepRequest
+        else body
+    )
+    with pytest.raises(ValueError, match="remove it|the ladder is of one machine|not a sweep"):
+        model.model_validate(asked)
 
 
 def test_a_stranger_finds_what_is_false() -> None:
