@@ -12,8 +12,9 @@ from verify_numbers import ONE, Place
 
 _TABLE = """
 .: version status status_reason counterweights total_mass_kg balance_shafts balance_shafts_mass_kg active_limits
-  shadow_prices worst_case price_of_robustness sensitivity residual floor certificate infeasibility balance_rate
-  balance_quality warnings reference_plane_m effects timing alternatives
+  shadow_prices alternatives worst_case price_of_robustness
+  sensitivity residual floor certificate infeasibility balance_rate
+  balance_quality warnings reference_plane_m effects timing
 alternatives: minimised allowance objective total_mass_kg pieces sizes lower_bound counterweights
 counterweights: web mass_kg angle_deg position_m radius_m throw angle_from_crank_deg mass_radius_kg_m x_kg_m y_kg_m
   centrifugal_force_N active_limits fixed shape
