@@ -54,7 +54,7 @@ REQUESTS: dict[str, tuple[dict[str, Any], set[str]]] = {
     "scenarios": (_with(scenarios=SCENARIOS), set()),
     "all orders": (_with(objective={"orders": "all"}), {"whole_turn"}),
     "all orders, scenarios": (_with(objective={"orders": "all"}, scenarios=SCENARIOS), {"whole_turn"}),
-    "priorities": (_with(objective={"priorities": [{"goal": "external", "allowance": 0.01}]}), {"whole_turn"}),
+    "priorities": (_with(objective={"priorities": [{"goal": "external", "allowance": 0.01}]}), set()),
     "bearings": (_with(objective={"bearing_weight": 1}, machine=BEARINGS), {"whole_turn"}),
     "kinematics": (_with(outputs=["kinematics"]), {"kinematics"}),
     "scroll": (_with("scroll-oldham"), set()),
