@@ -15,6 +15,9 @@ CEILING = 1e-9  # of the larger of a ceiling and what is there without counterwe
 
 def alternatives(request: Place, answer: Place, machine: Machine, statement: Statement) -> Claims:
     """All that an answer lists; that nothing is cheaper still was found by a search, which is not repeated."""
+    if not list(answer / "alternatives"):
+        # rows of a sweep have no such list, nor all that it is held to
+        return
     best = (answer / "certificate" / "objective").number()
     rest = (answer / "certificate" / "objective_without_counterweights").number()
     own = costs(request / "machine", answer / "counterweights", (answer / "total_mass_kg").number())
