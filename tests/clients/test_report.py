@@ -50,7 +50,8 @@ def test_the_document_that_was_asked_for(
 def test_a_browser_lets_the_page_have_its_styles_and_nothing_else(url: str, body: Any) -> None:
     _, headers, _ = post(url, body)
     assert headers["content-security-policy"] == (
-        "default-src 'none'; style-src 'unsafe-inline'; frame-ancestors 'none'"
+        # the logo of the title block is a picture within the page
+        "default-src 'none'; img-src data:; style-src 'unsafe-inline'; frame-ancestors 'none'"
     )
     assert headers["content-disposition"] == 'inline; filename="V 60 degrees, equal rows, clockwise.html"'
 
