@@ -80,6 +80,11 @@ def _chosen(subject: Subject) -> None:
         _masses(subject)
 
 
+def _cheaper(subject: Subject) -> None:
+    _chosen(subject)
+    subject.body["alternatives"] = [0.02, 0.2]
+
+
 def _own_masses(subject: Subject) -> None:
     _chosen(subject)
     largest = subject.first.get("max_mass_kg") or 1.0
@@ -253,6 +258,7 @@ FEATURES: Mapping[str, Feature] = {
     "steps": _steps,
     "masses of a catalogue": _masses,
     "own masses": _own_masses,
+    "cheaper choices": _cheaper,
     "part numbers": _part_numbers,
     "few counterweights": partial(_few, most=1),
     "no counterweights": partial(_few, most=0),
