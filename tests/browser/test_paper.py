@@ -64,7 +64,7 @@ def test_nothing_overlaps_on_paper(portal: Portal) -> None:
     pages = PdfReader(io.BytesIO(portal.page.pdf(format="A4"))).pages
     # ligatures are read as their letters
     text = unicodedata.normalize("NFKC", "".join(page.extract_text() for page in pages))
-    for words in ("Counterweights to fit", "232.7 kg", "moment x, N m", "Balance rates"):
+    for words in ("Counterweights to fit", "232.7 kg", "couple of the x forces, N m", "Balance rates"):
         assert words in text
     # what was not opened, and what can only be clicked, is not printed
     for words in ("Optimise", "Copy as curl", "Accuracy against time"):
