@@ -1,5 +1,6 @@
 """What is said about requests that are none, about routes, and where nobody foresaw what happened."""
 
+from errno import EMFILE, ENFILE
 from http import HTTPStatus
 
 from fastapi.exceptions import RequestValidationError
@@ -29,6 +30,14 @@ def _parameters(error: RequestValidationError) -> Fault:
 
 
 _internal = fixed(500, "Internal error", "The service failed; its log says why.")
+_no_file = fixed(503, "No file left", "The service can open no file at the moment: ask again.")
+
+
+def _unforeseen(error: Exception) -> Fault:
+    """Whoever holds all files keeps a request from a file of its own: that is the load, and no failure."""
+    without_files = isinstance(error, OSError) and error.errno in (EMFILE, ENFILE)
+    return (_no_file if without_files else _internal)(error)
+
 
 FAULTS: FaultTable = {
     ClientDisconnect: fixed(400, "Incomplete request", "The body ended early."),
@@ -39,5 +48,5 @@ FAULTS: FaultTable = {
     RequestValidationError: _parameters,
     HTTPException: _http,
     ComputationFailed: _internal,
-    Exception: _internal,
+    Exception: _unforeseen,
 }
