@@ -47,8 +47,8 @@ def optimize(request: OptimizeRequest, solver: Solver | None = None) -> Optimize
     solver = solver or own_solver()
     best = solve(request, scene, solver)
     cheaper: tuple[Alternative, ...] = ()
-    if request.alternatives and best.unbalance is not None:
-        cheaper = alternatives(request, scene, best.unbalance, solver)
+    if request.alternatives and best.chosen is not None:
+        cheaper = alternatives(request, scene, best.chosen, solver)
     reporting = time.perf_counter()
     figures = answered(replace(best.cut or scene, shafts=best.shafts), best.unbalance, always, best.fields)
     if request.objective.orders == "all":

@@ -40,13 +40,10 @@ def alternatives(request: Place, answer: Place, machine: Machine, statement: Sta
         for counted in ("pieces", "sizes"):
             yield same("alternatives", one / counted, round(float(cost[counted])))
         yield "alternatives", one / "minimised", own[minimised] - cost[minimised], ONE
-        yield (
-            "alternatives",
-            one / "lower_bound",
-            cost[minimised] * real(1 + SAME) - (one / "lower_bound").number(),
-            ONE,
-        )
-        yield "alternatives", one / "lower_bound", None, ONE
+        lowest = one / "lower_bound"
+        if lowest:
+            yield "alternatives", lowest, cost[minimised] * real(1 + SAME) - lowest.number(), ONE
+            yield "alternatives", lowest, None, ONE
 
 
 def costs(asked: Place, place: Place, mass: Number) -> Dict[str, Number]:

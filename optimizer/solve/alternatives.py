@@ -5,8 +5,10 @@ The least mass within an allowance is bounded by that of any masses at any angle
 masses. The fewest castings or sizes are found by one search for every number, which serves all allowances.
 """
 
+import logging
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 from itertools import combinations
 from typing import NamedTuple, get_args
 
@@ -26,7 +28,7 @@ from optimizer.mechanics.fixed_weights import beside
 from optimizer.numerics.arrays import Complex
 from optimizer.program.cuts.dominance import Group
 from optimizer.program.cuts.optimum import Found, Reached, next_goal, over_turn
-from optimizer.program.cuts.semi_infinite import Goal
+from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.methods.implied_bounds import within_reach
 from optimizer.program.methods.optima import optima
 from optimizer.program.reference.solver import Solver
@@ -36,6 +38,7 @@ from optimizer.solve.uncertain_program import Robust
 from schemas.answer.alternatives import Alternative, Cheaper
 from schemas.request.requests import OptimizeRequest
 
+_LOG = logging.getLogger(__name__)
 #: share of the time limit of the request that all of this may take, and of that the share of the mass
 _TIME, _MASS = 0.5, 0.4
 #: options of a slot near to the optimum of any masses, and light ones of another, pass by pass
@@ -102,6 +105,15 @@ class _Cheaper:
         self.best = self._choice(self.options.nearest(u if alike is None else alike.means(u)))
         self.choices = [self.best]
 
+    @cached_property
+    def free(self) -> tuple[Problem, Found, float]:
+        """The problem of any masses at any angles, its optimum, and the gap of that."""
+        robust = Robust(self.request, self.scene, of_any_mass(self.request)._replace(time_limit_s=self.seconds))
+        program, gap = robust.asked().program, robust.wanted.relative_gap
+        first = over_turn(program, gap, False, robust.left_s)
+        assert isinstance(first, Found)  # the best choice keeps the ceilings
+        return program, first, gap
+
     @property
     def options(self) -> Options:
         return self.stock.options
@@ -149,13 +161,10 @@ class _Cheaper:
 
     def _of_any_mass(self, allowance: float) -> Found:
         """The least mass of any masses at any angles within an allowance."""
-        robust = Robust(self.request, self.scene, of_any_mass(self.request))
-        program, gap = robust.asked().program, robust.wanted.relative_gap
-        first = over_turn(program, gap, False, robust.left_s)
-        assert isinstance(first, Found)  # the best choice keeps the ceilings
+        program, first, gap = self.free
         reached = Reached(program.goals[-1].name, self.best.value, first.proof, self.level(allowance))
         weighed = program.changed(goals=(*program.goals, Goal("mass", (Group((total_mass(program.limits),)),))))
-        return next_goal(weighed, [reached], self.u, gap, robust.left_s)
+        return next_goal(weighed, [reached], self.u, gap, self.seconds)
 
     def fewest(self, minimised: Cheaper) -> list[float]:
         """Look for the fewest castings, or sizes: of each allowance the number that so many are at least."""
@@ -209,6 +218,12 @@ class _Cheaper:
         mass, angle = beside(machine, *self.stock.fitted(choice.options))
         total = float(np.sum(mass))
         fixed = total - choice.mass if minimised == "mass" else 0.0
+        cost, proven = choice.cost(minimised), None
+        if bound > cost * (1.0 + EQUAL):
+            _LOG.error("a choice of %s %g is below its bound of %g", minimised, cost, bound)
+        else:
+            # sums of masses are rounded
+            proven = min(bound, cost)
         return Alternative(
             minimised=minimised,
             allowance=allowance,
@@ -216,7 +231,6 @@ class _Cheaper:
             total_mass_kg=total,
             pieces=choice.pieces,
             sizes=choice.sizes,
-            # sums of masses are rounded
-            lower_bound=min(bound, choice.cost(minimised)) + fixed,
+            lower_bound=None if proven is None else proven + fixed,
             counterweights=counterweights(machine, mass, angle),
         )

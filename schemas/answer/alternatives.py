@@ -25,8 +25,9 @@ class Alternative(Model):
     total_mass_kg: Kilograms = Field(description="total mass, fixed counterweights included", examples=[85.5])
     pieces: int = Field(description="number of counterweights that are chosen", examples=[2])
     sizes: int = Field(description="number of different masses among these", examples=[2])
-    lower_bound: float = Field(
-        description="certified: no choice within the allowance has less mass [kg], or fewer counterweights or sizes",
+    lower_bound: float | None = Field(
+        description="certified: no choice within the allowance has less mass [kg], or fewer counterweights or sizes;"
+        " null if nothing is proven",
         examples=[2.0],
     )
     counterweights: tuple[Counterweight, ...] = Field(

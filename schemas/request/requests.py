@@ -160,9 +160,13 @@ class OptimizeRequest(Scene, Ruled):
     def _alternative_rules(self) -> Iterator[Rule]:
         """What cheaper choices are listed of."""
         listed, path = bool(self.alternatives), ("alternatives",)
-        yield Rule(listed and not self.machine.discrete, path, "cheaper choices are of a catalogue, which there is not")
+        yield Rule(
+            listed and not self.machine.discrete,
+            path,
+            "give a catalogue too: cheaper choices are listed for counterweights from a catalogue only",
+        )
         beyond = bool(self.objective.over_the_turn) or self.robust
-        message = "cheaper choices are of one goal of the first order: ask without {}"
+        message = "cheaper choices are listed for one goal of the first order only: remove them or {}"
         also = "scenarios and tolerances" if self.robust else f"objective.{(*self.objective.over_the_turn, '')[0]}"
         yield Rule(listed and beyond, path, message.format(also))
 

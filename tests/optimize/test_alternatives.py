@@ -4,6 +4,7 @@ from typing import Any
 
 import pytest
 
+from optimizer.solve import alternatives as search_of_alternatives
 from schemas.answer.answers import OptimizeAnswer
 from schemas.base.model import Model
 from schemas.front.pareto import ParetoRequest
@@ -125,9 +126,12 @@ def test_fixed_weights_count_and_are_not_chosen() -> None:
     [
         ({"alternatives": [-0.1]}, "greater than or equal to 0"),
         ({"alternatives": [1.5]}, "less than or equal to 1"),
-        ({"machine": {"catalogue": None}}, "cheaper choices are of a catalogue"),
-        ({"tolerances": {"angle_deg": 1}}, "ask without scenarios and tolerances"),
-        ({"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}}, "ask without objective.priorities"),
+        ({"machine": {"catalogue": None}}, "give a catalogue too"),
+        ({"tolerances": {"angle_deg": 1}}, "remove them or scenarios and tolerances"),
+        (
+            {"objective": {"priorities": [{"goal": "external"}, {"goal": "mass"}]}},
+            r"remove them or objective\.priorities",
+        ),
     ],
 )
 def test_refusals_name_the_field(more: dict[str, Any], words: str) -> None:
@@ -144,6 +148,20 @@ def test_what_lists_none_refuses_them(model: type[Model]) -> None:
     wanted = {"base": body, "axes": axes} if model is SweepRequest else body
     with pytest.raises(ValueError, match=r"remove it|the ladder is of one machine|not a sweep"):
         model.model_validate(wanted)
+
+
+def test_a_bound_above_its_choice_is_a_fault_that_is_logged(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    """Nothing is proven then, and nothing is clipped."""
+    true = search_of_alternatives._Cheaper.lightest
+    monkeypatch.setattr(search_of_alternatives._Cheaper, "lightest", lambda search: [1e6 for _ in true(search)])
+    found = optimized(question(small()))
+    of_mass = [one for one in found.alternatives if one.minimised == "mass"]
+    assert of_mass
+    assert all(one.lower_bound is None for one in of_mass)
+    assert any("below its bound" in each.message for each in caplog.records if each.levelname == "ERROR")
+    assert next(iter(chapter(found))).title == "Cheaper choices"
 
 
 def test_a_stranger_finds_what_is_false() -> None:

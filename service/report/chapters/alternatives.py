@@ -28,7 +28,7 @@ def alternatives(answer: OptimizeAnswer) -> Iterator[Chapter]:
 
 def _row(one: Alternative, best: float) -> tuple[Cell | float | None, ...]:
     above = one.objective / best - 1.0 if best > 0 else 0.0
-    counted = one.minimised != "mass"
+    counted, bound = one.minimised != "mass", one.lower_bound
     return (
         _LEAST[one.minimised],
         _percent(one.allowance),
@@ -36,7 +36,7 @@ def _row(one: Alternative, best: float) -> tuple[Cell | float | None, ...]:
         one.total_mass_kg,
         Number(one.pieces, str(one.pieces)),
         Number(one.sizes, str(one.sizes)),
-        Number(one.lower_bound, f"{one.lower_bound:.0f}") if counted else one.lower_bound,
+        Number(bound, f"{bound:.0f}") if counted and bound is not None else bound,
         ", ".join(
             f"{each.web}: {each.mass_kg:g} kg at {each.angle_deg:g}°" for each in one.counterweights if each.mass_kg
         ),
