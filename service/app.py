@@ -37,7 +37,7 @@ from service.http.openapi import Documented
 from service.jobs import faults as job_faults
 from service.jobs.desk import JobService
 from service.jobs.events import Watch
-from service.routes import computations, effects, examples, health, portal, reference_page, sweeps
+from service.routes import computations, effects, examples, guide, health, portal, reference_page, sweeps
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
@@ -67,6 +67,7 @@ FAULTS = joined(
     worker_faults.FAULTS,
     watch_faults.FAULTS,
     leaving.FAULTS,
+    guide.FAULTS,
     http_faults.FAULTS,
 )
 
@@ -216,6 +217,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     for resource in _RESOURCES:
         app.include_router(resource.router)
     reference_page.install(app)
+    guide.install(app, chosen.guide_dir)
     return app
 
 
