@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared quick bytecode chromium freecad lint bench hard validate nightly lock settings map docs package image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared quick bytecode chromium freecad lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -99,6 +99,10 @@ settings: .venv/runtime
 map: .venv/runtime
 	$(bin)/python docs/room_map.py
 	$(bin)/python docs/sequences.py
+
+# the three pictures of the README, from a service that it starts
+pictures: .venv/development $(kernels) | chromium
+	$(bin)/python docs/readme_pictures.py
 
 # the documents as a site in artefacts/site, without a network
 docs: .venv/development
