@@ -8,7 +8,15 @@ from tests.docs.sentences import DISCOURAGED, discouraged, lengths, prose, sente
 #: these may be longer or use other words, until somebody mends them; no name is ever added
 NOT_YET_HELD = {
     "CHANGELOG.md",
-    "docs/mathematics.md",
+    "docs/mathematics/choices.md",
+    "docs/mathematics/matching.md",
+    "docs/mathematics/mechanics.md",
+    "docs/mathematics/methods.md",
+    "docs/mathematics/plates.md",
+    "docs/mathematics/program.md",
+    "docs/mathematics/revolution.md",
+    "docs/mathematics/scroll.md",
+    "docs/mathematics/uncertainty.md",
     "docs/measurements/wire.md",
 }
 TEXTS = texts()
