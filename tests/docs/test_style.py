@@ -11,9 +11,6 @@ NOT_YET_HELD = {
     "docs/mathematics/choices.md",
     "docs/mathematics/matching.md",
     "docs/mathematics/plates.md",
-    "docs/mathematics/revolution.md",
-    "docs/mathematics/scroll.md",
-    "docs/mathematics/uncertainty.md",
     "docs/measurements/wire.md",
 }
 TEXTS = texts()
