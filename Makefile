@@ -15,12 +15,12 @@ install: $(kernels)
 run: $(kernels)
 	$(bin)/counterweight serve
 
-# on two cores; the tests of a file stay together, with the server that they share. What is downloaded comes while the
+# on two cores, half of the processes begin with tests that wait (tests/distribution.py). What is downloaded comes while the
 # code is checked and compiled. Bytecode is kept: read from source, tests and modules cost every process a third of its start
 test: export PYTHONDONTWRITEBYTECODE :=
 test: .venv/development
 	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
-	$(bin)/pytest --numprocesses 3 --dist loadfile -m "not nightly"
+	$(bin)/pytest --numprocesses 4 --dist loadfile -m "not nightly"
 
 prepared: lint freecad bytecode $(kernels)
 

@@ -5,12 +5,18 @@ import os
 import tempfile
 from collections import Counter
 from collections.abc import Iterator
+from typing import TYPE_CHECKING
 
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
 from tests.verification.every import check_every_answer
+
+if TYPE_CHECKING:
+    from xdist.remote import Producer
+
+    from tests.distribution import Distribution
 
 # no test may touch the jobs of whoever runs it; processes that tests start inherit this
 _DATA = tempfile.TemporaryDirectory(prefix="counterweight-tests-")
@@ -42,6 +48,14 @@ def server_log_reaches_the_root() -> Iterator[None]:
     for name in ("uvicorn", "uvicorn.error"):
         logger = logging.getLogger(name)
         assert (logger.propagate, logger.handlers) == (True, []), f"{name} keeps what this file did to it: log_config"
+
+
+@pytest.hookimpl(optionalhook=True)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: "Producer") -> "Distribution | None":
+    """`--dist loadfile` as tests/distribution.py orders it."""
+    from tests.distribution import Distribution
+
+    return Distribution(config, log) if config.getvalue("dist") == "loadfile" else None
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
