@@ -12,7 +12,8 @@ from service.fairness.quotas import holding
 from service.fairness.table import LOOKS
 
 Result = TypeVar("Result")
-#: after a look its client takes none for so many times what it computed
+#: after a look its client takes none for so many times what it computed; as often for each client that waits, if it
+#: waits itself: looks compute in the process of the event loop, and all of them together must leave it most of its time
 _REST = 3.0
 
 
@@ -79,7 +80,12 @@ class SingleFlight:
         try:
             return await to_thread.run_sync(work, limiter=self._threads)
         finally:
-            loop.call_later(_REST * computed_s, self._go_on, who, own)
+            loop.call_later(_REST * computed_s * self._crowd(who), self._go_on, who, own)
+
+    def _crowd(self, who: str) -> int:
+        """How many clients wait, if this one does."""
+        waiting = {client for client, _ in self._asked}
+        return len(waiting) if who in waiting else 1
 
     def _go_on(self, who: str, own: asyncio.Semaphore) -> None:
         own.release()
