@@ -145,7 +145,15 @@ def on_disk(description: str) -> Responses:
     """A sweep or job that goes on by itself."""
     about = headers("Location", "Preference-Applied", "Idempotency-Replayed")
     content = {"application/json": {"schema": ref(SweepState)}}
-    return {202: {"description": description, "content": content, "headers": about}}
+    return {
+        202: {"description": description, "content": content, "headers": about, "links": links("$response.body#/id")}
+    }
+
+
+def links(identity: str) -> Described:
+    """Where one can go on with a sweep or job whose id is at a place of the answer."""
+    operations = ("read_sweep", "read_sweep_results", "describe_sweep", "resume_sweep", "end_sweep")
+    return {name: {"operationId": name, "parameters": {"id": identity}} for name in operations}
 
 
 def request_body(model: type[Model], folder: str = "", workbook: bool = False) -> Described:

@@ -21,10 +21,10 @@ from service.http.accept import liked
 from service.http.computing import Computes
 from service.http.operations import (
     COMPUTE_PROBLEMS,
-    TEXT,
     accept,
     content_of,
     headers,
+    links,
     on_disk,
     parameters,
     problems,
@@ -99,7 +99,7 @@ async def post_sweep(request: Request, computing: Computes, desk: Jobs) -> Respo
     dependencies=_SEES,
     summary="All sweeps, newest first",
     response_model=SweepPage,
-    responses=problems(404, 422, 503),
+    responses={200: {"links": links("$response.body#/sweeps/0/id")}, **problems(404, 422, 503)},
 )
 async def list_sweeps(
     request: Request,
@@ -270,7 +270,7 @@ def _blocks(opened: Callable[[], BinaryIO]) -> Iterator[bytes]:
     summary="Progress as server-sent events, from the last state to the end",
     response_class=Response,
     responses={
-        200: {"description": "events `progress` and `end`", "content": {"text/event-stream": TEXT}},
+        200: {"description": "events `progress` and `end`", "content": {"text/event-stream": {}}},
         204: {"description": "nothing is newer than `Last-Event-ID`, and nothing will be"},
         **problems(404, 503),
     },
