@@ -33,6 +33,7 @@ from service.http.computing import Computing
 from service.http.cut import Cut
 from service.http.direct import Direct
 from service.http.errors import ErrorAnswers, joined
+from service.http.methods import Methods
 from service.http.openapi import Documented
 from service.jobs import faults as job_faults
 from service.jobs.desk import JobService
@@ -92,6 +93,8 @@ CORS: Mapping[str, Any] = {
         "Link",
         "Location",
         "Preference-Applied",
+        "RateLimit",
+        "RateLimit-Policy",
         "Retry-After",
         "Sweep-Complete",
         "Sweep-State",
@@ -193,7 +196,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
             ),
             Middleware(Direct, computations.endpoints(), errors),
         ),
+        keyed=chosen.keys_file is not None,
         title="counterweight",
+        contact={"name": "The Counterweight authors"},
         version=package_version(),
         description=_DESCRIPTION,
         lifespan=lifespan,
@@ -212,12 +217,13 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
-    errors.install(app)
-    app.include_router(computations.router())
-    for resource in _RESOURCES:
-        app.include_router(resource.router)
+    routers = [computations.router(), *(resource.router for resource in _RESOURCES)]
+    for router in routers:
+        app.include_router(router)
     reference_page.install(app)
     guide.install(app, chosen.guide_dir)
+    routes = [route for router in [app, *routers] for route in router.routes]
+    errors.install(app, Methods(routes))
     return app
 
 

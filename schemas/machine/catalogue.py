@@ -1,6 +1,7 @@
 """What there is to fit: masses, angles, how many counterweights and of how many part numbers."""
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -44,7 +45,8 @@ class Catalogue(Ruled):
         yield Rule(both, ("mass_step_kg",), "give either the masses or their step")
         if self.angle_step_deg is not None:
             steps = 360 / self.angle_step_deg
-            broken = abs(steps - round(steps)) > 1e-9 * steps
+            # of the smallest numbers there are infinitely many
+            broken = not isfinite(steps) or abs(steps - round(steps)) > 1e-9 * steps
             yield Rule(broken, ("angle_step_deg",), "360 degrees must be a whole number of steps")
 
 

@@ -39,6 +39,8 @@ def test_404(client: TestClient, path: str) -> None:
         ("OPTIONS", "/v1/analyze", "POST"),
         ("POST", "/v1/examples", "GET"),
         ("DELETE", "/healthz", "GET"),
+        ("PATCH", "/v1/sweeps", "GET, POST"),
+        ("PUT", "/v1/sweeps/5f0c", "DELETE, GET"),
         ("BREW", "/docs", "GET"),
     ],
 )
