@@ -16,11 +16,13 @@ from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
 from optimizer.studies.matching.match import match
 from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.rounding.round import round_weights
 from schemas.answer.outputs import OutputName
 from schemas.front.pareto import ParetoRequest
 from schemas.match.request import MatchRequest
 from schemas.rating.request import RatingRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.request.rounding import RoundRequest
 from service.app import FAULTS, create_app
 from service.common.problems import problem
 from service.documents.examples import bodies
@@ -134,6 +136,11 @@ def test_the_rating() -> None:
 def test_the_matching() -> None:
     request, shown = blocks(PAGES["match"])
     agrees(shown, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_rounding() -> None:
+    request, shown = blocks(PAGES["round"])
+    agrees(shown, round_weights(RoundRequest.model_validate(request)).model_dump(mode="json"))
 
 
 def test_the_effects() -> None:
