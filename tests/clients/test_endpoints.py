@@ -37,6 +37,7 @@ def test_every_endpoint_has_a_method(counterweight: ModuleType, described: set[t
         (service.examples,),
         (service.example, "{name}"),
         *((call, {}) for call in (service.optimize, service.analyze, service.pareto, service.match, service.rating)),
+        (service.shaft, {}),
         *((call, {}) for call in (service.pin_loads, service.accuracy, service.sweep)),
         (service.verify, {}, {}),
         (service.report, {}, tmp_path / "report.pdf"),
