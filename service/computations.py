@@ -271,6 +271,21 @@ COMPUTATIONS: dict[str, Computation] = {
             examples="rating",
         ),
         Computation(
+            name="shaft",
+            path="/v1/shaft",
+            request="schemas.shaft.request:ShaftRequest",
+            answer="schemas.shaft.answer:ShaftAnswer",
+            compute="optimizer.crankshaft.read:read_shaft",
+            summary="The crankshaft that the faces and bodies of any CAD show",
+            remark="Axis, frame, throws, webs and bearings from round and plane faces, unbalances in two planes from"
+            " the masses of bodies. `doubts` holds what a designer should look at. A shaft with serious ones is"
+            " answered with 200 too.",
+            help="Read a crankshaft from the faces and bodies that a CAD lists.",
+            chapters="service.report.chapters.shaft:shown",
+            tag="shaft",
+            examples="shaft",
+        ),
+        Computation(
             name="match",
             path="/v1/match",
             request="schemas.match.request:MatchRequest",

@@ -50,6 +50,10 @@ GROUPS: dict[str, Groups] = {
         "Counterweights": _ROTOR["Counterweights"],
         "Pins": ("drive_bearing", "rotation_torque_Nm", "tangential_gas_force_N"),
     },
+    "CylinderFace": {
+        "Face": ("type", "name", "outer"),
+        "Geometry": ("centre_m", "axis", "radius_m", "ends_m", "angle_deg", "points_m"),
+    },
     "Web": {
         "Place": ("name", "position_m", "throw"),
         "Counterweight": ("counterweight_radius_m", "max_mass_kg", "sector", "envelope", "fixed"),
