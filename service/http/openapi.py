@@ -30,6 +30,7 @@ _TAGS: Mapping[str, str] = {
     "pictures": "One drawing of an answer.",
     "tables": "One table of an answer.",
     "examples": "Machines to start from.",
+    "problems": "Causes and remedies of problems.",
     "health": "Whether the service lives and can compute, and which version it is.",
 }
 _SECURITY: Mapping[str, Described] = {
