@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from anyio import create_task_group, to_thread
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 from starlette.middleware import Middleware
 from starlette.types import ASGIApp, Receive, Scope, Send
 from uvicorn.middleware.proxy_headers import ProxyHeadersMiddleware
@@ -35,10 +35,11 @@ from service.http.direct import Direct
 from service.http.errors import ErrorAnswers, joined
 from service.http.methods import Methods
 from service.http.openapi import Documented
+from service.http.parameters import of_the_route
 from service.jobs import faults as job_faults
 from service.jobs.desk import JobService
 from service.jobs.events import Watch
-from service.routes import computations, effects, examples, guide, health, portal, reference_page, sweeps
+from service.routes import computations, effects, examples, guide, health, portal, problems, reference_page, sweeps
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
@@ -56,7 +57,7 @@ from service.wire.security_headers import SecurityHeaders
 from service.workers import faults as worker_faults
 from service.workers.pool import Pool
 
-_RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, portal)
+_RESOURCES = (sweeps, effects, examples, health, version_route, metrics_route, problems, portal)
 
 #: what is said about every exception, as the rooms declare it; the last one is the last resort
 FAULTS = joined(
@@ -202,6 +203,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         version=package_version(),
         description=_DESCRIPTION,
         lifespan=lifespan,
+        dependencies=[Depends(of_the_route)],
         redirect_slashes=False,
         # the service traces by itself
         telemetry={"tracing": False, "metrics": False, "logs": False},

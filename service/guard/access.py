@@ -111,7 +111,7 @@ class Access:
 
 
 def _saying(rate: Rate, send: Send) -> Send:
-    """Tell with an answer what is left of the rate of its key."""
+    """State with an answer what is left of the rate of its key."""
     told = [(name.lower().encode(), value.encode()) for name, value in rate.headers.items()]
 
     async def say(message: Message) -> None:

@@ -26,10 +26,12 @@ _TAGS: Mapping[str, str] = {
     "counterweights": "Choose counterweights, and say what a machine does with them.",
     "scroll": "The anti-rotation pins of scroll machines.",
     "rating": "Thermal design of compressors.",
+    "shaft": "Crankshafts as a CAD lists them.",
     "sweeps": "Many designs of a machine, and other jobs that are answered later.",
     "pictures": "One drawing of an answer.",
     "tables": "One table of an answer.",
     "examples": "Machines to start from.",
+    "problems": "Causes and remedies of problems.",
     "health": "Whether the service lives and can compute, and which version it is.",
 }
 _SECURITY: Mapping[str, Described] = {

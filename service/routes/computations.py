@@ -9,6 +9,7 @@ from service.guard.access import require
 from service.http.computing import computing_of
 from service.http.direct import Endpoint
 from service.http.operations import of_computation
+from service.http.parameters import require_known
 
 
 def endpoints() -> dict[str, Endpoint]:
@@ -40,6 +41,7 @@ def router() -> APIRouter:
 def _endpoint(one: Computation) -> Endpoint:
     async def endpoint(request: Request) -> Response:
         require(request, one.scope)
+        require_known(request)
         return await computing_of(request).answer(request, one)
 
     return endpoint

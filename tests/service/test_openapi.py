@@ -49,6 +49,7 @@ OPERATIONS = {
     ("get", "/v1/sweeps/{id}/results"): "read_sweep_results",
     ("get", "/v1/sweeps/{id}/events"): "watch_sweep",
     ("get", "/v1/effects"): "list_effects",
+    ("get", "/problems/{kind}"): "read_problem",
     ("get", "/v1/examples"): "list_examples",
     ("get", "/v1/examples/{name}"): "read_example",
     ("get", "/v1/template.xlsx"): "read_template",
