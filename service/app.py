@@ -40,6 +40,7 @@ from service.jobs import faults as job_faults
 from service.jobs.desk import JobService
 from service.jobs.events import Watch
 from service.routes import computations, effects, examples, guide, health, portal, problems, reference_page, sweeps
+from service.routes import faults as route_faults
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
@@ -69,7 +70,7 @@ FAULTS = joined(
     worker_faults.FAULTS,
     watch_faults.FAULTS,
     leaving.FAULTS,
-    guide.FAULTS,
+    route_faults.FAULTS,
     http_faults.FAULTS,
 )
 

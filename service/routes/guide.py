@@ -8,8 +8,6 @@ from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.staticfiles import StaticFiles
 from starlette.types import Scope
 
-from service.common.problems import FaultTable, fixed
-
 PATH = "/docs/guide"
 # pages of the generator hold short scripts and styles of their own; browsers enforce that nothing comes from elsewhere
 _POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ancestors 'none'; base-uri 'none'"
@@ -17,13 +15,6 @@ _POLICY = "default-src 'self' 'unsafe-inline'; img-src 'self' data:; frame-ances
 
 class MissingGuide(Exception):
     """No site has been built."""
-
-
-FAULTS: FaultTable = {
-    MissingGuide: fixed(
-        404, "Missing guide", "The guide is not built: run `make docs`, or set COUNTERWEIGHT_GUIDE_DIR."
-    )
-}
 
 
 class Guide(StaticFiles):
