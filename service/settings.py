@@ -242,11 +242,15 @@ def unknown_variables(environment: Mapping[str, str]) -> Iterator[str]:
 
 def wrong_values(error: ValidationError, options: Mapping[str, object]) -> Iterator[str]:
     """A sentence for every setting with a wrong value, by its option or by its environment variable."""
+    # as the operator has written them: names are read in small letters too
+    written = {name.upper(): name for name in os.environ}
     for detail in error.errors():
         place = str(detail["loc"][0]) if detail["loc"] else ""
         field = place.removeprefix(_PREFIX).lower()
         option = field in options or place in options
         # the port has a second variable, without the prefix
-        other = "PORT" if field == "port" and variable(field) not in os.environ else variable(field)
-        name = f"--{field}" if option else other
+        name = variable(field)
+        if field == "port" and name not in written:
+            name = "PORT"
+        name = f"--{field}" if option else written.get(name, name)
         yield f"{name}: {detail['msg']}"
