@@ -74,12 +74,14 @@ hard: .venv/development $(kernels)
 validate: .venv/development $(kernels)
 	$(bin)/python -m tests.validation
 
-# hours: the references against references of their own, and what the tests do a few times, thousands of times; the image needs root
+# hours: every test, with ten times the examples and every answer through the checker; the references against references of
+# their own, and what the tests do a few times, thousands of times; the image needs root
 long := tests.hard.bodies tests.hard.boundary tests.hard.checked tests.hard.far_limits tests.hard.tampered tests.hard.worst_case tests.jobs.clocks tests.jobs.crashes \
     tests.jobs.flips tests.jobs.history tests.jobs.kills tests.network.attacks tests.network.bystander tests.network.load \
     tests.network.schema
 nightly: .venv/development $(kernels)
-	failed=0; $(MAKE) hard || failed=1; $(bin)/pytest --numprocesses 2 -m nightly || failed=1; \
+	failed=0; $(MAKE) hard || failed=1; \
+	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/pytest --numprocesses 4 --dist loadfile || failed=1; \
 	$(MAKE) image-check || failed=1; \
 	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
 

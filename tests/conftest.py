@@ -11,7 +11,7 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
-from tests.verification.every import check_every_answer
+from tests.verification.every import check_answers
 
 if TYPE_CHECKING:
     from xdist.remote import Producer
@@ -28,9 +28,10 @@ os.environ["COUNTERWEIGHT_DATABASE_BUSY_S"] = "60"
 os.environ["COUNTERWEIGHT_REQUEST_TIMEOUT_S"] = "600"
 
 # times are for benchmarks, and a run that failed must fail again;
-# HYPOTHESIS_PROFILE=thorough looks at many more examples, other ones each time
+# HYPOTHESIS_PROFILE=night looks at ten times as many, =thorough at many more, other ones each time
 quick = {"deadline": None, "derandomize": True, "database": None, "suppress_health_check": [HealthCheck.too_slow]}
 settings.register_profile("quick", max_examples=30, **quick)
+settings.register_profile("night", max_examples=300, **quick)
 settings.register_profile("thorough", deadline=None, max_examples=1000)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 # else the numbers that stand in whatever modules are loaded are tried too: other ones after other tests, see
@@ -38,7 +39,7 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "quick"))
 providers.is_local_module_file = lambda _: False
 
 # a certificate that its own answer refutes fails the test that asked for it, whatever that looks at
-check_every_answer()
+check_answers()
 
 
 @pytest.fixture(scope="module", autouse=True)
