@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_cases import Case, Scatter, goal_of
 from verify_curves import Turn
+from verify_loads import Loads
 from verify_machine import NAMES, Responses, over
 from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest
 from verify_program import CEILINGS, Statement
@@ -36,11 +38,11 @@ class Part:
         goal = self.goal
         self.all = (goal / "orders").text("first", "all", default="first") == "all"
         self.apart = (goal / "combine").text("sum", "max", default="sum") == "sum"
+        self.unweighted = weights
         self.weights = {name: weight * case.weight for name, weight in weights.items()}
-        if self.weights["bearing"].high > 0 and (goal / "bearing_measure").value == "rms":
-            raise NotCovered(goal / "bearing_measure")
-        self.area = {}
-        if (goal / "bearing_measure").value == "specific":
+        self.mean = (goal / "bearing_measure").value == "rms"
+        self.area, self.specific = {}, (goal / "bearing_measure").value == "specific"
+        if self.specific or goal / "specific_load_ceiling_Pa":
             for one in request / "machine" / "bearings":
                 self.area[(one / "name").text()] = (one / "diameter_m").number() * (one / "length_m").number()
         names = FIELDS.split()[1:]
@@ -48,10 +50,15 @@ class Part:
         self.turn = Turn(request, machine, loads)
         limits = [*names, *(CEILINGS.values() if self.all else ())]
         self.limited = any("_ceiling_" in name and goal / name for name in limits)
-        self.loads = loads or self.all
+        self.of_shaft, self.over_turn = loads, loads or self.all
         external = {name: self.weights[name] for name in NAMES if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
         self.exact = Statement(machine, goal, self.rows if external else {}, capped=not self.all)
+
+    @cached_property
+    def loads(self) -> Loads:
+        """Curves over the revolution."""
+        return Loads(self.case.request / "machine", self.machine, self.turn)
 
     def term(self, one: Place) -> Term:
         response, row = (one / "response").text(), (one / "row").text()
@@ -66,7 +73,7 @@ class Part:
             floor = self.exact.floor[exact.row]
             return Term(row, self._group("first"), exact.start, self._factors(response, exact.factor), y, floor)
         weight = self.weights[kind] * ABOUT_ONE
-        weight = over(weight, self.area[name], one) if kind == "bearing" and self.area else weight
+        weight = over(weight, self.area[name], one) if kind == "bearing" and self.specific else weight
         start = self.turn.seen(response, (one / "angle_deg").double()) * weight
         return Term(row, self._group(kind), start, self._factors(response, weight), y, ZERO)
 
@@ -105,10 +112,10 @@ class Part:
             factors = [factor * back.conjugate() for factor in self._factors(kind, ONE)]
             return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
         start = self.turn.seen(response, degrees)
-        if kind == "bearing" and goal / "specific_load_ceiling_Pa":
-            raise NotCovered(goal / "specific_load_ceiling_Pa")
         field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")
-        cap = goal / (field or "bending_ceiling_Nm")
-        if not cap:
+        caps = [limit.number(least=0) for limit in [goal / (field or "bending_ceiling_Nm")] if limit]
+        if kind == "bearing" and goal / "specific_load_ceiling_Pa":
+            caps.append((goal / "specific_load_ceiling_Pa").number(least=0) * self.area[name])
+        if not caps:
             raise NotCovered(one)
-        return start, self._factors(response, ONE), cap.number(least=0)
+        return start, self._factors(response, ONE), min(caps, key=lambda cap: cap.high)
