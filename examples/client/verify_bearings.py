@@ -48,6 +48,13 @@ def largest(claim: str, place: Place, curve: Curve, unit: str) -> Claims:
     return found
 
 
+def where(claim: str, place: Place, loads: Loads, curve: Curve, peak: Peak) -> Claim:
+    """The shaft angle of a peak: the curve has it there."""
+    degrees = place.double()
+    there = curve.length(turned(loads, degrees)) if 0 <= degrees <= 360 else 0.0
+    return within(claim, place, degrees, degrees, there - peak.low * (1 - PEAK) + SAMPLE * curve.size)
+
+
 def turned(loads: Loads, degrees: float) -> float:
     """The angle of the harmonics [rad] at a shaft angle."""
     return radians(degrees) if loads.turn.sense is ONE else -radians(degrees)
@@ -72,6 +79,28 @@ def curves(request: Place, machine: Machine, answer: Place, fitted: Optional[Fit
     if answer / "main_bearings":
         shaft = Loads(request / "machine", machine, Turn(request, machine, loads=True))
         yield from main_bearings(request, shaft, answer, fitted)
+    if answer / "roll":
+        rows = Loads(request / "machine", machine, Turn(request, machine, loads=True))
+        yield from roll(request, rows, answer / "roll", fitted)
+
+
+def roll(request: Place, loads: Loads, shown: Place, fitted: Optional[Fitted]) -> Claims:
+    """The moment about the crankshaft, which balance shafts alone change."""
+    angles = yield from sampled("roll", shown / "angle_deg", request)
+    sides = [("before", loads.curve("roll"))]
+    if fitted is None:
+        yield "roll", shown / "after", -ONE if shown / "after" else ONE, ONE
+    else:
+        sides.append(("after", loads.with_weights("roll", [], fitted.on_shafts)))
+    for side, curve in sides:
+        samples = list(shown / side / "moment_Nm")
+        yield "roll", shown / side, ONE if len(samples) == len(angles) else -ONE, ONE
+        off = SAMPLE * (curve.size + loads.curve("roll").size)
+        for degrees, one in zip(angles, samples):
+            value = curve.at(turned(loads, degrees)).real
+            yield within("roll", one, value, value, off)
+        peak = yield from largest("roll", shown / side, curve, "Nm")
+        yield where("roll", shown / side / "peak_angle_deg", loads, curve, peak)
 
 
 def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[Fitted]) -> Claims:
@@ -121,9 +150,7 @@ def _load(loads: Loads, own: Place, curve: Curve, place: Place, circle: Circle, 
         yield within("main_bearings", one, value.real, value.real, off)
         yield within("main_bearings", other, value.imag, value.imag, off)
     peak = yield from largest("main_bearings", place, curve, "N")
-    degrees = (place / "peak_angle_deg").double()
-    there = curve.length(turned(loads, degrees)) if 0 <= degrees <= 360 else 0.0
-    yield within("main_bearings", place / "peak_angle_deg", degrees, degrees, there - peak.low * (1 - PEAK) + off)
+    yield where("main_bearings", place / "peak_angle_deg", loads, curve, peak)
     if own / "diameter_m" and own / "length_m":
         area = (own / "diameter_m").double() * (own / "length_m").double()
         low, high = peak.low * (1 - PEAK) / area, peak.high / area

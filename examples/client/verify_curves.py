@@ -58,11 +58,15 @@ class Turn:
             root, both = _root(upright), row.ratio * cosine * sine
             outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), root, self.place)
             outward = outward + over(row.ratio * both * both, upright * root, self.place)
+            tangent = over(row.ratio * sine, root, self.place)
+            if response == "roll":
+                found = found + row.product * row.radius * machine.wide * outward * (sine + cosine * tangent)
+                continue
             force = row.product * machine.wide * outward * row.axis * turn.conjugate()
             if on_shaft:
-                force = force * (ONE - J * over(row.ratio * sine, root, self.place))
+                force = force * (ONE - J * tangent)
             found = found + force * self.factor(response, row.position)
-        for mass in (*self.turning, *machine.there):
+        for mass in (*self.turning, *machine.there) if response != "roll" else ():
             size = mass.product * machine.wide * self.factor(response, mass.position)
             found = found + (mass.co + machine.blur) * size
         return found * machine.square
@@ -81,6 +85,8 @@ class Turn:
 
     def _adds(self, response: str, position: Number) -> Number:
         kind, _, name = response.partition(":")
+        if kind == "roll":
+            return ZERO
         if kind in NAMES:
             place = position * self.machine.wide
             return ONE if kind == "force" else place - self.machine.plane * self.machine.wide
@@ -98,7 +104,7 @@ class Turn:
         """Whether there is such a response."""
         kind, _, name = response.partition(":")
         if kind not in ("bearing", "bending"):
-            return response in NAMES
+            return response in (*NAMES, "roll")
         if self.spans is None or kind == "bearing":
             return self.spans is not None and name in self.bearings
         try:

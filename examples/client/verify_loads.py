@@ -32,11 +32,12 @@ class Loads:
     def __init__(self, asked: Place, machine: Machine, turn: Turn) -> None:
         self.turn, self.square, self.plane = turn, machine.square.middle().real, machine.plane.middle().real
         self.pistons = [_piston(row, self.square) for row in turn.rows]
-        #: places of the balance shafts in the request [m], by their names
-        self.levers = {
-            (one / "name").text(): complex((one / "x_m").double(0.0), (one / "y_m").double(0.0))
-            for one in asked / "balance_shafts"
-        }
+        #: of every web of the balance shafts, where its shaft is [m]
+        self.levers = [
+            complex((shaft / "x_m").double(0.0), (shaft / "y_m").double(0.0))
+            for shaft in asked / "balance_shafts"
+            for _ in shaft / "webs"
+        ]
         places = [one.position for one in (*turn.rows, *turn.turning, *machine.webs)]
         #: planes of loads, webs and bearings, in which the bending moment has its corners [m]
         self.planes = sorted({*(one.middle().real for one in places), *turn.places})
@@ -78,9 +79,17 @@ class Loads:
     def with_weights(self, response: str, weights: Sequence[Mass], on_shafts: Sequence[Tuple[int, Mass]] = ()) -> Curve:
         """The curve with weights, those on balance shafts by the sizes of their speed ratios."""
         found = self.curve(response).moved(self.added(response, weights))
-        for ratio, one in on_shafts if response in NAMES else ():
-            size = self.factor(response, one.position) * ratio**2 * self.square * one.product.middle().real
-            found = found.moved(size * one.co.middle(), ratio - 1).moved(size * one.counter.middle(), -ratio - 1)
+        for lever, (ratio, one) in zip(self.levers, on_shafts):
+            size = ratio**2 * self.square * one.product.middle().real
+            if response == "roll":
+                around = Curve({}, scalar=True)
+                for sense, vector in ((1, one.co), (-1, one.counter)):
+                    turning = Curve({sense * ratio: -1j * lever.conjugate() * size * vector.middle()}, scalar=True)
+                    around = Curve(total([(1.0, around.harmonics), (1.0, turning.harmonics)]).harmonics)
+                found = Curve(total([(1.0, found.harmonics), (1.0, around.harmonics)]).harmonics)
+            elif response in NAMES:
+                size *= self.factor(response, one.position)
+                found = found.moved(size * one.co.middle(), ratio - 1).moved(size * one.counter.middle(), -ratio - 1)
         return found
 
     def factor(self, response: str, position: Number) -> float:

@@ -7,17 +7,18 @@ and balance shafts are not covered.
 
 from __future__ import annotations
 
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from verify_answer import Fitted, closest
 from verify_cases import FIELDS as CASES
 from verify_cases import cases, goals, scatter
 from verify_claims import EVIDENCE, Claims, covered, near
-from verify_cuts import FIELDS, Group, Part, Term
+from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
 from verify_first import near_the_bound, searched, smallest
 from verify_goals import Program as Asked
 from verify_goals import values
-from verify_machine import NAMES, NOTHING, Machine, Mass, over
+from verify_machine import NAMES, NOTHING, Machine, Web, over
+from verify_misplacement import misplacement
 from verify_numbers import (
     ONE,
     SPECK,
@@ -44,9 +45,9 @@ MOST = 30_000
 class Pulls:
     """What multipliers prove before counterweights, and what they pull at every web with, and scatter it by."""
 
-    def __init__(self, least: Number, machine: Machine) -> None:
+    def __init__(self, least: Number, webs: Sequence[Web]) -> None:
         self.least = least
-        self.slopes, self.spread = [ZERO for _ in machine.webs], [ZERO for _ in machine.webs]
+        self.slopes, self.spread = [ZERO for _ in webs], [ZERO for _ in webs]
 
 
 class Program:
@@ -60,7 +61,7 @@ class Program:
         if goal / "moment_weight":
             weights["moment"] = (goal / "moment_weight").number(least=0)
         weights = {name: weight for name, weight in weights.items() if weight.high > 0}
-        for kind in ("bearing", "bending"):
+        for kind in ("bearing", "bending", "roll"):
             weights[kind] = (goal / f"{kind}_weight").number(0.0, least=0)
         external = {name: weights[name] for name in NAMES if name in weights}
         together = (goal / "combine").text("sum", "max", default="sum") == "sum"
@@ -68,6 +69,7 @@ class Program:
         every = cases(request, machine, answer / "reference_plane_m")
         self.parts = {case.name: Part(case, weights, self.named) for case in every}
         self.first = next(iter(self.parts.values()))
+        self.webs = [*machine.webs, *(one.web for one in self.first.geared)]
         self.levels = [(one / "limit").number() for one in answer / "certificate" / "goals"]
         if answer and len(self.levels) != len(self.named) - 1:
             raise NotCovered(answer / "certificate" / "goals")
@@ -81,24 +83,24 @@ class Program:
     def terms(self, proof: Place) -> List[Term]:
         """Terms of the objective with their multipliers."""
         found, size = list(proof / "terms"), self.first
-        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.machine.webs)) > MOST:
+        if len(found) * (len(size.turn.rows) + len(self.machine.masses) + len(self.webs)) > MOST:
             raise NotCovered(proof / "terms")
         return [self._part(one).term(one) for one in found]
 
-    def reached(self, terms: List[Term], weights: List[Mass]) -> Number:
+    def reached(self, terms: List[Term], fitted: Fitted) -> Number:
         """What counterweights come to of the last goal, at the angles of the cuts."""
         rows: Dict[Tuple[Group, str], Number] = {}
         # what is fixed is in the start of every cut
-        weights = [one for one, web in zip(weights, self.machine.webs) if web.fixed is None]
-        free = [k for k, web in enumerate(self.machine.webs) if web.fixed is None]
-        sizes = [weight.product for weight in weights]
+        own = [ZERO if web.fixed else one.product * one.co for one, web in zip(fitted.turning, self.machine.webs)]
+        vectors = [*own, *(one.vector(mass) for one, (_, mass) in zip(self.first.geared, fitted.on_shafts))]
+        sizes = [abs(one) for one in vectors]
         for one in terms:
-            factors = [one.factors[k] for k in free]
             moved = one.start
-            for weight, factor in zip(weights, factors):
-                moved = moved + weight.product * weight.co * factor
+            for vector, factor in zip(vectors, one.factors):
+                moved = moved + vector * factor
+            moved = moved.parts()[0] if one.scalar else moved
             before = rows.get((one.group, one.row), one.floor)
-            rows[one.group, one.row] = before + abs(moved) + self.off.of(factors, sizes)
+            rows[one.group, one.row] = before + abs(moved) + self.off.of(one.factors, sizes)
         groups = {group for group, _ in rows if group[1] == len(self.named) - 1}
         most = {group: largest(*(value for (of, _), value in rows.items() if of == group)) for group in groups}
         every = {group[0] for group in groups}
@@ -117,7 +119,7 @@ class Program:
             return None, False
         share, charge = self._shares(sums, cost, most, proof)
         floors = {one.row: one.floor for one in terms}
-        pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.machine)
+        pulls = Pulls(total(value * share[group_of[name]] * floors[name] for name, value in rows.items()), self.webs)
         pulls.least = pulls.least - charge
         for one in terms:
             if one.row in rows:
@@ -127,7 +129,7 @@ class Program:
 
     def conflict(self, proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
         """What the ceilings are exceeded by at least, each by its price, and whether implied limits are believed."""
-        pulls = Pulls(ZERO, self.machine)
+        pulls = Pulls(ZERO, self.webs)
         self._add_ceilings(pulls, proof)
         lengths: Dict[str, Number] = {}
         for one in proof / "ceilings":
@@ -146,7 +148,8 @@ class Program:
 
     def _add(self, pulls: Pulls, one: Term, allowed: Number, share: Number) -> None:
         """A term with its multiplier; |y| <= lambda holds by shortening."""
-        size = abs(one.y)
+        y = one.y.parts()[0] if one.scalar else one.y
+        size = abs(y)
         if self.scattered:
             grown = allowed * share
             pulls.spread = [
@@ -156,8 +159,10 @@ class Program:
         if size.low > 0:
             shorter = share * (allowed / size if size.high > allowed.low else ONE)
             shorter = Number(min(shorter.low, share.low), min(shorter.low, share.low))
-            pulls.least = pulls.least + one.y.along(one.start) * shorter
-            pulls.slopes = [slope + factor * one.y * shorter for slope, factor in zip(pulls.slopes, one.factors)]
+            pulls.least = pulls.least + y.along(one.start) * shorter
+            pulls.slopes = [
+                slope + factor.conjugate() * y * shorter for slope, factor in zip(pulls.slopes, one.factors)
+            ]
 
     def _add_ceilings(self, pulls: Pulls, proof: Place) -> None:
         for limit in proof / "ceilings":
@@ -177,13 +182,13 @@ class Program:
                 grown = abs(p) * self.off.share
                 pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
                 pulls.least = pulls.least + abs(p) * self.off.besides * total(map(abs, factors))
-            pulls.slopes = [slope + factor * p for slope, factor in zip(pulls.slopes, factors)]
+            pulls.slopes = [slope + factor.conjugate() * p for slope, factor in zip(pulls.slopes, factors)]
 
     def _within_limits(self, pulls: Pulls, proof: Place, implied: Place, cost: Number) -> Tuple[Optional[Number], bool]:
         """Less what counterweights take off at most."""
         machine, least, believed = self.machine, pulls.least, False
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
-        for web, pull, wide in zip(machine.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
+        for web, pull, wide in zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
             gain = web.radius * (support(pull, web.sector) - wide) - cost - beta
             if gain.high <= 0:
                 continue
@@ -224,12 +229,13 @@ def looks_at_the_turn(request: Place) -> bool:
     goal = request / "objective"
     loads = any((goal / name).value not in (None, 0) for name in FIELDS.split()[1:])
     several = list(request / "scenarios") or request / "tolerances" or list(goal / "priorities")
-    return loads or (goal / "orders").value == "all" or bool(several)
+    shafts = list(request / "machine" / "balance_shafts")
+    return loads or (goal / "orders").value == "all" or bool(several) or bool(shafts)
 
 
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
-    request.known(FIELDS + CASES)
+    request.known(FIELDS + CASES + SHAFTS)
     asked, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -239,7 +245,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     noise = SPECK * (abs(value) + abs(lowest.number(0.0)))
     # not below what is there at the angles of the cuts
     terms = program.terms(multipliers / "objective")
-    reached = program.reached(terms, fitted.turning)
+    reached = program.reached(terms, fitted)
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     of_objective = multipliers / "objective"
     yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
@@ -252,16 +258,17 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         found_least = program.bound(of_mass, program.terms(of_mass), implied, ONE, limit)
         yield from _proven("mass_lower_bound", least, found_least, implied, of_mass, machine.fixed)
         yield "mass_lower_bound", proof / "mass_objective_limit", limit + noise - value, abs(value)
-    size = proof / "mass_yardstick_kg"
-    if size and size.double() == answer.value.get("total_mass_kg"):
-        yield near("yardstick", size, fitted.mass)
+    size, mass = proof / "mass_yardstick_kg", fitted.mass + fitted.on_shafts_mass
+    if size and abs(size.number() - mass).low <= (mass * SPECK).high:
+        yield near("yardstick", size, mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
+    yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
 
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
     """No counterweights keep the ceilings, at the angles of the cuts."""
-    request.known(FIELDS + CASES)
+    request.known(FIELDS + CASES + SHAFTS)
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
     machine = Machine(request / "machine", answer / "reference_plane_m", budget)
     given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]

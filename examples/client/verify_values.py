@@ -94,6 +94,8 @@ class Value:
 
     def _external(self) -> Iterator[Range]:
         weights = self.part.weights
+        if float(weights["roll"]) > 0:
+            yield self._weighed("roll", float(weights["roll"]))
         if self.part.all:
             for name in NAMES:
                 if name in weights:
