@@ -69,9 +69,7 @@ def after(request: Place, machine: Machine, answer: Place, there: Fitted) -> Cla
         yield from quality(request / "machine", machine, answer / "balance_quality", there.turning)
     if answer / "active_limits":
         rooms = touched(request, machine, left, there.mass)
-        if rooms is None:
-            yield "active_limits", answer / "active_limits", None, ONE
-        else:
+        if rooms is not None:
             yield from listed("active_limits", answer / "active_limits", rooms)
 
 

@@ -92,8 +92,13 @@ def nominal(machine: Machine, goal: Place, rows: Dict[str, Dict[str, Number]], r
 def peak(machine: Machine, responses: Responses, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
     """The largest of a response of the first order where counterweights are off."""
     co, counter = responses[name]
+    return abs(co) + abs(counter) + grown(machine, name, off, sizes)
+
+
+def grown(machine: Machine, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
+    """What a response of the first order grows by at most."""
     arms = [ONE if name == "force" else web.position - machine.plane for web in machine.webs]
-    return abs(co) + abs(counter) + off.of([arm * machine.square for arm in arms], sizes)
+    return off.of([arm * machine.square for arm in arms], sizes)
 
 
 def with_value(body: Any, parts: Sequence[str], value: Any, place: Place) -> Any:

@@ -80,10 +80,10 @@ class Machine:
         self.groups = _groups(place)
         #: what is there already: the program chooses beside it, within what it leaves of the budget
         there = [(web, *web.fixed) for web in self.webs if web.fixed is not None]
-        fixed = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
+        self.there = [Mass(mass * web.radius, direction(angle), ZERO, web.position) for web, mass, angle in there]
         self.fixed = total(mass for _, mass, _ in there)
         self.left = largest(self.budget - self.fixed, ZERO) if self.budget is not None else None
-        self.before, self.laden = self.responses([]), self.responses(fixed)
+        self.before, self.laden = self.responses([]), self.responses(self.there)
 
     def responses(self, weights: Sequence[Mass]) -> Responses:
         """With counterweights."""

@@ -66,12 +66,20 @@ class Number:
     def along(self, other: Number) -> Number:
         return (self.conjugate() * other).parts()[0]
 
+    def middle(self) -> complex:
+        """In doubles."""
+        return complex(_double(self.low + self.high, BITS + 1), _double(sum(self.y), BITS + 1))
+
     def __float__(self) -> float:
         """The upper end."""
-        try:
-            return self.high / (1 << BITS)
-        except OverflowError:
-            return sys.float_info.max if self.high > 0 else -sys.float_info.max
+        return _double(self.high, BITS)
+
+
+def _double(number: int, bits: int) -> float:
+    try:
+        return number / (1 << bits)
+    except OverflowError:
+        return sys.float_info.max if number > 0 else -sys.float_info.max
 
 
 def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:

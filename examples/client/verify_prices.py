@@ -9,18 +9,13 @@ from typing import Dict, Iterator, List, NamedTuple, Sequence, Tuple
 from verify_answer import Fitted
 from verify_claims import Claims
 from verify_machine import NAMES, Machine, Mass
-from verify_numbers import BITS, ONE, NotCovered, Number, Place, real
+from verify_numbers import ONE, NotCovered, Place, real
 from verify_program import CEILINGS, Statement
 
 FIGURE = 1e-9  # share of a figure in doubles, of all that it is made of
 WORTH = 1e-6  # share of the objective without counterweights: what a whole limit has to be worth to be listed
 ACROSS = 1e-3  # rad: by which what pulls at a web may be off a right angle to the edge of its sector
 UNITS = {"max_mass": "kg", "max_total_mass": "kg", "envelope": "(kg m)", "max_centrifugal_force": "N", "sector": "deg"}
-
-
-def double(number: Number) -> complex:
-    """The middle."""
-    return complex((number.low + number.high) / (1 << BITS + 1), (number.y[0] + number.y[1]) / (1 << BITS + 1))
 
 
 # ---- where weights are off
@@ -35,8 +30,10 @@ def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> C
     sums: Dict[str, List[float]] = {row: [float(floor)] * 3 for row, floor in statement.floor.items()}
     for term in statement.terms.values():
         arms = [ONE if term.moves == "force" else mass.position - machine.plane for mass in webs]
-        vectors = [double(mass.product * mass.co * arm * term.factor * machine.square) for mass, arm in zip(webs, arms)]
-        start = double(term.start)
+        vectors = [
+            (mass.product * mass.co * arm * term.factor * machine.square).middle() for mass, arm in zip(webs, arms)
+        ]
+        start = term.start.middle()
         worst = worst_by_angle(start, vectors, radians(1)), worst_by_mass(start, vectors, 0.01)
         sums[term.row] = [one + more for one, more in zip(sums[term.row], (abs(start + sum(vectors)), *worst))]
         # where what is there cancels, its rounding is that of what cancels
@@ -112,11 +109,11 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     multipliers = proof / "multipliers" / "objective"
     touched = {(one.text()) for one in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
-    arms = [1 + abs(double(web.position - machine.plane)) for web in machine.webs]
-    widest = max((abs(double(web.radius)) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
+    arms = [1 + abs((web.position - machine.plane).middle()) for web in machine.webs]
+    widest = max((abs(web.radius.middle()) * arm for web, arm in zip(machine.webs, arms)), default=0.0)
     lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
-    factor = max((abs(double(term.factor)) for term in statement.terms.values()), default=0.0)
-    dust = 1e-12 * widest * double(machine.square).real * (sum(lengths) * factor + sum(ceilings.values()))
+    factor = max((abs(term.factor.middle()) for term in statement.terms.values()), default=0.0)
+    dust = 1e-12 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
     stated = list(_stated(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
     for name, length in ceilings.items():
         field = CEILINGS[name]
@@ -168,15 +165,15 @@ def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, 
         if key not in statement.terms or one / "angle_deg" or one / "scenario":
             raise NotCovered(one)
         term, y = statement.terms[key], complex((one / "x").double(), (one / "y").double())
-        slopes[term.moves] += y * double(term.factor)
+        slopes[term.moves] += y * term.factor.middle()
     for one in proof / "ceilings":
         name, y = (one / "response").text(), complex((one / "x").double(), (one / "y").double())
         if name not in lengths or one / "angle_deg" or one / "scenario":
             raise NotCovered(one)
         slopes[name.partition(":")[0]] += y
         lengths[name] += abs(y)
-    square, plane = double(machine.square).real, double(machine.plane).real
-    arms = [double(web.position).real - plane for web in machine.webs]
+    square, plane = machine.square.middle().real, machine.plane.middle().real
+    arms = [web.position.middle().real - plane for web in machine.webs]
     return [-(slopes["force"] + slopes["moment"] * arm) * square for arm in arms], lengths
 
 
@@ -189,7 +186,7 @@ def _stated(
         if web.fixed is not None:
             continue
         names = {each.text() for each in one / "active_limits"}
-        radius = (one / "radius_m").double() if web.plate else double(web.radius).real
+        radius = (one / "radius_m").double() if web.plate else web.radius.middle().real
         worth = max(radius * _support(pull, web.sector) - beta, 0.0)
         sizes = {name: float(most) for name, most in web.limits}
         least = min(sizes.values(), default=0.0)
@@ -197,7 +194,7 @@ def _stated(
             binds = worth if most <= least * (1 + 1e-12) else 0.0
             per = 1.0
             if name == "max_centrifugal_force":
-                per = radius * double(machine.fastest).real
+                per = radius * machine.fastest.middle().real
             yield Priced(name, web.name, binds / per, most * per, UNITS[name], name in names)
         if web.sector is not None:
             centre, half = web.sector
@@ -208,7 +205,7 @@ def _stated(
             edge = abs(off - pi / 2) < ACROSS
             yield Priced("sector", web.name, radians(u * opening), half, "deg", "sector" in names, edge)
     if machine.budget is not None:
-        yield Priced("max_total_mass", "", beta, double(machine.budget).real, "kg", budget_touched)
+        yield Priced("max_total_mass", "", beta, machine.budget.middle().real, "kg", budget_touched)
 
 
 def _support(pull: complex, sector: object) -> float:

@@ -39,12 +39,16 @@ Key = Tuple[str, str]
 
 
 class Term(NamedTuple):
-    """A length |start + factor f| in a row, or one that a ceiling limits; f is what counterweights add."""
+    """A length |start + factor f| in a row, or one that a ceiling limits; f is what counterweights add.
+
+    Where balance shafts turn backwards their conjugate has a factor of its own.
+    """
 
     row: str
     response: str
     start: Number
     factor: Number
+    backwards: Number = ZERO  # of what balance shafts add that turn backwards
 
     @property
     def moves(self) -> str:
@@ -62,8 +66,15 @@ class Bound(NamedTuple):
 class Statement:
     """Rows, which are sums of weighted peaks, and ceilings; they go by their names in the answer."""
 
-    def __init__(self, machine: Machine, goal: Place, rows: dict[str, dict[str, Number]], capped: bool = True) -> None:
-        self.machine, self.rows = machine, rows
+    def __init__(
+        self,
+        machine: Machine,
+        goal: Place,
+        rows: dict[str, dict[str, Number]],
+        capped: bool = True,
+        backwards: bool = False,
+    ) -> None:
+        self.machine, self.rows, self.backwards = machine, rows, backwards
         self.x, self.y = ((goal / "direction_weights" / name).number(1.0, least=0) for name in ("x", "y"))
         self.floor: dict[str, Number] = dict.fromkeys(rows, ZERO)
         self.terms: dict[Key, Term] = {}
@@ -89,19 +100,21 @@ class Statement:
         size = most[name.partition(":")[0]] * largest(ZERO, *called)
         return size if size.low > 0 else self.machine.square
 
-    def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, Number]]]:
-        """A floor, and vectors whose lengths it adds; each with the factor of the phasor with the shaft in it."""
+    def peak(self, response: tuple[Number, Number], weight: Number) -> tuple[Number, dict[str, tuple[Number, ...]]]:
+        """A floor, and vectors whose lengths it adds; each with the factors of the phasors in it, forwards first."""
         p, q, f, b = weight * (self.x + self.y) * HALF, weight * (self.x - self.y) * HALF, *response
-        if self.x.low == self.y.low:
+        if self.x.low == self.y.low and not self.backwards:
             return p * abs(b), {"co": (f * p, p)}
-        return ZERO, {"co": (f * p + b.conjugate() * q, p), "counter": (f * q + b.conjugate() * p, q)}
+        if self.x.low == self.y.low:
+            return ZERO, {"co": (f * p, p), "counter": (b.conjugate() * p, ZERO, p)}
+        return ZERO, {"co": (f * p + b.conjugate() * q, p, q), "counter": (f * q + b.conjugate() * p, q, p)}
 
     def values(self, responses: Responses) -> dict[str, Number]:
         """Of every row."""
         found = dict.fromkeys(self.rows, ZERO)
         for row, name, weight in ((r, name, weight) for r, each in self.rows.items() for name, weight in each.items()):
             floor, lengths = self.peak(phasors(responses, name), weight)
-            found[row] = found[row] + floor + total(abs(vector) for vector, _ in lengths.values())
+            found[row] = found[row] + floor + total(abs(vector) for vector, *_ in lengths.values())
         return found
 
     def bound(self, proof: Place, implied: Place, slack: dict[str, Number], cost: Number, believed: bool) -> Bound:
