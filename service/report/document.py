@@ -127,7 +127,7 @@ def _chapters(
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
-    yield balance.before_and_after(request, answer)
+    yield balance.before_and_after(request, answer, built)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from balance.prices(request, answer)
     # of the first page

@@ -54,7 +54,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     yield from worth_knowing(answer)
     yield from worst_case(answer)
     yield from balance_quality(request.machine, answer)
-    yield balance.before_and_after(request, answer)
+    yield balance.before_and_after(request, answer, built)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
     yield from balance.prices(request, answer)
     if answer.stages is not None:

@@ -101,11 +101,15 @@ def layout(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
                 + ("" if built is None else " As built: dashed, orange."),
             ),
             Figure(
-                (side(request.machine, fitted, answer.reference_plane_m),),
+                (
+                    side(
+                        request.machine, fitted, answer.reference_plane_m, () if built is None else built.counterweights
+                    ),
+                ),
                 "Side view along the shaft, heights along the direction of the first crank, width of a counterweight "
                 "after its mass; the reference plane of the moments green and dash-dotted. Below: places z and "
                 "distances of the webs in mm; R is the radius of a centre of mass. Along and across the shaft the "
-                "scales differ.",
+                "scales differ." + ("" if built is None else " As built: dashed, orange."),
             ),
         ),
     )
@@ -277,15 +281,22 @@ def limits(names: Sequence[str]) -> str:
     return ", ".join(_LIMITS[name] for name in names)
 
 
-def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer) -> Chapter:
-    """First-order force and moment, and what the counterweights leave."""
+def before_and_after(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | None) -> Chapter:
+    """First-order force and moment, what the counterweights leave, and what those that are fitted do."""
     _, left = shown(answer)
     shown_orders = two_orders(answer.residual.orders)
-    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders)
+    filed = None if built is None else built.left
+    return first_order(request.machine, answer.residual.before, left, answer.floor, which(answer), shown_orders, filed)
 
 
 def first_order(
-    machine: Machine, was: FirstOrder, left: FirstOrder | None, floor: Floor, label: str, beside: Table
+    machine: Machine,
+    was: FirstOrder,
+    left: FirstOrder | None,
+    floor: Floor,
+    label: str,
+    beside: Table,
+    built: FirstOrder | None = None,
 ) -> Chapter:
     """First-order force and moment: ellipses as figures and as hodographs.
 
@@ -294,6 +305,7 @@ def first_order(
     left : with counterweights, if there are any.
     label : what these are.
     beside : the second order.
+    built : with what is fitted, if anything is.
     """
     scales = {"force": was.force.peak_N, "moment": was.moment.peak_Nm}
     floors = {"peak_N": floor.force_N, "peak_Nm": floor.moment_Nm}
@@ -313,7 +325,7 @@ def first_order(
             table("", ["quantity", "#without counterweights", f"#{label}", "#floor"], rows),
             beside,
             Figure(
-                hodographs(machine, was, left, floor, label),
+                hodographs(machine, was, left, floor, label, built),
                 "Hodographs: the tips of first-order force and moment run along these ellipses once a revolution. No "
                 "counterweight on the shaft brings a peak below the floor circle. Moments are couples in the plane of "
                 "the forces about the reference plane.",
