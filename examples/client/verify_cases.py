@@ -68,7 +68,7 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
             body = with_value(body, path, (change / "value").value, request)
         changed = Place(body, *request.path)
         budget = changed / "machine" / "max_total_mass_kg"
-        own = Machine(changed / "machine", plane, budget)
+        own = Machine(changed / "machine", changed / "objective", plane, budget)
         yield Case(changed, own, (one / "weight").number(1.0, least=0), (one / "name").text())
 
 
@@ -92,7 +92,7 @@ def nominal(machine: Machine, goal: Place, rows: Dict[str, Dict[str, Number]], r
 def peak(machine: Machine, responses: Responses, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
     """The largest of a response of the first order where counterweights are off."""
     co, counter = responses[name]
-    arms = [ONE if name == "force" else web.position - machine.plane for web in machine.webs]
+    arms = [machine.arm(name, web.position) for web in machine.webs]
     return abs(co) + abs(counter) + off.of([arm * machine.square for arm in arms], sizes)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import isfinite, isqrt
 from typing import Dict, Iterator, NamedTuple, Tuple
 
-from verify_machine import NAMES, Machine, over, row_masses
+from verify_machine import ON_FRAME, Machine, over, row_masses
 from verify_numbers import BITS, ONE, ZERO, J, NotCovered, Number, Place, direction, largest, real, total
 
 
@@ -74,8 +74,8 @@ class Turn:
     def _adds(self, response: str, position: Number) -> Number:
         kind, _, name = response.partition(":")
         place = position * self.machine.wide
-        if kind in NAMES:
-            return ONE if kind == "force" else place - self.machine.plane * self.machine.wide
+        if kind in ON_FRAME:
+            return self.machine.arm(kind, position, self.machine.wide)
         carried = self._carried(place)
         if kind == "bearing":
             return carried[name]
@@ -95,7 +95,7 @@ class Turn:
         """Whether there is such a response."""
         kind, _, name = response.partition(":")
         if kind not in ("bearing", "bending"):
-            return response in NAMES
+            return response in ON_FRAME
         if len(self.bearings) < 2 or kind == "bearing":
             return len(self.bearings) > 1 and name in dict(self.bearings)
         try:

@@ -6,7 +6,7 @@ from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 from verify_cases import Case, Scatter, goal_of
 from verify_curves import Turn
-from verify_machine import NAMES, Responses, over
+from verify_machine import ON_FRAME, Responses, over
 from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest
 from verify_program import CEILINGS, Statement
 
@@ -49,7 +49,7 @@ class Part:
         limits = [*names, *(CEILINGS.values() if self.all else ())]
         self.limited = any("_ceiling_" in name and goal / name for name in limits)
         self.loads = loads or self.all
-        external = {name: self.weights[name] for name in NAMES if name in self.weights and not self.all}
+        external = {name: self.weights[name] for name in ON_FRAME if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
         self.exact = Statement(machine, goal, self.rows if external else {}, capped=not self.all)
 
@@ -89,7 +89,7 @@ class Part:
         """What a ceiling limits, and how much it allows."""
         response, goal = (one / "response").text(), self.goal
         kind, _, name = response.partition(":")
-        along = bool(name) and kind in NAMES
+        along = bool(name) and kind in ON_FRAME
         if one / "angle_deg" and not self.turn.knows(kind if along else response):
             raise NotCovered(one)
         if not one / "angle_deg":
@@ -107,7 +107,7 @@ class Part:
         start = self.turn.seen(response, degrees)
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":
             raise NotCovered(goal / "specific_load_ceiling_Pa")
-        field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")
+        field = CEILINGS.get(kind) or {"bearing": "bearing_ceiling_N"}.get(kind, "")
         cap = goal / (field or "bending_ceiling_Nm")
         if not cap:
             raise NotCovered(one)
