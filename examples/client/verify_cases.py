@@ -68,7 +68,7 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
             body = with_value(body, path, (change / "value").value, request)
         changed = Place(body, *request.path)
         budget = changed / "machine" / "max_total_mass_kg"
-        own = Machine(changed / "machine", plane, budget)
+        own = Machine(changed / "machine", changed / "objective", plane, budget)
         yield Case(changed, own, (one / "weight").number(1.0, least=0), (one / "name").text())
 
 
@@ -97,7 +97,7 @@ def peak(machine: Machine, responses: Responses, name: str, off: Scatter, sizes:
 
 def grown(machine: Machine, name: str, off: Scatter, sizes: Sequence[Number]) -> Number:
     """What a response of the first order grows by at most."""
-    arms = [ONE if name == "force" else web.position - machine.plane for web in machine.webs]
+    arms = [machine.arm(name, web.position) for web in machine.webs]
     return off.of([arm * machine.square for arm in arms], sizes)
 
 

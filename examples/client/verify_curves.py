@@ -6,7 +6,7 @@ from fractions import Fraction
 from math import isfinite, isqrt
 from typing import Dict, Iterator, NamedTuple, Tuple
 
-from verify_machine import NAMES, Machine, over, row_masses
+from verify_machine import ON_FRAME, Machine, over, row_masses
 from verify_numbers import BITS, ONE, SPECK, ZERO, J, NotCovered, Number, Place, direction, real
 from verify_spans import Spans
 
@@ -87,9 +87,8 @@ class Turn:
         kind, _, name = response.partition(":")
         if kind == "roll":
             return ZERO
-        if kind in NAMES:
-            place = position * self.machine.wide
-            return ONE if kind == "force" else place - self.machine.plane * self.machine.wide
+        if kind in ON_FRAME:
+            return self.machine.arm(kind, position, self.machine.wide)
         if self.spans is None:
             raise NotCovered(self.place)
         place = Fraction(position.low + position.high, 1 << BITS + 1)
@@ -104,7 +103,7 @@ class Turn:
         """Whether there is such a response."""
         kind, _, name = response.partition(":")
         if kind not in ("bearing", "bending"):
-            return response in (*NAMES, "roll")
+            return response in (*ON_FRAME, "roll")
         if self.spans is None or kind == "bearing":
             return self.spans is not None and name in self.bearings
         try:

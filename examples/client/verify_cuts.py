@@ -8,7 +8,7 @@ from typing import Dict, List, NamedTuple, Optional, Sequence, Tuple
 from verify_cases import Case, Scatter, goal_of
 from verify_curves import Turn
 from verify_loads import Loads
-from verify_machine import NAMES, Responses, over
+from verify_machine import ON_FRAME, Responses, over
 from verify_numbers import ABOUT_ONE, ONE, ZERO, J, NotCovered, Number, Place, largest
 from verify_program import CEILINGS, Statement
 from verify_program import Term as Length
@@ -59,7 +59,7 @@ class Part:
         limits = [*names, *(CEILINGS.values() if self.all else ())]
         self.limited = any("_ceiling_" in name and goal / name for name in limits)
         self.of_shaft, self.over_turn = loads, loads or rolls or self.all
-        external = {name: self.weights[name] for name in NAMES if name in self.weights and not self.all}
+        external = {name: self.weights[name] for name in ON_FRAME if name in self.weights and not self.all}
         self.rows = {"sum": external} if self.apart else {name: {name: weight} for name, weight in external.items()}
         self.geared = geared(request / "machine", machine, mirrored=not self.all)
         backwards = any(one.ratio == -1 for one in self.geared)
@@ -99,7 +99,7 @@ class Part:
             on_shafts = [one.roll(unit) * square for one in self.geared]
         else:
             # those on balance shafts do not load the crankshaft
-            moves = response in NAMES
+            moves = response in ON_FRAME
             on_shafts = [one.seen(unit) * self._arm(response, one) if moves else ZERO for one in self.geared]
         return [*self._factors(response, weight), *(one * weight for one in on_shafts)]
 
@@ -125,7 +125,7 @@ class Part:
         """What a ceiling limits, and how much it allows."""
         response, goal = (one / "response").text(), self.goal
         kind, _, name = response.partition(":")
-        along = bool(name) and kind in NAMES
+        along = bool(name) and kind in ON_FRAME
         if one / "angle_deg" and not self.turn.knows(kind if along else response):
             raise NotCovered(one)
         if not one / "angle_deg":
@@ -143,7 +143,7 @@ class Part:
             factors = [factor * back for factor in self.at(kind, degrees, ONE)]
             return self.turn.seen(kind, degrees) * back, factors, (goal / CEILINGS[response]).number(least=0)
         start = self.turn.seen(response, degrees)
-        field = f"{kind}_ceiling_{NAMES[kind]}" if kind in NAMES else {"bearing": "bearing_ceiling_N"}.get(kind, "")
+        field = CEILINGS.get(kind) or {"bearing": "bearing_ceiling_N"}.get(kind, "")
         caps = [limit.number(least=0) for limit in [goal / (field or "bending_ceiling_Nm")] if limit]
         if kind == "bearing" and goal / "specific_load_ceiling_Pa":
             caps.append((goal / "specific_load_ceiling_Pa").number(least=0) * self.area[name])

@@ -10,7 +10,7 @@ from verify_cases import Case, Scatter, nominal, peak
 from verify_ceilings import kept
 from verify_claims import Claims, near
 from verify_cuts import Part
-from verify_machine import NAMES, Machine, Mass
+from verify_machine import NAMES, ON_FRAME, Machine, Mass
 from verify_numbers import ABOUT_ONE, ONE, ZERO, Number, Place, largest
 from verify_values import Range, Value, most
 from verify_weights import listed
@@ -99,6 +99,11 @@ def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claim
     for name, unit in NAMES.items():
         found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
         yield within("worst_case", place / f"{name}_peak_{unit}", found.low, found.high, WIDE * found.high)
+    for claim in place / "responses":
+        name = (claim / "response").text(*ON_FRAME)
+        found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
+        yield "worst_case", claim / "response", ONE, ONE
+        yield within("worst_case", claim / "peak", found.low, found.high, WIDE * found.high)
     if there[0].part.of_shaft:
         found = most([one.bearings() for one in there])
         yield within("worst_case", place / "bearing_peak_N", found.low, found.high, WIDE * found.high)
@@ -121,6 +126,11 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
         for name, unit in NAMES.items():
             peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
             yield near("worst_case", worst / f"{name}_peak_{unit}", largest(*peaks) * ABOUT_ONE)
+        for one in worst / "responses":
+            name = (one / "response").text(*ON_FRAME)
+            peaks = [peak(part.machine, responses, name, program.off, sizes) for part, responses in parts]
+            yield "worst_case", one / "response", ONE, ONE
+            yield near("worst_case", one / "peak", largest(*peaks) * ABOUT_ONE)
     if price:
         responses = program.machine.responses(found)
         as_given = nominal(program.machine, request / "objective", program.rows, responses)

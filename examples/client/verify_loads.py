@@ -13,7 +13,7 @@ from typing import Dict, NamedTuple, Sequence, Tuple
 
 from verify_curves import Row, Turn
 from verify_harmonics import Curve, Harmonics, rod, total
-from verify_machine import NAMES, Machine, Mass
+from verify_machine import ON_FRAME, Machine, Mass
 from verify_numbers import NotCovered, Number, Place
 
 
@@ -65,7 +65,7 @@ class Loads:
         if response == "roll":
             around = total([(1.0, one.roll) for one in self.pistons]).harmonics
             return Curve({k: each for k, each in around.items() if k}, scalar=True)
-        on_frame = response in NAMES
+        on_frame = response in ON_FRAME
         rows = [(self.factor(response, one.position), one.frame if on_frame else one.shaft) for one in self.pistons]
         return total([*rows, (1.0, {0: self.added(response, self.turn.turning)})])
 
@@ -87,7 +87,7 @@ class Loads:
                     turning = Curve({sense * ratio: -1j * lever.conjugate() * size * vector.middle()}, scalar=True)
                     around = Curve(total([(1.0, around.harmonics), (1.0, turning.harmonics)]).harmonics)
                 found = Curve(total([(1.0, found.harmonics), (1.0, around.harmonics)]).harmonics)
-            elif response in NAMES:
+            elif response in ON_FRAME:
                 size *= self.factor(response, one.position)
                 found = found.moved(size * one.co.middle(), ratio - 1).moved(size * one.counter.middle(), -ratio - 1)
         return found

@@ -8,9 +8,9 @@ from typing import Dict, Iterator, List, NamedTuple, Sequence, Tuple
 
 from verify_answer import Fitted
 from verify_claims import Claims
-from verify_machine import NAMES, Machine, Mass
+from verify_machine import ON_FRAME, Machine, Mass
 from verify_numbers import ONE, NotCovered, Place, real
-from verify_program import CEILINGS, Statement
+from verify_program import CEILINGS, Statement, weighed
 
 FIGURE = 1e-9  # share of a figure in doubles, of all that it is made of
 WORTH = 1e-6  # share of the objective without counterweights: what a whole limit has to be worth to be listed
@@ -29,7 +29,7 @@ def sensitivity(statement: Statement, turning: Sequence[Mass], said: Place) -> C
     webs = [mass for mass, web in zip(turning, machine.webs) if web.fixed is None]
     sums: Dict[str, List[float]] = {row: [float(floor)] * 3 for row, floor in statement.floor.items()}
     for term in statement.terms.values():
-        arms = [ONE if term.moves == "force" else mass.position - machine.plane for mass in webs]
+        arms = [machine.arm(term.moves, mass.position) for mass in webs]
         vectors = [
             (mass.product * mass.co * arm * term.factor * machine.square).middle() for mass, arm in zip(webs, arms)
         ]
@@ -103,9 +103,10 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     if chosen or machine.groups or not gap:
         yield "shadow_prices", place, -ONE if told else ONE, ONE
         return
-    weight, unit = (goal / "force_weight").double(1.0), "N"
-    if weight <= 0:
-        weight, unit = (goal / "moment_weight").double(float(ONE / machine.span)), "N m"
+    # of the first response that is weighed
+    weights = ((float(weight), ON_FRAME[name].unit) for name, weight in weighed(goal, machine).items())
+    weight, unit = next((each for each in weights if each[0] > 0), (0.0, "N"))
+    unit = unit.replace("Nm", "N m")
     multipliers = proof / "multipliers" / "objective"
     touched = {(one.text()) for one in answer / "active_limits"}
     slopes, ceilings = slope(statement, multipliers)
@@ -158,7 +159,7 @@ def listed_prices(
 
 def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, float]]:
     """What the bound falls by per kg m on each web, and the lengths of the multipliers of ceilings."""
-    machine, slopes = statement.machine, dict.fromkeys(NAMES, 0j)
+    machine, slopes = statement.machine, dict.fromkeys(ON_FRAME, 0j)
     lengths: Dict[str, float] = dict.fromkeys(statement.caps, 0.0)
     for one in proof / "terms":
         key = (one / "response").text(), (one / "part").text("co", "counter")
@@ -172,9 +173,10 @@ def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, 
             raise NotCovered(one)
         slopes[name.partition(":")[0]] += y
         lengths[name] += abs(y)
-    square, plane = machine.square.middle().real, machine.plane.middle().real
-    arms = [web.position.middle().real - plane for web in machine.webs]
-    return [-(slopes["force"] + slopes["moment"] * arm) * square for arm in arms], lengths
+    square = machine.square.middle().real
+    sums = [sum(by * machine.arm(name, web.position).middle().real for name, by in slopes.items())
+            for web in machine.webs]  # fmt: skip
+    return [-one * square for one in sums], lengths
 
 
 def _stated(

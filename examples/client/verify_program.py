@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Dict, Iterable, NamedTuple, Optional, Sequence, Tuple
 
-from verify_machine import NAMES, Machine, Responses, Web
+from verify_machine import NAMES, ON_FRAME, Machine, Responses, Web
 from verify_numbers import (
     BITS,
     HALF,
@@ -21,10 +21,17 @@ from verify_numbers import (
 
 #: ceilings by the response that they limit, a component of it as force:x
 CEILINGS = {
-    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{unit}" if axis else f"{name}_ceiling_{unit}"
-    for name, unit in NAMES.items()
+    f"{name}:{axis}" if axis else name: f"{name}_ceiling_{axis}_{one.unit}" if axis else f"{name}_ceiling_{one.unit}"
+    for name, one in ON_FRAME.items()
     for axis in ("", "x", "y")
 }
+
+
+def weighed(goal: Place, machine: Machine) -> dict[str, Number]:
+    """Weights of all responses on the frame: of the moment one over the span where none is said, of the others 0."""
+    usual = {"force": ONE, "moment": ONE / machine.span}
+    places = {name: goal / f"{name}_weight" for name in ON_FRAME}
+    return {name: one.number(least=0) if one else usual.get(name, ZERO) for name, one in places.items()}
 
 
 def phasors(responses: Responses, name: str) -> tuple[Number, Number]:
@@ -52,7 +59,7 @@ class Term(NamedTuple):
 
     @property
     def moves(self) -> str:
-        """What counterweights add to it: force or moment."""
+        """The response that counterweights add to."""
         return self.response.partition(":")[0]
 
 
@@ -92,8 +99,8 @@ class Statement:
         """What a ceiling is measured by; if nothing is there and nothing allowed, what the rows call for does to it."""
         if size.low > 0:
             return size
-        arms = [abs(web.position - self.machine.plane) for web in self.machine.webs]
-        most = {"force": ONE, "moment": largest(ZERO, *arms)}
+        webs = self.machine.webs
+        most = {n: largest(ZERO, *(abs(self.machine.arm(n, web.position)) for web in webs)) for n in ON_FRAME}
         most = {response: arm if arm.low > 0 else ONE for response, arm in most.items()}
         moving = [one for one in self.terms.values() if abs(one.factor).low > 0]
         called = [abs(one.start) / (abs(one.factor) * most[one.moves]) for one in moving]
@@ -141,7 +148,7 @@ class Statement:
         least, slope = total(rows[name] * self.floor[name] for name in rows if self.floor), dict.fromkeys(NAMES, ZERO)
         for key, term in terms.items():
             least = least + y[key].along(term.start) * share
-            slope[term.moves] = slope[term.moves] + y[key] * term.factor * share
+            machine.add(slope, term.moves, y[key] * term.factor * share)
         for name, _ in limits:
             least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
         gains = self._gains(slope)
@@ -189,8 +196,8 @@ class Statement:
         slope = dict.fromkeys(NAMES, ZERO)
         chosen: dict[str, Key] = {}
         for key, one in terms.items():
-            slope[one.moves] = slope[one.moves] + y[key] * one.factor
-            if one.factor.low > 0:
+            self.machine.add(slope, one.moves, y[key] * one.factor)
+            if one.factor.low > 0 and one.moves in NAMES:
                 chosen.setdefault(one.moves, key)
         arms = {web.position.low: web.position - self.machine.plane for web in webs}
         if len(arms) == 1 and "force" in chosen:
@@ -210,7 +217,7 @@ class Statement:
 
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
-        arms = {"force": ONE, "moment": abs(web.position - self.machine.plane)}
+        arms = {name: abs(self.machine.arm(name, web.position)) for name in ON_FRAME}
         does = total(abs(one.factor) * arms[one.moves] for one in self.terms.values() if one.row == row)
         return does * web.radius * self.machine.square
 

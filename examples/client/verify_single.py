@@ -21,7 +21,7 @@ def single(request: Place, answer: Place, whole: bool = True) -> Claims:
         yield from form(answer)
     asked = request / "machine"
     status = (answer / "status").text("optimal", "inaccurate", "infeasible")
-    machine = Machine(asked, answer / "reference_plane_m", asked / "max_total_mass_kg")
+    machine = Machine(asked, request / "objective", answer / "reference_plane_m", asked / "max_total_mass_kg")
     yield from before(request, machine, answer)
     turn = looks_at_the_turn(request)
     if status == "infeasible":

@@ -17,7 +17,7 @@ from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
 from verify_first import near_the_bound, searched, smallest
 from verify_goals import Program as Asked
 from verify_goals import values
-from verify_machine import NAMES, NOTHING, Machine, Web, over
+from verify_machine import FRAME_FIELDS, NAMES, NOTHING, ON_FRAME, Machine, Web, over
 from verify_misplacement import misplacement
 from verify_numbers import (
     ONE,
@@ -32,7 +32,7 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import CEILINGS, support
+from verify_program import CEILINGS, support, weighed
 
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]
@@ -57,13 +57,10 @@ class Program:
         goal = request / "objective"
         self.machine, self.off, self.named = machine, scatter(request), goals(request)
         self.scattered = self.off.share.high > 0 or self.off.besides.high > 0
-        weights = {"force": (goal / "force_weight").number(1.0, least=0), "moment": ONE / machine.span}
-        if goal / "moment_weight":
-            weights["moment"] = (goal / "moment_weight").number(least=0)
-        weights = {name: weight for name, weight in weights.items() if weight.high > 0}
+        weights = {name: weight for name, weight in weighed(goal, machine).items() if weight.high > 0}
         for kind in ("bearing", "bending", "roll"):
             weights[kind] = (goal / f"{kind}_weight").number(0.0, least=0)
-        external = {name: weights[name] for name in NAMES if name in weights}
+        external = {name: weights[name] for name in ON_FRAME if name in weights}
         together = (goal / "combine").text("sum", "max", default="sum") == "sum"
         self.rows = {"sum": external} if together else {name: {name: weight} for name, weight in external.items()}
         every = cases(request, machine, answer / "reference_plane_m")
@@ -235,7 +232,7 @@ def looks_at_the_turn(request: Place) -> bool:
 
 def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -> Claims:
     """The proof of the answer to one request whose objective looks at the whole turn."""
-    request.known(FIELDS + CASES + SHAFTS)
+    request.known(f"{FIELDS}{CASES}{SHAFTS}{FRAME_FIELDS}")
     asked, proof = request / "machine", answer / "certificate"
     program = Program(request, machine, answer)
     objective, lowest, implied = proof / "objective", proof / "lower_bound", proof / "implied_max_mass_kg"
@@ -268,9 +265,9 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
 
 def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Claims:
     """No counterweights keep the ceilings, at the angles of the cuts."""
-    request.known(FIELDS + CASES + SHAFTS)
+    request.known(f"{FIELDS}{CASES}{SHAFTS}{FRAME_FIELDS}")
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
-    machine = Machine(request / "machine", answer / "reference_plane_m", budget)
+    machine = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
     given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
     named = [one.text(*given) for one in said / "conflict"]
     yield from (("conflict", one, ONE, ONE) for one in said / "conflict")

@@ -9,7 +9,7 @@ from verify_answer import Fitted
 from verify_bearings import SAMPLE, peak_of
 from verify_cases import Scatter, grown, peak
 from verify_cuts import Part
-from verify_machine import NAMES
+from verify_machine import ON_FRAME
 from verify_numbers import Number
 from verify_program import phasors
 
@@ -62,7 +62,7 @@ class Value:
     def under(self, response: str) -> Range:
         """What a ceiling on a response limits, or on its component along an axis."""
         name, _, axis = response.partition(":")
-        if name not in NAMES:
+        if name not in ON_FRAME:
             return self.response(response)
         if not self.part.all:
             machine, weights = self.part.machine, self.fitted.first
@@ -97,7 +97,7 @@ class Value:
         if float(weights["roll"]) > 0:
             yield self._weighed("roll", float(weights["roll"]))
         if self.part.all:
-            for name in NAMES:
+            for name in ON_FRAME:
                 if name in weights:
                     yield self._weighed(name, float(weights[name]))
             return

@@ -272,7 +272,7 @@ def _bound(proof: Proof, u: Complex, excess: float) -> tuple[float, float]:
 def _touched(request: OptimizeRequest, asked: Goals, values: Values) -> Iterator[MachineLimit]:
     """Ceilings that are touched, in any case."""
     program = asked.program
-    called = {each.name: each.limit for each, _ in given_ceilings(request.objective)}
+    called = {each.response: each.limit for each, _ in given_ceilings(request.objective)}
     limits = [*(called[each.name] for each, _ in program.ceilings), *(each.limit for each in asked.limited)]
     caps = np.array([cap for _, cap in (*program.ceilings, *program.limited)])
     for limit, over in zip(limits, values.over * program.sizes + TOUCHED * caps, strict=True):

@@ -6,7 +6,15 @@ from typing import Annotated, Any, Literal
 from pydantic import Field
 
 from schemas.base.model import Model
-from schemas.base.quantities import Flag, Force, Fraction, Moment, Pressure, Weight
+from schemas.base.quantities import (
+    Flag,
+    Force,
+    Fraction,
+    Moment,
+    Pressure,
+    Weight,
+)
+from schemas.base.responses import RESPONSES
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 
@@ -164,7 +172,9 @@ class Objective(Ruled):
         return tuple(name for name in self.over_the_turn if name != "priorities")
 
     def rules(self) -> Iterator[Rule]:
-        external = (self.force_weight != 0) | (self.moment_weight != 0) | (self.roll_weight != 0)
+        external = self.roll_weight != 0
+        for each in RESPONSES.values():
+            external = external | (getattr(self, each.weight) != 0)
         some = external | (self.bearing_weight != 0) | (self.bending_weight != 0)
         yield Rule(some == 0, ("moment_weight",), "one of the weights must be above 0")
         across = self.direction_weights

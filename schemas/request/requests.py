@@ -16,6 +16,7 @@ from pydantic_core import CoreSchema
 
 from schemas.base.model import Model
 from schemas.base.quantities import Fraction
+from schemas.base.responses import limited
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit
 from schemas.machine.catalogue import DISCRETE_GAP
@@ -224,8 +225,8 @@ class OptimizeRequest(Scene, Ruled):
             message = "balance shafts alone change the roll moment, and the machine has none"
             yield Rule(goal.roll_weight != 0, ("objective", "roll_weight"), message)
         if any(shaft.speed_ratio == -1 for shaft in shafts):
-            for name in ("force_ceiling_N", "moment_ceiling_Nm"):
-                whole = (getattr(goal, name) is not None) & (goal.orders == "first")
+            for name in (each.field for each in limited(goal) if each.axis is None):
+                whole = goal.orders == "first"
                 message = "with a shaft that turns backwards the ceilings of the first order are those along x and y"
                 yield Rule(whole, ("objective", name), message)
 

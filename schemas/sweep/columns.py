@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from schemas.answer.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labels
+from schemas.base.responses import PAIR, counted
 from schemas.base.target import Target, pointer
 from schemas.machine.machine import Machine
 from schemas.request.objective import Objective
@@ -83,7 +84,7 @@ def _columns(
     yield from _ALWAYS
     optimizes = isinstance(base, OptimizeRequest)
     if optimizes or "residual" in base.outputs:
-        yield from _RESIDUAL
+        yield from _residual(base, targets)
         if details:
             yield from detail_columns(base.machine, "residual")
     yield _TOTAL_MASS
@@ -104,6 +105,16 @@ def _columns(
             if web.envelope is not None:
                 meaning = "half of the opening of what is cut from its plate"
                 yield Column(f"half_angle_deg.{web.name}", "number", "deg", meaning, path)
+
+
+def _residual(base: OptimizeRequest | AnalyzeRequest, targets: Sequence[Target]) -> Iterator[Column]:
+    """Peaks of force and moment, and of the other responses that count in some design."""
+    yield from _RESIDUAL
+    varied = {str(target.path[1]): 1.0 for target in targets if target.path[0] == "objective"}
+    for each in counted(base.objective.model_copy(update=varied)) if isinstance(base, OptimizeRequest) else ():
+        if each.name not in PAIR:
+            meaning = f"peak of the first-order {each.label} with the counterweights"
+            yield Column(each.peak, "number", each.unit, meaning)
 
 
 def _of_each(machine: Machine, output: str) -> Iterator[Column]:

@@ -44,6 +44,7 @@ def template(name: str) -> bytes:
 
     if name != EMPTY:
         return workbook(written(json.loads(load(name))))
-    fields: Sheets = {"machine": [["field", "value"], *([field, None] for field in _FIELDS)]}
-    fields["machine"][1][1] = "reciprocating"
+    values = {"machine.kind": "reciprocating"}
+    fields: Sheets = {"machine": [["field", "value"]]}
+    fields["machine"] += [[field, values.get(field)] for field in _FIELDS]
     return workbook(fields | {sheet: [list(heads)] for sheet, heads in _HEADS.items()})

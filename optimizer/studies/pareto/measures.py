@@ -6,7 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
-from optimizer.formulation.formulate import RESPONSES
+from optimizer.formulation.formulate import RESPONSES, weighing
 from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.whole_turn import WholeTurn
@@ -21,22 +21,19 @@ from schemas.request.requests import OptimizeRequest
 
 #: width of the brackets by which the counterweights of an answer are judged, as a share of what is traded
 _CLOSE = 1e-10
-#: quantities over the turn, by what stands before the colon in their names
-_OF: dict[str, Traded] = {"force": "force", "moment": "moment", "bearing": "bearings", "bending": "bending"}
+#: quantities over the turn, by what stands before the colon in their names, where that is not what is traded
+_OF: dict[str, Traded] = {"bearing": "bearings"}
 
 
 def alone(objective: Objective, names: Sequence[Traded]) -> Objective:
     """The objective that is the largest of some responses, each as it is."""
-    weight = {name: 1.0 if name in names else 0.0 for name in ("force", "moment", "bearings", "bending")}
-    return objective.model_copy(
-        update={
-            "combine": "max",
-            "priorities": (),
-            "force_weight": weight["force"],
-            "moment_weight": weight["moment"],
-            "bearing_weight": weight["bearings"],
-            "bending_weight": weight["bending"],
-        }
+    return weighing(
+        objective,
+        dict.fromkeys(names, 1.0),
+        combine="max",
+        priorities=(),
+        bearing_weight=float("bearings" in names),
+        bending_weight=float("bending" in names),
     )
 
 
@@ -117,13 +114,19 @@ def measures(request: OptimizeRequest, names: tuple[Traded, ...], scene: Prepare
                 each
                 for group in program.groups
                 for each in group.weighed
-                if _OF[program.quantities[each.quantity].name.partition(":")[0]] == name
+                if _traded(program.quantities[each.quantity].name) == name
             ),
         )
         for name in names
         if name != "mass"
     }
     return Measures(names, program, tuple(groups[name] for name in names))
+
+
+def _traded(quantity: str) -> Traded:
+    """What a quantity over the turn belongs to."""
+    kind = quantity.partition(":")[0]
+    return _OF.get(kind, kind)
 
 
 def unit_of(name: Traded, objective: Objective) -> str:

@@ -7,6 +7,7 @@ are evenly apart on the chord, or in the triangle, between the ends (normal-boun
 """
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -54,6 +55,8 @@ def traded_front(request: ParetoRequest, machine: Machine, scene: Prepared) -> T
     """The front of the responses that a request names, for one limit of the total mass."""
     names = request.responses or ()
     asked = needed(request, names).model_copy(update={"machine": machine, "accuracy": request.accuracy})
+    # what is traded counts, whatever the objective weighs
+    scene = replace(scene, request=asked)
     turn = whole_turn_of(scene) if asked.objective.of_the_revolution else None
     traded = measures(asked, names, scene, turn)
     found = _ends(traded)

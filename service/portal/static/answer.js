@@ -41,7 +41,7 @@ function headline(request, answer) {
 function proof(request, { status, certificate, infeasibility, floor, timing, residual, total_mass_kg: mass }) {
   if (infeasibility) return refusal(request, infeasibility);
   const { objective, lower_bound: bound, relative_gap: gap, objective_without_counterweights: bare } = certificate;
-  const how = weighed(request.objective);
+  const how = weighed(request.objective, residual.responses);
   const small = 1e-6 * bare;
   const sentences = [];
   if (bare === 0) sentences.push("Nothing of first order is out of balance: no counterweights are needed.");

@@ -36,6 +36,8 @@ export function responses({ machine, objective = {} }, answer) {
     ...axes,
     objective.orders === "all" && turn ? row("force of all orders", "N", (when) => turn[when]?.force_peak_N ?? null, scale.force) : null,
     objective.orders === "all" && turn ? row("moment of all orders", "N m", (when) => turn[when]?.moment_peak_Nm ?? null, scale.moment) : null,
+    ...(residual.responses ?? []).flatMap((one) => [row(one.label, one.unit, (when) => one[when]),
+      one.turn_before === null ? null : row(`${one.label} of all orders`, one.unit, (when) => one[`turn_${when}`])]),
     shaft ? row("bearing load", "N", ofBearings("peak_N")) : null,
     shaft && objective.bearing_measure === "rms" ? row("root mean square of a bearing load", "N", ofBearings("rms_N")) : null,
     shaft && (objective.bearing_measure === "specific" || set(objective.specific_load_ceiling_Pa)) ? row("specific bearing load", "Pa", ofBearings("specific_load_Pa")) : null,

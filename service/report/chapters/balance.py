@@ -8,11 +8,13 @@ from schemas.answer.counterweights import Counterweight
 from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.outputs import Hodographs, Stage
 from schemas.base.model import FieldProblem
+from schemas.base.responses import ceilings
 from schemas.machine.machine import Machine
 from schemas.request.requests import OptimizeRequest
 from service.common.validation import pointer
 from service.report.blocks import (
     Block,
+    Cell,
     Chapter,
     Equation,
     Figure,
@@ -55,12 +57,7 @@ _LIMITS = {
     "max_centrifugal_force": "largest centrifugal force",
     "sector": "sector",
     "max_total_mass": "largest total mass",
-    "force_ceiling": "ceiling of the force",
-    "force_ceiling_x": "ceiling of the force along x",
-    "force_ceiling_y": "ceiling of the force along y",
-    "moment_ceiling": "ceiling of the moment",
-    "moment_ceiling_x": "ceiling of the horizontal couple",
-    "moment_ceiling_y": "ceiling of the vertical couple",
+    **{each.limit: f"ceiling of the {each.label}" for each in ceilings()},
     "bearing_ceiling": "ceiling of the bearing loads",
     "specific_load_ceiling": "ceiling of the specific bearing loads",
     "bending_ceiling": "ceiling of the bending moments",
@@ -78,6 +75,22 @@ def shown(answer: OptimizeAnswer) -> tuple[Sequence[Counterweight], FirstOrder |
         closest = answer.infeasibility.closest
         return closest.counterweights, closest.first_order
     return answer.counterweights, answer.residual.after
+
+
+def added(answer: OptimizeAnswer) -> Iterator[tuple[str, float, Cell, str]]:
+    """Peaks of the responses that count beside force and moment: without counterweights, with those that are shown."""
+    why = answer.infeasibility
+    closest = {} if why is None else {each.response: each.peak for each in why.closest.responses}
+    for each in answer.residual.responses:
+        after = closest.get(each.response, each.after)
+        yield f"peak {each.label}, {each.unit}", each.before, settled(after, each.before), ""
+        if each.turn_before is not None:
+            yield (
+                f"peak {each.label} of all orders, {each.unit}",
+                each.turn_before,
+                settled(each.turn_after, each.turn_before),
+                "",
+            )
 
 
 def which(answer: OptimizeAnswer) -> str:

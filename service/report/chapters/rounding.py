@@ -16,7 +16,7 @@ def with_rounding(request: RoundRequest, answer: RoundAnswer) -> Iterator[Chapte
         return
     yield Chapter("What rounding costs", tuple(_blocks(request, answer, answer.rounding)))
     yield balance.counterweights(request.request, answer, None)
-    yield balance.before_and_after(request.request, answer)
+    yield balance.before_and_after(request.request, answer, None)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
 
 

@@ -5,21 +5,17 @@ from collections.abc import Iterator, Mapping
 from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import CeilingField
+from schemas.base.responses import ceilings
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
-from service.report.chapters.balance import limits, shown, which
+from service.report.chapters.balance import added, limits, shown, which
 from service.report.chapters.built import decision
 from service.report.formula import formula
 from service.tables.as_built import AsBuilt
 
 _CEILINGS: Mapping[CeilingField, str] = {
-    "force_ceiling_N": "force",
-    "force_ceiling_x_N": "force along x",
-    "force_ceiling_y_N": "force along y",
-    "moment_ceiling_Nm": "moment",
-    "moment_ceiling_x_Nm": "horizontal couple",
-    "moment_ceiling_y_Nm": "vertical couple",
+    **{each.field: each.label for each in ceilings()},
     "bearing_ceiling_N": "bearing loads",
     "specific_load_ceiling_Pa": "specific bearing loads",
     "bending_ceiling_Nm": "bending moments",
@@ -40,6 +36,7 @@ def result(request: OptimizeRequest, answer: OptimizeAnswer, built: AsBuilt | No
     rows = [
         ("peak force, N", force, settled(left_force, force), settled(answer.floor.force_N, force)),
         ("peak moment, N m", moment, settled(left_moment, moment), settled(answer.floor.moment_Nm, moment)),
+        *added(answer),
     ]
     heads = ["quantity", "#without counterweights", f"#{which(answer)}", "#floor"]
     figures = table("First-order peaks over a revolution", heads, rows)
