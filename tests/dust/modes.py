@@ -14,7 +14,7 @@ from schemas.request.requests import OptimizeRequest
 from schemas.sweep.request import SweepRequest
 from service.common.validation import check
 from tests.dust import machines
-from tests.dust.need import is_needed
+from tests.dust.need import is_needed, is_needed_at
 from tests.hard.cases.case import Body
 
 Draw = Callable[[np.random.Generator], Body]
@@ -56,10 +56,12 @@ def of_request(body: Body) -> Iterator[Fitted]:
 
 
 def of_front(body: Body) -> Iterator[Fitted]:
-    answer = pareto(check(ParetoRequest, body))
+    request = check(ParetoRequest, body)
+    answer = pareto(request)
     for front in answer.fronts:
         for point in front.points:
-            yield Fitted(front.status, *_masses_and_openings(point.counterweights))
+            needs = partial(is_needed_at, request, front, point)
+            yield Fitted(front.status, *_masses_and_openings(point.counterweights), needs)
     for trade in answer.trades:
         for traded in trade.points:
             yield Fitted(trade.status, *_masses_and_openings(traded.counterweights))
