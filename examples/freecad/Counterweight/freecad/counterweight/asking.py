@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict
+from typing import Any, Dict, List
 
 from .service import Refused, Service
 from .sheets import Asked, Wrong
@@ -52,6 +52,6 @@ def unanswered(service: Service, error: Exception) -> Wrong:
     return Wrong([line])
 
 
-def warnings(answer: Dict[str, Any], asked: Asked) -> list[str]:
+def warnings(answer: Dict[str, Any], asked: Asked) -> List[str]:
     """What the service adds to its answer, at the cells that it concerns."""
-    return [f"{asked.where(one.get('pointer') or '')}: {one['message']}" for one in answer.get("warnings", ())]
+    return [f"Warning: {asked.where(one['pointer'] or '')}: {one['message']}" for one in answer["warnings"]]

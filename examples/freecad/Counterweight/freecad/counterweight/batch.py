@@ -57,8 +57,8 @@ def _balanced(shaft, machine, folder):
     service = service_at(os.environ.get("COUNTERWEIGHT_URL") or url())
     force = forced()
     made = read_shaft(document, bodies, service, [density] * len(bodies), said=said, force=force)
-    yield shaft_words(made)
     yield from (f"to look at: {line}" for line in made.Doubts)
+    yield shaft_words(made)
     yield from balance(made, service, force).words()
     in_the_way = clearance(made)
     if in_the_way:

@@ -14,6 +14,8 @@ TOLERANCE = 1e-9
 _EQUAL = 1e-12
 #: of all forces together, as if none cancelled another
 _SMALL = 1e-6
+#: of that, what rounding leaves
+_ROUNDING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -51,7 +53,7 @@ class Line:
 
     def _figure(self, value: float) -> str:
         """Digits; what rounding leaves of larger figures is nothing."""
-        nothing = abs(value) <= TOLERANCE * max(self.before, self.told, self.small)
+        nothing = abs(value) <= max(TOLERANCE * max(self.before, self.told), _ROUNDING * self.small)
         return "0" if nothing else f"{value:,.6g}"
 
 
