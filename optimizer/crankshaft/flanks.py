@@ -81,10 +81,13 @@ class Flanks:
         return tuple(self.number[np.any(at, axis=0)].tolist())
 
     def lean(self, low: float, high: float) -> tuple[int, float] | None:
-        """Number and angle of a flank that leans, within two heights."""
+        """Number and angle of the flank that leans most, within two heights."""
         z, number, angle = self.leaning
         inside = np.flatnonzero((z > low) & (z < high))
-        return (int(number[inside[0]]), float(angle[inside[0]])) if len(inside) else None
+        if not len(inside):
+            return None
+        worst = inside[np.argmax(angle[inside])]
+        return int(number[worst]), float(angle[worst])
 
     def _levels(self, which: NDArray[np.bool_]) -> tuple[Real, Real]:
         """Heights of faces, those at one height once, and the area at each."""

@@ -59,7 +59,7 @@ def plates(chain: Sequence[Stretch], flanks: Flanks, sides: Sides, tolerance: fl
         material = _material(one, other, flanks) if pins else flanks.between(one.high, other.low)
         air = _air(one, other, material, flanks, tolerance)
         if air is not None:
-            message = f"{air * 1e3:.4g} mm of air between this face and face {other.faces[0]}: not one shaft there"
+            message = f"{air * 1e3:.4g} mm of air between it and what follows along the shaft: not one shaft there"
             doubts.append(doubt("air", one.faces[-1], message, serious=True))
         elif not pins:
             continue
@@ -122,18 +122,13 @@ def _doubts_about(plate: Plate, before: Stretch) -> Iterator[Doubt]:
 
 
 def _without_flanks(one: Stretch, other: Stretch, flanks: Flanks, tolerance: float) -> Iterator[Doubt]:
-    """Why there is no web between two neighbours that do not touch."""
-    gap = other.low - one.high
-    if gap <= 10 * tolerance:
-        return
-    leaning = flanks.lean(one.middle, other.middle)
+    """Why there is no web between two neighbours; split pins need none."""
+    gap, leaning = other.low - one.high, flanks.lean(one.middle, other.middle)
     if leaning is not None:
         number, angle = leaning
         message = f"a flank that leans by {angle:.3g} degrees: the web has no one thickness, and gets no envelope"
         yield doubt("tapered_web", number, message)
-    else:
-        message = (
-            f"no plane faces across the shaft in the {gap * 1e3:.4g} mm between it and face {other.faces[0]}:"
-            " nothing shows a web there"
-        )
+    elif gap > 10 * tolerance:
+        where = f"in the {gap * 1e3:.4g} mm between it and what follows"
+        message = f"no plane faces across the shaft {where}: nothing shows a web there"
         yield doubt("no_plane", one.faces[-1], message, serious=True)
