@@ -11,7 +11,7 @@ from schemas.answer.first_order import FirstOrder, Floor
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import MachineLimit
 from schemas.answer.proof import EndMultipliers, Multipliers
-from schemas.base.model import Answer, Model, NotEmpty
+from schemas.base.model import Answer, Model, NotEmpty, Shown
 from schemas.base.quantities import Count, Flag, Kilograms, Mass, Metres, Name, NewtonMetres, Newtons
 from schemas.base.rules import Rule, first_of
 from schemas.base.units import Unit, between
@@ -254,7 +254,7 @@ class Ends(Model):
     )
 
 
-class ParetoFront(Model):
+class ParetoFront(Shown):
     """The front under one limit of the total mass."""
 
     max_total_mass_kg: Kilograms | None = Field(

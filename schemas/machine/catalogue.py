@@ -4,8 +4,9 @@ from collections.abc import Iterator, Sequence
 from math import isfinite
 from typing import Annotated, Any
 
-from pydantic import Field
+from pydantic import ConfigDict, Field
 
+from schemas.base.presence import conditions, either
 from schemas.base.quantities import Angle, Count, Mass
 from schemas.base.rules import Path, Rule, Ruled
 from schemas.base.units import Unit, positive
@@ -22,6 +23,8 @@ Holes = Annotated[tuple[Angle, ...], Field(max_length=MAX_HOLES)]
 
 class Catalogue(Ruled):
     """What counterweights are chosen from; every web may also be left without one."""
+
+    model_config = ConfigDict(json_schema_extra=conditions(either("masses_kg", "mass_step_kg")))
 
     masses_kg: Masses | None = Field(
         None, description="masses that there are, for webs without a list of their own", examples=[[5, 10, 20]]

@@ -6,6 +6,7 @@ from typing import Annotated
 from pydantic import ConfigDict, Field, Strict
 
 from schemas.base.model import Model
+from schemas.base.presence import conditions, empty, filled, when
 from schemas.base.quantities import Count, Flag, Mass, Name
 from schemas.base.responses import ceilings
 from schemas.base.rules import Path, Rule, Ruled
@@ -72,6 +73,16 @@ class MatchAccuracy(Model):
 
 class MatchRequest(Ruled):
     """Which weighed part goes on which row, each once?"""
+
+    model_config = ConfigDict(
+        json_schema_extra=conditions(
+            when(empty("parts"), filled("balance_nuts_kg")),
+            when(
+                {"properties": {"choose_counterweights": {"const": True}}, "required": ["choose_counterweights"]},
+                empty("counterweights"),
+            ),
+        )
+    )
 
     machine: ReciprocatingMachine = Field(
         description="the machine; the parts are not in its reciprocating masses",

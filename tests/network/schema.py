@@ -11,21 +11,8 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
-
-import schemathesis
-from hypothesis import HealthCheck, Phase, given, settings
-from schemathesis import Case, GenerationMode
-from schemathesis.checks import not_a_server_error
-from schemathesis.specs.openapi.checks import (
-    content_type_conformance,
-    response_headers_conformance,
-    response_schema_conformance,
-    status_code_conformance,
-)
 
 from tests.network.serving import service
 
@@ -40,42 +27,6 @@ expected-statuses = [400, 401, 403, 404, 405, 406, 409, 413, 415, 422, 429, 503]
 """
 _LONGEST_LINE = 500
 _GENERATED = re.compile(r"(\d+) generated")
-
-
-def operations(url: str) -> list[Any]:
-    """The operations that the document of a running service names."""
-    return [result.ok() for result in schemathesis.openapi.from_url(f"{url}/openapi.json").get_all_operations()]
-
-
-def modes(operation: Any) -> list[GenerationMode]:
-    """What can be asked: what is right, and what is wrong if there is anything that could be."""
-    described = operation.definition.raw
-    both = "parameters" in described or "requestBody" in described
-    return list(GenerationMode) if both else [GenerationMode.POSITIVE]
-
-
-def checks() -> list[Callable[..., Any]]:
-    """What holds for every answer, whatever was asked."""
-    return [
-        not_a_server_error,
-        status_code_conformance,
-        content_type_conformance,
-        response_headers_conformance,
-        response_schema_conformance,
-    ]
-
-
-def send(strategy: Any, many: int, statuses: Counter[int]) -> None:
-    """Send so many requests of a strategy, check the answers, and count them by status."""
-
-    @settings(max_examples=many, deadline=None, suppress_health_check=list(HealthCheck), phases=[Phase.generate])
-    @given(case=strategy)
-    def ask(case: Case) -> None:
-        response = case.call(timeout=600)
-        statuses[response.status_code] += 1
-        case.validate_response(response, checks=checks())
-
-    ask()
 
 
 def run(url: str, phases: Sequence[str], examples: int, *more: str) -> tuple[int, int, str]:

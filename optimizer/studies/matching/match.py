@@ -25,6 +25,7 @@ from optimizer.studies.matching.problem import Minorants, Problem, stated
 from optimizer.studies.matching.search import searched
 from schemas.answer.answers import AnalyzeAnswer, OptimizeAnswer, Timing
 from schemas.answer.first_order import FirstOrder, Residual
+from schemas.base.mappings import or_mapping
 from schemas.machine.fitted import GivenCounterweight
 from schemas.machine.reciprocating import ReciprocatingMachine
 from schemas.match.answer import Assignment, MatchAnswer, MatchCertificate, Matched, MatchedRow, Spare
@@ -42,6 +43,7 @@ _LEFT = (
 )
 
 
+@or_mapping(MatchRequest)
 def match(request: MatchRequest) -> MatchAnswer:
     """The rows that weighed parts go on, each once, so that the weighted peaks are small; with a certified bound."""
     start = time.perf_counter()
