@@ -44,6 +44,8 @@ def template(name: str) -> bytes:
 
     if name != EMPTY:
         return workbook(written(json.loads(load(name))))
-    fields: Sheets = {"machine": [["field", "value"], *([field, None] for field in _FIELDS)]}
-    fields["machine"][1][1] = "reciprocating"
+    values = {"machine.kind": "reciprocating"}
+    fields: Sheets = {"machine": [["field", "value"]]}
+    for field in _FIELDS:
+        fields["machine"].append([field, values.get(field)])
     return workbook(fields | {sheet: [list(heads)] for sheet, heads in _HEADS.items()})
