@@ -46,5 +46,6 @@ def template(name: str) -> bytes:
         return workbook(written(json.loads(load(name))))
     values = {"machine.kind": "reciprocating"}
     fields: Sheets = {"machine": [["field", "value"]]}
-    fields["machine"] += [[field, values.get(field)] for field in _FIELDS]
+    for field in _FIELDS:
+        fields["machine"].append([field, values.get(field)])
     return workbook(fields | {sheet: [list(heads)] for sheet, heads in _HEADS.items()})

@@ -18,7 +18,7 @@ export function showAnswer(place, request, answer, outputs) {
     h("h2", { class: `status ${answer.status}` }, headline(request, answer)),
     ...(fitted.length ? [order(fitted, null, title)] : []),
     ...(shafts ?? []).map((shaft) => order(shaft.counterweights, shaft.name, title)),
-    h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m)),
+    h("div", { class: "drawings", id: "drawings" }, pair(request.machine, fitted, answer.reference_plane_m, request.fitted ?? [])),
     h("div", { class: "proof" }, proof(request, answer).map((sentence) => h("p", {}, sentence))),
     h("div", { class: "cautions" }, (answer.warnings ?? []).map((warning) => h("p", {}, warning.message))),
     ...comparison(request, answer),

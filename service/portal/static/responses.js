@@ -3,8 +3,8 @@
 import { figure, share } from "./format.js";
 import { scales } from "./scales.js";
 
-// what is below this share of what there was is rounding
-const DUST = 1e-6;
+// what is below this share of what there was is rounding: a moment is found to a millionth of the force times the span
+const DUST = 1e-5;
 
 const largest = (values) => (values.every((value) => typeof value === "number") ? Math.max(...values) : null);
 const set = (value) => value !== undefined && value !== null && value !== 0;

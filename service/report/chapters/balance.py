@@ -350,7 +350,7 @@ def first_order(
 def hodograph(found: Hodographs) -> Chapter:
     """Between which values force and moment run over the turn; the answer itself holds every sample."""
     rows = [
-        (name, min(force), max(force), min(moment), max(moment))
+        (name, settled(min(force), max(force)), max(force), settled(min(moment), max(moment)), max(moment))
         for name, one in (("without counterweights", found.before), ("with counterweights", found.after))
         if one is not None
         for force in [list(map(math.hypot, one.force_x_N, one.force_y_N))]
