@@ -10,11 +10,12 @@ from optimizer.formulation.formulate import RESPONSES, weighing
 from optimizer.formulation.goals import Case, formulate
 from optimizer.formulation.simulation import Prepared
 from optimizer.mechanics.whole_turn import WholeTurn
-from optimizer.numerics.arrays import Complex, Real
+from optimizer.numerics.arrays import SMALLEST, Complex, Real
 from optimizer.program.cuts.dominance import Group, Weighed
 from optimizer.program.cuts.semi_infinite import Goal, Problem
 from optimizer.program.norms import Norms
 from optimizer.program.rows import Row, total_mass
+from optimizer.program.solution import OPTIMUM_SHARE
 from schemas.front.trade import Traded
 from schemas.request.objective import Objective
 from schemas.request.requests import OptimizeRequest
@@ -127,6 +128,17 @@ def _traded(quantity: str) -> Traded:
     """What a quantity over the turn belongs to."""
     kind = quantity.partition(":")[0]
     return _OF.get(kind, kind)
+
+
+def sizes(at_rest: Real, gross: Real) -> Real:
+    """What gaps are relative to (D,): what is there without counterweights; where that is nothing, what they do.
+
+    Parameters
+    ----------
+    gross : (D,) the most that counterweights do one by one, summed.
+    """
+    known = np.where(at_rest > OPTIMUM_SHARE * gross, at_rest, gross)
+    return np.where(known > SMALLEST, known, 1.0)
 
 
 def unit_of(name: Traded, objective: Objective) -> str:
