@@ -74,7 +74,7 @@ class Part:
         response, row = (one / "response").text(), (one / "row").text()
         kind, _, name = response.partition(":")
         y = (one / "x").number() + J * (one / "y").number()
-        if kind not in self.weights or not self.turn.knows(response):
+        if kind not in self.weights or self.weights[kind].high <= 0 or not self.turn.knows(response):
             raise NotCovered(one)
         if not one / "angle_deg":
             exact = self.exact.terms.get((response, (one / "part").text("co", "counter")))
@@ -91,6 +91,11 @@ class Part:
         """Factors of a length of the first order."""
         back = [one.first(term.factor, term.backwards) * self._arm(term.moves, one) for one in self.geared]
         return [*self._factors(term.moves, term.factor), *back]
+
+    def of_ceiling(self, response: str) -> List[Number]:
+        """Factors of what a ceiling of the first order limits."""
+        axis = response.partition(":")[2]
+        return self.of_first_order(Length("", response, ZERO, ONE, {"x": ONE, "y": -ONE}.get(axis, ZERO)))
 
     def at(self, response: str, degrees: float, weight: Number) -> List[Number]:
         """Factors of a response at a shaft angle."""
@@ -132,10 +137,8 @@ class Part:
             if response not in self.exact.caps:
                 raise NotCovered(one)
             co, counter = self.machine.laden[kind]
-            along_it = ONE if name == "x" else -ONE
-            start = co if not name else co + counter.conjugate() * along_it
-            back = along_it if name else ZERO
-            return start, self.of_first_order(Length("", response, start, ONE, back)), self.exact.caps[response]
+            start = co if not name else co + counter.conjugate() * (ONE if name == "x" else -ONE)
+            return start, self.of_ceiling(response), self.exact.caps[response]
         degrees = (one / "angle_deg").double()
         if along and self.all and response in CEILINGS and goal / CEILINGS[response]:
             # the real part of what is turned to the frame and to the axis

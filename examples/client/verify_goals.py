@@ -62,18 +62,23 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
         as_given = Part(Case(request, program.machine, ONE, None), first.unweighted, program.named)
         alone = Value(as_given, fitted, NO_SCATTER).goal(last)
         yield within("price", answer / "price_of_robustness" / "nominal", alone.low, alone.high, off)
-        yield from _price(answer / "price_of_robustness", proof, off)
+        yield from _price(answer / "price_of_robustness", program, proof, off)
 
 
-def _price(place: Place, proof: Place, off: float) -> Claims:
-    """The best of the machine as it is given: no better there than its bound, which is not proven here."""
-    nominal_there, best, worst = (place / name for name in ("nominal", "nominal_optimum", "nominal_optimum_worst_case"))
-    lowest, gap = proof / "lower_bound", (proof / "gap").double(0.0)
-    for one, most_there in ((best, nominal_there.double() + gap + off), (worst, None)):
-        if one:
-            right = most_there is None or one.double() <= most_there
-            right = right and (one is best or not lowest or one.double() >= lowest.double() - off)
-            yield "nominal_optimum", one, None if right else -ONE, ONE
+def _price(place: Place, program: Program, proof: Place, off: float) -> Claims:
+    """The best of the machine as it is given, which has no proof in the answer.
+
+    Where nothing is limited it is no worse there, and no better in the worst case.
+    """
+    best, worst = place / "nominal_optimum", place / "nominal_optimum_worst_case"
+    gap, lowest = (proof / "gap").double(0.0), (proof / "lower_bound").double(0.0)
+    free = not any(part.exact.caps or part.limited for part in program.parts)
+    if best:
+        broken = free and best.double() > (place / "nominal").double() + gap + off
+        yield "nominal_optimum", best, -ONE if broken else None, ONE
+    if worst:
+        broken = free and worst.double() < lowest - off
+        yield "nominal_optimum", worst, -ONE if broken else None, ONE
 
 
 def _goal(name: str, place: Place, found: Range, rest: Range, allowance: float) -> Claims:
@@ -135,4 +140,4 @@ def _exactly(request: Place, answer: Place, program: Program, fitted: Fitted) ->
         responses = program.machine.responses(found)
         as_given = nominal(program.machine, request / "objective", program.rows, responses)
         yield near("price", price / "nominal", as_given)
-        yield from _price(price, proof, WIDE * float(rest))
+        yield from _price(price, program, proof, WIDE * float(rest))

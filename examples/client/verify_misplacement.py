@@ -8,11 +8,11 @@ the tangents at its ends and in its middle meet; all arcs together within the Mi
 from __future__ import annotations
 
 from cmath import phase, rect
-from math import cos, hypot, radians
+from math import cos, hypot, radians, sin
 from typing import Dict, Iterator, List, Sequence
 
 from verify_answer import Fitted
-from verify_bearings import peak_of, within
+from verify_bearings import SAMPLE, peak_of, within
 from verify_cases import Scatter
 from verify_claims import Claims
 from verify_cuts import Part
@@ -42,6 +42,11 @@ class Misplaced(Value):
         corners = turned_outline(vectors) if self.by_angle else [SHARE * one for one in zonotope(vectors)]
         for corner in corners:
             found.append(Range(*peak_of(curve.moved(corner), self.part.goal, max(most(found).low, enough))[:2]))
+        still = curve.moved(-curve.harmonics.get(0, 0j)).size
+        if still <= SAMPLE * loads.size_of(name):
+            # of what counterweights alone load the service takes the sum of all that moves
+            moved = 2 * sin(ANGLE / 2) if self.by_angle else SHARE
+            found.append(Range(found[0].low, found[0].high + moved * sum(map(abs, vectors))))
         return most(found)
 
     def _external(self) -> Iterator[Range]:

@@ -158,7 +158,8 @@ KNOWN = (
     " moment_ceiling_x_Nm moment_ceiling_y_Nm least_mass orders relative_gap unbalances x_kg_m y_kg_m"
     " catalogue masses_kg mass_step_kg angle_step_deg max_part_numbers max_counterweights catalogue_masses_kg"
     " hole_angles_deg fixed angle_deg radius_m web_groups mirror max_centrifugal_force_N min_fitted_mass_kg"
-    " overspeed_rpm parts motion centre_of_mass_m length_m alternatives "
+    " overspeed_rpm parts motion centre_of_mass_m length_m alternatives"
+    " envelope shape inner_radius_m outer_radius_m thickness_m density_kg_m3 max_half_angle_deg "
 )
 IDLE = (
     " name description throw friction flywheel bearings cylinder cylinders rotation_torque_Nm"

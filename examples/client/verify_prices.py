@@ -103,6 +103,9 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     if chosen or machine.groups or not gap:
         yield "shadow_prices", place, -ONE if told else ONE, ONE
         return
+    if machine.budget is not None and any(web.plate for web in machine.webs):
+        # the price at which the budget is spent is another one there
+        raise NotCovered(place)
     # of the first response that is weighed
     weights = ((float(weight), ON_FRAME[name].unit) for name, weight in weighed(goal, machine).items())
     weight, unit = next((each for each in weights if each[0] > 0), (0.0, "N"))
@@ -188,13 +191,19 @@ def _stated(
         if web.fixed is not None:
             continue
         names = {each.text() for each in one / "active_limits"}
-        radius = (one / "radius_m").double() if web.plate else web.radius.middle().real
+        plate, sizes = web.plate, {name: float(most) for name, most in web.limits}
+        radius = (one / "radius_m").double() if plate else web.radius.middle().real
         worth = max(radius * _support(pull, web.sector) - beta, 0.0)
-        sizes = {name: float(most) for name, most in web.limits}
+        if plate is not None:
+            # of what one more kilogram metre is worth, its mass takes the price of the budget
+            worth = max(_support(pull, web.sector) - beta / plate.lever(plate.most), 0.0)
+            sizes["envelope"] = plate.unbalance(plate.most)
         least = min(sizes.values(), default=0.0)
         for name, most in sizes.items():
             binds = worth if most <= least * (1 + 1e-12) else 0.0
             per = 1.0
+            if plate is not None and len(sizes) > 1:
+                raise NotCovered(one)
             if name == "max_centrifugal_force":
                 per = radius * machine.fastest.middle().real
             yield Priced(name, web.name, binds / per, most * per, UNITS[name], name in names)

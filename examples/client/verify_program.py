@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Dict, Iterable, NamedTuple, Optional, Sequence, Tuple
 
 from verify_machine import NAMES, ON_FRAME, Machine, Responses, Web
 from verify_numbers import (
+    ABOUT_ONE,
     BITS,
     HALF,
     ONE,
@@ -16,8 +18,10 @@ from verify_numbers import (
     Place,
     direction,
     largest,
+    real,
     total,
 )
+from verify_plates import Plate
 
 #: ceilings by the response that they limit, a component of it as force:x
 CEILINGS = {
@@ -137,7 +141,9 @@ class Statement:
             return Bound(None, rows)
         machine = self.machine
         price = cost + ((proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO)
-        free = {w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name)}
+        free = {
+            w.name: w for w in machine.webs if not believed and (w.limit is None or implied / w.name) and not w.plate
+        }
         if price.high == 0:
             grouped = {machine.webs[k].name for group in machine.groups for k, _, _ in group}
             free = self._balance(y, terms, [w for w in free.values() if w.sector is None and w.name not in grouped])
@@ -151,11 +157,17 @@ class Statement:
             machine.add(slope, term.moves, y[key] * term.factor * share)
         for name, _ in limits:
             least = least - most[name, "ceiling"] * (self.caps[name] + slack.get(name, ZERO))
-        gains = self._gains(slope)
+        pulls = self._pulls(slope)
+        gains = {web.name: web.radius * pulls[web.name] for web in machine.webs}
         # where a kilogram has a price, what has no limit must gain no more: all multipliers are shortened alike
         share = _share((price, gains[name]) for name in free if price.low > 0 and machine.left is None)
         least = least * share
+        if machine.left is not None and any(web.plate for web in machine.webs):
+            price = cost + spent(machine, pulls, share, cost)
         for web in machine.webs:
+            if web.plate is not None:
+                least = least - of_plate(web, web.plate, pulls[web.name] * share, price)
+                continue
             gain = gains[web.name] * share - price
             if gain.high > 0 and (web.name not in free or (machine.left is not None and price.high > 0)):
                 limit = self.reach(web, implied if believed else Place(None))
@@ -166,12 +178,12 @@ class Statement:
             least = least - (price - cost) * machine.left
         return Bound(least, {name: row * share for name, row in rows.items()})
 
-    def _gains(self, slope: dict[str, Number]) -> dict[str, Number]:
-        """What a kilogram on each web takes off at most."""
+    def _pulls(self, slope: dict[str, Number]) -> dict[str, Number]:
+        """What a kilogram metre on each web takes off at most."""
         machine = self.machine
         arms = [web.position - machine.plane for web in machine.webs]
         pulls = machine.together([-(slope["force"] + slope["moment"] * arm) * machine.square for arm in arms])
-        return {web.name: web.radius * support(pull, web.sector) for web, pull in zip(machine.webs, pulls)}
+        return {web.name: support(pull, web.sector) for web, pull in zip(machine.webs, pulls)}
 
     def _multipliers(self, proof: Place, terms: Iterable[Key]) -> tuple[dict[str, Number], dict[Key, Number]]:
         """Of the rows and of the terms, those that are not 0 and those that are to be given."""
@@ -212,14 +224,16 @@ class Statement:
     def reach(self, web: Web, implied: Place) -> Number | None:
         """Largest mass of a web: its limit, the budget or what the answer says that they imply; None without."""
         said = (implied / web.name).number(least=0) if implied / web.name else None
-        limits = [limit for limit in (web.limit, self.machine.left, said) if limit is not None]
+        cut = real(web.plate.mass(web.plate.most)) * ABOUT_ONE if web.plate else None
+        limits = [limit for limit in (web.limit, self.machine.left, said, cut) if limit is not None]
         return min(limits, key=lambda one: one.high) if limits else None
 
     def change(self, web: Web, row: str) -> Number:
         """What a kilogram on a web adds to a row at most."""
         arms = {name: abs(self.machine.arm(name, web.position)) for name in ON_FRAME}
         does = total(abs(one.factor) * arms[one.moves] for one in self.terms.values() if one.row == row)
-        return does * web.radius * self.machine.square
+        radius = real(web.plate.lever(0.0)) * ABOUT_ONE if web.plate else web.radius
+        return does * radius * self.machine.square
 
     def reachable(self, implied: Place) -> Number | None:
         """What all that the limits allow adds to the rows at most; None where there is no limit."""
@@ -236,6 +250,36 @@ class Statement:
         most = {row: largest(ZERO, *(self.change(web, row) for web in webs)) for row in self.rows}
         found = [sizes[row] / does for row, does in most.items() if does.low > 0 and sizes[row].low > 0]
         return min(found, key=lambda one: one.high, default=None)
+
+
+def spent(machine: Machine, pulls: dict[str, Number], share: Number, cost: Number) -> Number:
+    """A price of the budget beside plates, at which it is spent: any price proves something, this one most.
+
+    What is worth more than it is made in full, of a plate up to the opening that is worth no more. By halving.
+    """
+    assert machine.left is not None
+    worth = {web.name: max((pulls[web.name] * share).middle().real, 0.0) for web in machine.webs}
+    levers = {web.name: web.plate.lever(0.0) if web.plate else float(web.radius) for web in machine.webs}
+    low, high, least = 0.0, max((worth[name] * lever for name, lever in levers.items()), default=0.0), float(cost)
+    for _ in range(100):
+        middle, mass = (low + high) / 2, 0.0
+        for web in machine.webs:
+            limit = inf if web.limit is None else float(web.limit)
+            if web.plate is not None:
+                mass += min(web.plate.mass(web.plate.opening(worth[web.name], middle + least)), limit)
+            elif worth[web.name] * levers[web.name] > middle + least:
+                mass += limit
+        low, high = (middle, high) if mass > float(machine.left) else (low, middle)
+    return real(high)
+
+
+def of_plate(web: Web, plate: Plate, pull: Number, price: Number) -> Number:
+    """What is cut from a plate takes off at most, of what a kilogram metre takes off."""
+    if pull.high <= 0 or (web.limit is not None and web.limit.high <= 0):
+        return ZERO
+    limit = inf if web.limit is None else float(web.limit)
+    low, high = plate.worth(max(pull.middle().real, 0.0), max(price.middle().real, 0.0), limit)
+    return Number(real(low).low, real(high).high)
 
 
 def _share(pairs: Iterable[tuple[Number, Number]]) -> Number:

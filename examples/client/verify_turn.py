@@ -32,7 +32,7 @@ from verify_numbers import (
     real,
     total,
 )
-from verify_program import CEILINGS, support, weighed
+from verify_program import CEILINGS, of_plate, support, weighed
 
 #: components on the frame, of which the real part alone counts
 ALONG = [name for name in CEILINGS if ":" in name]
@@ -137,10 +137,17 @@ class Program:
             name, _, case = (row / "name").text().partition(" in ")
             part = self.parts.get(case or None)
             cap = part.exact.caps.get(name) if part else None
-            if cap is not None and cap.high < 0:
-                # below what turns against the shaft: the more is paid for it the more is proven
+            if part is None or cap is None:
+                continue
+            factors = part.of_ceiling(name)
+            cap = cap - self.off.besides * total(map(abs, factors))
+            if cap.high < 0:
+                # below what turns against the shaft, or what is off: the more is paid for it the more is proven
                 more = (row / "value").number(least=0) - lengths.get((row / "name").text(), ZERO)
-                pulls.least = pulls.least - largest(more, ZERO) * cap
+                more = largest(more, ZERO)
+                pulls.least = pulls.least - more * cap
+                grown = more * self.off.share
+                pulls.spread = [old + grown * abs(factor) for old, factor in zip(pulls.spread, factors)]
         return self._within_limits(pulls, proof, implied, ZERO)
 
     def _add(self, pulls: Pulls, one: Term, allowed: Number, share: Number) -> None:
@@ -186,6 +193,9 @@ class Program:
         machine, least, believed = self.machine, pulls.least, False
         beta = (proof / "budget").number(0.0, least=0) if machine.left is not None else ZERO
         for web, pull, wide in zip(self.webs, machine.together([-one for one in pulls.slopes]), pulls.spread):
+            if web.plate is not None:
+                least = least - of_plate(web, web.plate, support(pull, web.sector) - wide, cost + beta)
+                continue
             gain = web.radius * (support(pull, web.sector) - wide) - cost - beta
             if gain.high <= 0:
                 continue

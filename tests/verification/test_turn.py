@@ -117,17 +117,13 @@ _PRESSURES = {"suction_pressure_Pa": 1e5, "discharge_pressure_Pa": 4e5, "ambient
 _GAS = _PRESSURES | {"relative_clearance": 0.1, "expansion_exponent": 1.2, "compression_exponent": 1.3}
 
 
-@pytest.mark.parametrize("what", ["gas", "masses", "roll"])
+@pytest.mark.parametrize("what", ["gas", "masses"])
 def test_what_is_not_covered_is_named(what: str) -> None:
     body = copy.deepcopy(_KINDS["bearings"])
-    goal = body["objective"]
     where = {"masses": "/request/tolerances/reciprocating_mass_relative"}
-    where["roll"] = "/request/objective/roll_weight"
     where["gas"] = "/request/machine/throws/0/rows/0/cylinder"
     if what == "gas":
         body["machine"]["throws"][0]["rows"][0]["cylinder"] = {"bore_m": 0.1, "acting": "head", **_GAS}
-    elif what == "roll":
-        goal["roll_weight"] = 1
     else:
         body["tolerances"] = {"reciprocating_mass_relative": 0.01}
     answer = json.loads(_told("bearings"))
