@@ -13,6 +13,8 @@ from service.fairness.table import Share
 
 #: whoever waits and has had no turn for so long is before all who have had less [s]
 PATIENCE_S = 2.0
+#: the second turn above the size is for who had less than this share of what anybody had who has a turn
+_LESS = 0.8
 
 
 class Full(Exception):
@@ -70,7 +72,7 @@ class FairQueue:
     last place to one of whom fewer wait.
 
     Little is at most half of an equal share of the turns, among all owners who have one or wait; and for the second one
-    above the size half of what anybody had who has one. Owners who ask without end have more than that on the average,
+    above the size less than anybody had who has one. Owners who ask without end have more than that on the average,
     so they leave those to whoever asks now and then. What the busiest had is no measure: beside one whose computations
     are long, all others would have had little.
 
@@ -163,7 +165,7 @@ class FairQueue:
         owners = {*self._running, *self._waiting, owner}
         had = self._loads.of(owner)
         least = min(map(self._loads.of, self._running)) if self._above else math.inf
-        return had <= 0.5 * min(least, self.size / len(owners))
+        return had <= min(_LESS * least, 0.5 * self.size / len(owners))
 
     def _is_free(self) -> bool:
         return self._running.total() - self._above < self.size
