@@ -83,6 +83,7 @@ nightly: .venv/development $(kernels)
 	failed=0; $(MAKE) hard || failed=1; \
 	HYPOTHESIS_PROFILE=night CHECKED_ANSWERS=every $(bin)/pytest --numprocesses 4 --dist loadfile || failed=1; \
 	$(MAKE) image-check || failed=1; \
+	$(bin)/python -m tests.mutation --count 300 || failed=1; \
 	for each in $(long); do echo "$$each"; $(bin)/python -m $$each || failed=1; done; exit $$failed
 
 # new versions into the hashed lists: names, versions and hashes only
