@@ -183,7 +183,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         (
             Middleware(HeadAsGet),
             *_behind_proxies(chosen),
-            Middleware(RequestLog, metrics, traces, chosen.log_machines),
+            Middleware(RequestLog, metrics, traces, lambda scope: methods.template(scope), chosen.log_machines),
             Middleware(Cut, errors),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),
@@ -226,7 +226,8 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     reference_page.install(app)
     guide.install(app, chosen.guide_dir)
     routes = [route for router in [app, *routers] for route in router.routes]
-    errors.install(app, Methods(routes))
+    methods = Methods(routes)
+    errors.install(app, methods)
     return app
 
 

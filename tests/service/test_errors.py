@@ -160,6 +160,21 @@ def test_422_of_numbers_that_are_none(post: Post, body: dict[str, Any], text: st
     assert [error.pointer for error in found.errors] == ["/machine/webs/2/max_mass_kg"]
 
 
+@pytest.mark.parametrize("key", ["", "a b", "é".encode("latin-1"), "x" * 256])
+def test_422_of_a_key_that_is_none(post: Post, body: dict[str, Any], key: Any) -> None:
+    """Whether a job is asked for or not."""
+    found = problem(post("/v1/optimize", json.dumps(body), Idempotency_Key=key), 422)
+    assert (found.type, found.errors) == ("/problems/invalid-header", ())
+
+
+@pytest.mark.parametrize("value", ["true", 1, 0, None, []])
+def test_422_of_a_flag_that_is_none(post: Post, body: dict[str, Any], value: Any) -> None:
+    found = problem(post("/v1/pictures/front", json.dumps({**body, "picture": {"transparent": value}})), 422)
+    assert [(error.pointer, error.message) for error in found.errors] == [
+        ("/picture/transparent", "must be true or false")
+    ]
+
+
 @pytest.mark.parametrize("output", ["orders", "stages"])
 @pytest.mark.parametrize("path", ["/v1/optimize", "/v1/analyze"])
 def test_422_of_an_input_that_an_output_needs(post: Post, body: dict[str, Any], path: str, output: str) -> None:
