@@ -53,6 +53,12 @@ def test_a_compressor_becomes_a_filed_report_with_castings(portal: Portal) -> No
         hand.cell(f"/machine/catalogue/{name}", value)
     with portal.asking():
         hand.click("#optimise")
+    # what gets worse is in the headline, although the whole gets better
+    couples = ask(portal.url, "/v1/optimize", portal.bodies("/v1/optimize")[-1])["residual"]
+    before, after = (couples[when]["moment"]["peak_y_Nm"] for when in ("before", "after"))
+    assert after > before
+    headline = portal.page.locator("#answer h2").first
+    expect(headline).to_contain_text(f"couple of the y forces +{100 * (after / before - 1):.2g} %")
     hand.click("#answer .document > summary")
     head = {"company": "Weber Compressors", "customer": "Nordic Air", "project": "Nitrogen", "number": "K-1047"}
     for name, value in (head | {"revision": "A", "author": "M. W.", "checker": "A. O.", "approver": "L. B."}).items():

@@ -33,7 +33,7 @@ const found = (answer) => (answer.counterweights.length ? answer : answer.infeas
 function headline(request, answer) {
   const { status, total_mass_kg: mass } = answer;
   if (status === "infeasible") return "No counterweights meet these ceilings";
-  const changes = responses(request, answer).map(change).filter(Boolean).join(", ");
+  const changes = responses(request, answer, { grown: true }).map(change).filter(Boolean).join(", ");
   return `${figure(mass)} kg of counterweights: ${changes || "nothing changes"}`;
 }
 

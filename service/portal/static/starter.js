@@ -106,7 +106,8 @@ class Questions {
     const answers = new Answers(typed);
     const request = this.arrangement === SCROLL ? scroll(answers, typed.device)
       : reciprocating(ARRANGEMENTS[this.arrangement], answers, { rule: typed.rule, plates: this.plates.checked, bearings: this.bearings.checked, shafts: typed.shafts });
-    return { request, wrong: [...answers.wrong], doubts: [...answers.doubts].filter(([name]) => !answers.wrong.has(name)) };
+    // in the order of the questions
+    return { request, wrong: [...this.element.querySelectorAll("[id^=start-]")].map(({ id }) => id.slice("start-".length)).filter((name) => answers.wrong.has(name)), doubts: [...answers.doubts].filter(([name]) => !answers.wrong.has(name)) };
   }
 }
 
@@ -127,8 +128,8 @@ export function starter(begin) {
   };
   const box = h("dialog", { class: "starter", "aria-labelledby": "starter-title", close: () => box.remove() },
     h("form", { method: "dialog", novalidate: true, submit }, h("h2", { id: "starter-title" }, "A machine of your own"),
-      h("p", { class: "about" }, "From a few questions, or paste its tables here."), questions.element, error,
-      h("div", { class: "buttons" }, h("button", { class: "primary", value: "begin" }, "Begin"),
+      h("p", { class: "about" }, "From a few questions, or paste its tables here."), questions.element,
+      h("div", { class: "buttons" }, error, h("button", { class: "primary", value: "begin" }, "Begin"),
         h("button", { value: "blank" }, "Begin with an empty machine"),
         h("button", { type: "button", click: () => box.close() }, "Cancel"))));
   document.body.append(box);

@@ -71,7 +71,7 @@ function fitted({ request, answer, told }) {
     }
   };
   const cell = (index, name, unit) => {
-    const input = h("input", { type: "text", value: figure(weights[index][name], 6).replaceAll(",", ""), autocomplete: "off",
+    const input = h("input", { type: "text", value: figure(weights[index][name], 6).replace(/\s/g, ""), autocomplete: "off",
       "aria-label": `${name === "mass_kg" ? "mass, kg" : "angle, °"}, ${weights[index].web}, as fitted`, input: () => {
         weights[index][name] = quantity(read(input.value, unit), unit);
         compute();
