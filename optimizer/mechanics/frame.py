@@ -32,14 +32,15 @@ class Shares(NamedTuple):
     moment: Reals
 
 
+#: themselves, of which nothing is added to rounding
 FORCE, MOMENT = Shares(1.0, 0.0), Shares(0.0, 1.0)
 
 
 def phasors(shares: Shares, wrench: Wrench) -> Phasors:
     """A response of one order, with the factor that its force and moment have."""
-    if _is(shares, FORCE):
+    if shares is FORCE:
         return wrench.force
-    if _is(shares, MOMENT):
+    if shares is MOMENT:
         return wrench.moment
     force, moment = (pair * np.asarray(share) for pair, share in zip(wrench, shares, strict=True))
     # what cancels to rounding is nothing, as in the sums of force and moment themselves
@@ -52,9 +53,9 @@ def _sum(one: Complex, other: Complex) -> Complex:
 
 def first_order(name: str, unit: str, shares: Shares, force: Response, moment: Response) -> Response:
     """A response to counterweights from those of force and moment."""
-    if _is(shares, FORCE):
+    if shares is FORCE:
         return force
-    if _is(shares, MOMENT):
+    if shares is MOMENT:
         return moment
     of_force, of_moment = (np.asarray(share)[..., None] for share in shares)
     against = None
@@ -84,17 +85,12 @@ def shaking(turn: WholeTurn, layout: Layout, named: Mapping[str, tuple[str, Shar
 
 def _of_all_orders(turn: WholeTurn, layout: Layout, name: str, unit: str, shares: Shares) -> TurnResponse:
     def per_unit(arm: Real) -> Real:
-        if _is(shares, FORCE):
+        if shares is FORCE:
             return np.ones_like(arm)
-        return arm if _is(shares, MOMENT) else shares.force + shares.moment * arm
+        return arm if shares is MOMENT else shares.force + shares.moment * arm
 
     added = per_unit(planes(layout) - layout.reference_plane)
     (own,) = shaft_curves(turn, layout, added[None], "on_frame").responses([name], unit)
     if layout.balance is None:
         return own
     return with_balance_shafts(layout, own, per_unit(layout.balance.position - layout.reference_plane))
-
-
-def _is(shares: Shares, plain: Shares) -> bool:
-    """Whether a response is force or moment itself, of which nothing is added to rounding."""
-    return all(np.ndim(share) == 0 and share == own for share, own in zip(shares, plain, strict=True))

@@ -28,7 +28,7 @@ from optimizer.solve.design import certified_one
 from optimizer.solve.infeasibility import out_of_reach, unreachable
 from optimizer.solve.outcome import Outcome
 from optimizer.solve.search_claims import told_status
-from optimizer.solve.uncertain_program import Robust
+from optimizer.solve.uncertain_program import MOST_ROUNDS, Robust
 from optimizer.solve.whole_turn import Candidate, SearchProof, told
 from optimizer.solve.worst_case import certified_any_mass, with_worst_case
 from schemas.request.requests import OptimizeRequest
@@ -57,11 +57,16 @@ def certified_choice(request: OptimizeRequest, scene: Prepared, solver: Solver, 
             return free
     any_mass = of_any_mass(request)
     robust = Robust(request, scene, any_mass)
+    for _ in range(MOST_ROUNDS):
+        asked = robust.asked()
+        first = _of_any_mass(asked.program, any_mass.relative_gap, robust)
+        if isinstance(first, Unkept):
+            return out_of_reach(request, scene, asked, first)
+        stages = _in_order(request, robust, asked, first, solver)
+        if not robust.learnt(stages[-1].picked.unbalance) or robust.left_s == 0.0:
+            break
+    # judged by all changes of masses that are known, of which those before have proven no less
     asked = robust.asked()
-    first = _of_any_mass(asked.program, any_mass.relative_gap, robust)
-    if isinstance(first, Unkept):
-        return out_of_reach(request, scene, asked, first)
-    stages = _in_order(request, robust, asked, first, solver)
     last, picked = stages[-1], stages[-1].picked
     found = last.found
     best = replace(last.best, contradicted=last.best.contradicted or any(stage.contradicted for stage in stages))
@@ -182,7 +187,7 @@ def _nominal_choice(
     if left_s == 0.0:
         return None, True
     accuracy = request.accuracy.model_copy(update={"time_limit_s": left_s})
-    alone = request.model_copy(update={"scenarios": (), "accuracy": accuracy})
+    alone = request.model_copy(update={"scenarios": (), "tolerances": None, "accuracy": accuracy})
     if alone.objective.over_the_turn:
         of_turn = certified_choice(alone, scene, solver, in_full=False)
         return of_turn.chosen if of_turn.status == "optimal" else None, of_turn.status == "inaccurate"

@@ -89,7 +89,7 @@ def in_rounds(
 
     while True:
         rounds += 1
-        posed = replace(program.outer(pool.cuts), limits=best.limits)
+        posed = replace(program.outer(pool.cuts), limits=best.limits).spelled()
         recent = points[[0, *range(max(1, len(points) - _RECENT), len(points))]]
         loose = in_discs(under_levels(posed, program, most, bound, _STEEP), choices.reach, inside=False)
         below = single_group(loose, case_of, recent, FEW, kinds)

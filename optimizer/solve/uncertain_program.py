@@ -35,7 +35,7 @@ from schemas.request.scenarios import Tolerances, machine_of
 #: a corner that is worse by less than this share is as good as known
 _ALIKE = 1e-12
 #: times that corners are added before it ends with what is proven
-_MOST_ROUNDS = 60
+MOST_ROUNDS = 60
 
 
 class Measure(NamedTuple):
@@ -170,7 +170,7 @@ class Robust:
     def solved(self) -> tuple[Goals, Found | Unkept]:
         """The program with all changes of masses that matter, and its proof."""
         gap, least = self.wanted.relative_gap, self.wanted.least_mass
-        for _ in range(_MOST_ROUNDS):
+        for _ in range(MOST_ROUNDS):
             asked = self.asked()
             found = over_turn(asked.program, gap, least, self.left_s)
             if isinstance(found, Unkept) or found.timed_out or not self.learnt(found.point.unbalance):

@@ -87,13 +87,16 @@ def ceilings() -> Iterator[CeilingFields]:
         yield from each.ceilings
 
 
-def limited(objective: Any) -> Iterator[CeilingFields]:
+def limited(objective: Any) -> list[CeilingFields]:
     """Ceilings that an objective gives, as numbers or columns."""
-    return (each for each in ceilings() if getattr(objective, each.field) is not None)
+    given = vars(objective)
+    return [each for one in RESPONSES.values() for each in one.ceilings if given[each.field] is not None]
 
 
 def counted(objective: Any) -> tuple[ResponseFields, ...]:
     """Force and moment, and of the others those that an objective weighs or limits, by numbers or columns."""
+    if len(RESPONSES) == len(PAIR):
+        return tuple(RESPONSES.values())
     return tuple(
         each
         for each in RESPONSES.values()

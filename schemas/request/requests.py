@@ -185,7 +185,15 @@ class OptimizeRequest(Scene, Ruled):
 
     def _choice_rules(self, what: str) -> Iterator[Rule]:
         """What does not go with either."""
-        yield Rule(self.tolerances is not None, ("tolerances",), f"does not go with {what}: {_FIX_THE_CHOICE}")
+        tolerances, goal = self.tolerances, self.objective
+        if tolerances is None:
+            return
+        limited = any(getattr(goal, name) is not None for name in type(goal).model_fields if "_ceiling_" in name)
+        also = "a ceiling" if limited else f"objective.{(*goal.over_the_turn, '')[0]}"
+        for name in ("mass_relative", "angle_deg"):
+            beyond = (getattr(tolerances, name) > 0) and (limited or bool(goal.over_the_turn))
+            message = f"not with {what} and {also}: {_FIX_THE_CHOICE}"
+            yield Rule(beyond, ("tolerances", name), message)
 
     def _fitted_rules(self) -> Iterator[Rule]:
         """What does not go with a least mass of what is fitted."""

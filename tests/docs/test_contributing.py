@@ -341,6 +341,19 @@ def test_all_is_written_as_the_linter_wants_it(copy: Path) -> None:
         _run(copy, "-m", "ruff", *check, "--no-cache", *_PACKAGES)
 
 
+def test_all_keeps_to_the_layers(copy: Path) -> None:
+    _run(copy, "-c", "from importlinter.cli import lint_imports_command; lint_imports_command()", "--no-cache")
+
+
+@pytest.mark.nightly
+def test_all_is_typed(copy: Path) -> None:
+    # half a minute of CPU where nothing is known of the packages yet: pytest tests/docs/test_contributing.py -m nightly
+    known = ROOT / ".mypy_cache"
+    if known.exists():
+        shutil.copytree(known, copy / ".mypy_cache")
+    _run(copy, "-m", "mypy", *_PACKAGES)
+
+
 def test_the_documents_have_a_row_for_it(copy: Path) -> None:
     rows = re.findall(r"^\| `(\w+)` \| .* \|$", (copy / "docs" / "api" / "analyze.md").read_text(), re.MULTILINE)
     assert rows.index("obliquity") + 1 == rows.index("pin_loads")

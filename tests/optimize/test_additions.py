@@ -71,6 +71,7 @@ NAMED_IN = {
     "studies/pareto/chosen_front.py": "weighs and limits one of these two: fields of its answer",
     "solve/worst_case.py": "fields of the answer",
     "studies/pareto/trades.py": "fields of the answer",
+    "studies/pareto/chosen_trades.py": "fields of the answer",
     # another force or torque altogether
     "effects/dynamics.py": "friction",
     "outputs/dynamics.py": "of the piston",
