@@ -173,8 +173,8 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
     exact = Machine(request / "machine", goal, answer / "reference_plane_m", budget, exact=True)
     statement = Statement(exact, goal, {})
     given = {CEILINGS[name]: name for name in statement.caps}
-    named = [one.text(*given) for one in said / "conflict"]
-    yield from (("conflict", one, ONE, ONE) for one in said / "conflict")
+    named = [one.text() for one in said / "conflict"]
+    yield from (("conflict", one, ONE if one.value in given else -ONE, ONE) for one in said / "conflict")
     if len({*named}) < len(named):
         yield "conflict", said / "conflict", -ONE, ONE
     if proofs / "conflict" and named:
@@ -192,6 +192,9 @@ def infeasible(request: Place, answer: Place, budget: Place, said: Place) -> Cla
             yield "conflict", lowest, lowest.number() - (goal / f"{name}_ceiling_{unit}").number(), lowest.number()
     for one in said / "smallest":
         name, lowest = (one / "response").text(*CEILINGS), one / "lower_bound"
+        if CEILINGS[name] not in given:
+            yield "smallest", one / "response", -ONE, ONE
+            continue
         alone, priced = Statement(plain, Place({}), {name: {name: ONE}}), partial(priced_at, {name: lowest.number()})
         yield from proven("smallest", lowest, alone, one / "multipliers", implied, {}, priced)
         yield "smallest", one / "response", ONE, ONE

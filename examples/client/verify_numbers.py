@@ -85,8 +85,8 @@ def _double(number: int, bits: int) -> float:
 def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
     (low, high), (least, most) = a, b
     if low < 0 < high or least < 0 < most:
-        ends = [p * q for p in a for q in b]
-        return min(ends), max(ends)
+        p, q, r, s = low * least, low * most, high * least, high * most
+        return min(p, q, r, s), max(p, q, r, s)
     # of either sign all through: two products say it, and half of the time of a check goes into products
     if low >= 0:
         return (low * least, high * most) if least >= 0 else (high * least, low * most)

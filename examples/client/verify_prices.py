@@ -118,7 +118,7 @@ def prices(statement: Statement, request: Place, answer: Place, there: Fitted, c
     lengths = (abs(complex((one / "x").double(), (one / "y").double())) for one in multipliers / "terms")
     factor = max((abs(term.factor.middle()) for term in statement.terms.values()), default=0.0)
     dust = 1e-12 * widest * machine.square.middle().real * (sum(lengths) * factor + sum(ceilings.values()))
-    stated = list(_stated(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
+    stated = list(stated_limits(machine, answer / "counterweights", slopes, multipliers, "max_total_mass" in touched))
     for name, length in ceilings.items():
         field = CEILINGS[name]
         limit = field.rpartition("_")[0]
@@ -182,7 +182,7 @@ def slope(statement: Statement, proof: Place) -> Tuple[List[complex], Dict[str, 
     return [-one * square for one in sums], lengths
 
 
-def _stated(
+def stated_limits(
     machine: Machine, fitted: Place, pulls: Sequence[complex], proof: Place, budget_touched: bool
 ) -> Iterator[Priced]:
     """Every limit of webs and of the total mass."""

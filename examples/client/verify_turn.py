@@ -13,6 +13,7 @@ from verify_answer import Fitted, closest
 from verify_cases import FIELDS as CASES
 from verify_cases import cases, goals, scatter
 from verify_claims import EVIDENCE, Claims, covered, near
+from verify_costs import costs
 from verify_cuts import FIELDS, SHAFTS, Group, Part, Term
 from verify_first import near_the_bound, searched, smallest
 from verify_goals import Program as Asked
@@ -67,6 +68,8 @@ class Program:
         self.parts = {case.name: Part(case, weights, self.named) for case in every}
         self.first = next(iter(self.parts.values()))
         self.webs = [*machine.webs, *(one.web for one in self.first.geared)]
+        #: of the last bound: what it rises by per kg m on each web
+        self.slopes: List[Number] = []
         self.levels = [(one / "limit").number() for one in answer / "certificate" / "goals"]
         if answer and len(self.levels) != len(self.named) - 1:
             raise NotCovered(answer / "certificate" / "goals")
@@ -122,6 +125,7 @@ class Program:
             if one.row in rows:
                 self._add(pulls, one, rows[one.row], share[one.group])
         self._add_ceilings(pulls, proof)
+        self.slopes = pulls.slopes
         return self._within_limits(pulls, proof, implied, cost)
 
     def conflict(self, proof: Place, implied: Place) -> Tuple[Optional[Number], bool]:
@@ -256,6 +260,7 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
     yield "cuts", proof, value + noise + real(NOTHING) - reached if objective else None, largest(value, reached)
     of_objective = multipliers / "objective"
     yield from _proven("lower_bound", of_any_mass, program.bound(of_objective, terms, implied), implied, of_objective)
+    slopes = program.slopes
     least = proof / "mass_lower_bound_kg"
     if least and (least.number() - machine.fixed).high <= 0:
         yield "mass_lower_bound", least, machine.fixed - least.number(), ONE
@@ -270,6 +275,8 @@ def over_turn(request: Place, answer: Place, machine: Machine, fitted: Fitted) -
         yield near("yardstick", size, mass)
     goals_of = Asked([*program.parts.values()], program.named, program.off, machine, program.rows)
     yield from covered(values(request, answer, goals_of, fitted))
+    if slopes:
+        yield from covered(costs(request, answer, machine, program.first, terms, slopes))
     yield from covered(misplacement(goals_of.parts, program.named[-1], fitted, answer / "sensitivity"))
 
 
@@ -279,8 +286,8 @@ def unreachable(request: Place, answer: Place, budget: Place, said: Place) -> Cl
     goal, proofs, implied = request / "objective", said / "multipliers", said / "implied_max_mass_kg"
     machine = Machine(request / "machine", goal, answer / "reference_plane_m", budget)
     given = [field for field in (*CEILINGS.values(), *LOADED) if goal / field]
-    named = [one.text(*given) for one in said / "conflict"]
-    yield from (("conflict", one, ONE, ONE) for one in said / "conflict")
+    named = [one.text() for one in said / "conflict"]
+    yield from (("conflict", one, ONE if one.value in given else -ONE, ONE) for one in said / "conflict")
     if not named or len({*named}) < len(named):
         yield "conflict", said / "conflict", -ONE, ONE
     program = Program(request, machine, Place(None))
