@@ -163,6 +163,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         gc.collect()
         gc.freeze()
 
+    def template(scope: Scope) -> str | None:
+        return methods.template(scope)
+
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
@@ -183,7 +186,7 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         (
             Middleware(HeadAsGet),
             *_behind_proxies(chosen),
-            Middleware(RequestLog, metrics, traces, lambda scope: methods.template(scope), chosen.log_machines),
+            Middleware(RequestLog, metrics, traces, template, chosen.log_machines),
             Middleware(Cut, errors),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),

@@ -380,6 +380,7 @@ COMPUTATIONS: dict[str, Computation] = {
             examples="drawings",
         ),
         _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
+        _table("order", "The order for a workshop: sizes, pieces, where each goes, and tolerances"),
         _table("foundation_loads", "Forces and couples on the foundation, order by order"),
         _table("pin_loads", "Load of every anti-rotation pin of a scroll over a revolution"),
         _picture("pin_loads", "The load of every anti-rotation pin of a scroll over a revolution"),

@@ -8,7 +8,7 @@ from typing import Dict, List, NamedTuple, Optional, Tuple
 from verify_claims import Claims, near, same
 from verify_cranks import balance_rates
 from verify_machine import ON_FRAME, Machine, Mass, Responses
-from verify_numbers import ABOUT_ONE, ONE, SPECK, ZERO, Number, Place, real, total
+from verify_numbers import ABOUT_ONE, COSTS, ONE, SPECK, ZERO, Number, Place, real, total
 from verify_orders import first_order, floor, orders, second_order
 from verify_quality import quality
 from verify_weights import UNSURE, counterweights, listed, shafts, usual_gap
@@ -139,6 +139,11 @@ def gaps(request: Place, answer: Place, mass: Number, chosen: bool = False) -> C
         yield near("gap", proof / "gap", gap + noise)
         yield near("relative_gap", proof / "relative_gap", (gap + noise) * ABOUT_ONE / size if size.low > 0 else ZERO)
         wide = (request / "accuracy" / "relative_gap").number(usual_gap(request / "machine"), least=0)
+        order = list(request / "objective" / "priorities")
+        last = max((n for n, one in enumerate(order) if (one / "goal").text() not in COSTS), default=0)
+        if last < len(order) - 1:
+            # what castings cost is made small within this
+            wide = wide + (order[last] / "allowance").number(0.0, least=0)
         if optimal:
             yield "status", answer / "status", wide * size + noise - gap, size
         rest = proof / "objective_without_counterweights"

@@ -6,7 +6,7 @@ from math import radians, sin, sqrt
 from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence
 
 from verify_machine import Machine, Responses
-from verify_numbers import ABOUT_ONE, ONE, ZERO, NotCovered, Number, Place, Unreadable, largest, real, total
+from verify_numbers import ABOUT_ONE, COSTS, ONE, ZERO, NotCovered, Number, Place, Unreadable, largest, real, total
 from verify_program import Statement
 
 #: fields of a request that are known here
@@ -73,9 +73,9 @@ def cases(request: Place, machine: Machine, plane: Place) -> Iterator[Case]:
 
 
 def goals(request: Place) -> List[str]:
-    """Goals that are met one after the other but for the mass; one name for all of them where they are weighed."""
+    """Goals that are met one after the other but for costs; one name for all of them where they are weighed."""
     named = [(one / "goal").text() for one in request / "objective" / "priorities"]
-    return [name for name in named if name != "mass"] or ["all"]
+    return [name for name in named if name not in COSTS] or ["all"]
 
 
 def goal_of(kind: str, named: Sequence[str]) -> int:

@@ -110,6 +110,8 @@ ZERO, ONE, HALF, J = real(0), real(1), real(0.5), Number(0, 0, (1 << BITS, 1 << 
 STEP = Number(1, 1)
 #: 0 and 1 to the rounding of the data; the former for both parts of a direction
 SPECK = Number(-real(DATA).high, real(DATA).high)
+#: goals that count what counterweights cost
+COSTS = ("mass", "pieces", "sizes")
 ABOUT_ONE, BLUR = ONE + SPECK, SPECK + J * SPECK
 PI = int("314159265358979323846264338327950288419716939937510582097494459230781640628620899")  # 10^80 times, cut off
 

@@ -35,7 +35,7 @@ from schemas.base.model import FieldProblem
 from schemas.base.responses import CeilingFields
 from schemas.machine.machine import Machine
 from schemas.machine.reciprocating import ReciprocatingMachine
-from schemas.request.objective import Objective
+from schemas.request.objective import COSTS, Objective
 from schemas.request.scene import Fidelity
 
 #: of responses that no shaft takes part in
@@ -336,10 +336,14 @@ def _in_order(objective: Objective, groups: dict[str, list[tuple[Group, ...]]]) 
     ----------
     groups : of every goal those of each case.
     """
-    order = [priority for priority in objective.priorities if priority.goal != "mass"]
-    if order:
+    *earlier, last = objective.priorities or [None]
+    if last is not None:
+        # nothing uses what the very last allows
+        order = [*earlier, last.model_copy(update={"allowance": 0.0})]
         return tuple(
-            _largest(priority.goal, groups[priority.goal])._replace(allowance=priority.allowance) for priority in order
+            _largest(priority.goal, groups[priority.goal])._replace(allowance=priority.allowance)
+            for priority in order
+            if priority.goal not in COSTS
         )
     every = [tuple(group for one in of_case for group in one) for of_case in zip(*groups.values(), strict=True)]
     # several goals in their order are never combined: their quantities are of one kind

@@ -6,7 +6,7 @@ from schemas.answer.outputs import COLUMNS_OF_EACH, OUTPUT_COLUMNS, Column, labe
 from schemas.base.responses import PAIR, counted
 from schemas.base.target import Target, pointer
 from schemas.machine.machine import Machine
-from schemas.request.objective import Objective
+from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from schemas.sweep.details import detail_columns
 
@@ -66,9 +66,10 @@ def result_columns(
 
 
 def goal_columns(objective: Objective) -> Iterator[Column]:
-    """What the goals before the last come to, where there are several in their order."""
-    goals = [priority.goal for priority in objective.priorities if priority.goal != "mass"]
-    for goal in goals[:-1]:
+    """What goals before the last, and numbers of castings, come to, where there are several in their order."""
+    goals = [priority.goal for priority in objective.priorities if priority.goal not in COSTS]
+    counted = [priority.goal for priority in objective.priorities if priority.goal in ("pieces", "sizes")]
+    for goal in (*goals[:-1], *counted):
         yield Column(f"goal_value.{goal}", "number", None, f"what the goal {goal} comes to in the end")
         yield Column(f"goal_lower_bound.{goal}", "number", None, "proven of what it comes to at least")
         yield Column(f"goal_limit.{goal}", "number", None, "what the goals after it may let it come to")

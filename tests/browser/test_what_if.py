@@ -29,6 +29,7 @@ def test_what_remains_of_weights_as_fitted(portal: Portal, url: str) -> None:
 def test_a_rounding_is_suggested(portal: Portal) -> None:
     portal.open("2d12", ("what-if",))
     panel = portal.panel("what-if")
+    portal.refusals.add(422)
     assert panel.get_by_label("step of angles").input_value() == "5"
     panel.get_by_label("step of masses").fill("2")
     panel.get_by_role("button", name="Suggest a rounding").click()

@@ -184,6 +184,13 @@ def _priorities(rng: np.random.Generator) -> Body:
     return _turn(priorities=chosen, **asked)(rng)
 
 
+def _light(rng: np.random.Generator) -> Body:
+    """The mass with what the first order allows it."""
+    body = _first_order(_half(rng))(rng)
+    allowed = {"goal": "external", "allowance": float(rng.choice([1e-4, 1e-3, 0.02, 0.1]))}
+    return {**body, "objective": {**body["objective"], "priorities": [allowed, {"goal": "mass"}]}}
+
+
 def _front(rng: np.random.Generator) -> Body:
     return {"machine": machines.with_budget(rng, machines.crankshaft(rng, _half(rng))), "points": 5}
 
@@ -218,6 +225,7 @@ MODES: Mapping[str, Mode] = {
     "bearings": Mode(_bearings, of_request, 2),
     "bending": Mode(_bending, of_request, 2),
     "priorities": Mode(_priorities, of_request, 5),
+    "light": Mode(_light, of_request, 5),
     "front": Mode(_front, of_front, 5),
     "trade": Mode(_traded, of_front, 2),
     "rows": Mode(_rows, of_rows, 10),

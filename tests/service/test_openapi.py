@@ -28,6 +28,7 @@ OPERATIONS = {
     ("post", "/v1/tables/pin_loads"): "table_pin_loads",
     ("post", "/v1/pictures/pin_loads"): "picture_pin_loads",
     ("post", "/v1/tables/built"): "table_built",
+    ("post", "/v1/tables/order"): "table_order",
     ("post", "/v1/tables/foundation_loads"): "table_foundation_loads",
     ("post", "/v1/pictures/front"): "picture_front",
     ("post", "/v1/pictures/side"): "picture_side",

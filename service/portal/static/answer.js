@@ -51,7 +51,10 @@ function proof(request, { status, certificate, infeasibility, floor, timing, res
     sentences.push(`No counterweights within these limits can bring ${how} below ${figure(bound, 8)}; `
       + `these come to ${figure(objective, 8)}. The gap is ${gap === null ? "not known" : share(Math.max(0, gap))}. Without counterweights it is ${figure(bare, 8)}.`);
   }
-  if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
+  const costs = (certificate.goals ?? []).filter((one) => ["mass", "pieces", "sizes"].includes(one.goal));
+  if (costs.length) sentences.push("The gap holds what the goals before leave to those after them; the table below says what is proven of each.");
+  if (status === "inaccurate" && costs.length) sentences.push("One of the goals is not proven as closely as was asked.");
+  else if (status === "inaccurate") sentences.push("That gap is wider than was asked for: take the figure as it stands, not as the optimum.");
   if (certificate.mass_lower_bound_kg > 0) {
     sentences.push(`Of all that are as good, none weighs less than ${figure(certificate.mass_lower_bound_kg, 7)} kg; these weigh ${figure(mass, 7)} kg.`);
   }

@@ -14,6 +14,7 @@ from service.report.chapters.balance_quality import balance_quality
 from service.report.chapters.dynamics import OVER_THE_TURN
 from service.report.chapters.foundation import foundation_loads
 from service.report.chapters.loads import loads
+from service.report.chapters.order import workshop_order
 from service.report.chapters.orders import orders, two_orders
 from service.report.chapters.pins import pin_loads
 from service.report.chapters.roll import roll
@@ -50,6 +51,7 @@ def optimized(request: OptimizeRequest, answer: OptimizeAnswer) -> Iterator[Chap
     built = as_built(request, answer)
     yield verdict.result(request, answer, built)
     yield balance.counterweights(request, answer, built)
+    yield from workshop_order(request.machine, answer)
     yield from alternatives(answer)
     yield from worth_knowing(answer)
     yield from worst_case(answer)

@@ -7,6 +7,7 @@ from schemas.request.rounding import RoundAnswer, Rounding, RoundRequest, Weight
 from service.report.blocks import Block, Cell, Chapter, Number, Paragraph, facts, table
 from service.report.chapters import balance, verdict
 from service.report.chapters.answers import optimized
+from service.report.chapters.order import order_chapter
 
 
 def with_rounding(request: RoundRequest, answer: RoundAnswer) -> Iterator[Chapter]:
@@ -16,6 +17,7 @@ def with_rounding(request: RoundRequest, answer: RoundAnswer) -> Iterator[Chapte
         return
     yield Chapter("What rounding costs", tuple(_blocks(request, answer, answer.rounding)))
     yield balance.counterweights(request.request, answer, None)
+    yield from order_chapter(answer)
     yield balance.before_and_after(request.request, answer, None)
     yield verdict.certificate(answer.certificate, answer.infeasibility)
 

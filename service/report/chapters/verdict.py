@@ -6,7 +6,7 @@ from schemas.answer.answers import Certificate, OptimizeAnswer
 from schemas.answer.infeasibility import Infeasibility
 from schemas.answer.limits import CeilingField
 from schemas.base.responses import ceilings
-from schemas.request.objective import Objective
+from schemas.request.objective import COSTS, Objective
 from schemas.request.requests import OptimizeRequest
 from service.report.blocks import Block, Chapter, Equation, Formula, Paragraph, Run, facts, prose, settled, table
 from service.report.chapters.balance import added, limits, shown, which
@@ -67,10 +67,12 @@ def _certified(request: OptimizeRequest, answer: OptimizeAnswer) -> Paragraph:
             f"{_percent(request.accuracy.relative_gap)} was requested. {answer.status_reason} See the certificate.",
             "warning",
         )
+    costs = any(goal.goal in COSTS for goal in proof.goals)
+    left = " It is what this goal leaves to those after it, at most its allowance." if costs else ""
     return Paragraph(
         "Proven optimal: no counterweights within these limits bring the objective below "
         f"{prose(proof.lower_bound)}, and those below reach {prose(proof.objective)}. The difference is "
-        f"{_percent(proof.relative_gap)} of the objective without counterweights.",
+        f"{_percent(proof.relative_gap)} of the objective without counterweights.{left}",
         "key",
     )
 
@@ -180,7 +182,7 @@ def certificate(proof: Certificate | None, why: Infeasibility | None) -> Chapter
     if proof.goals:
         met = [(goal.goal, goal.value, goal.lower_bound, goal.limit, goal.limit - goal.value) for goal in proof.goals]
         heads = ["goal", "#value", "#lower bound", "#limit for the later goals", "#allowance left"]
-        blocks.append(table("Goals before the last, in their order", heads, met))
+        blocks.append(table("Goals in their order", heads, met))
     return Chapter(title, tuple(blocks))
 
 
