@@ -223,15 +223,19 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
+    methods = _routes(app, chosen)
+    errors.install(app, methods)
+    return app
+
+
+def _routes(app: FastAPI, chosen: Settings) -> Methods:
+    """All routes into the application, and the methods at their paths."""
     routers = [computations.router(), *(resource.router for resource in _RESOURCES)]
     for router in routers:
         app.include_router(router)
     reference_page.install(app)
     guide.install(app, chosen.guide_dir)
-    routes = [route for router in [app, *routers] for route in router.routes]
-    methods = Methods(routes)
-    errors.install(app, methods)
-    return app
+    return Methods(route for router in [app, *routers] for route in router.routes)
 
 
 def _behind_proxies(chosen: Settings) -> Sequence[Middleware]:
