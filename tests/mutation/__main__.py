@@ -32,7 +32,9 @@ class Room(NamedTuple):
 
 
 ROOMS = {
-    "mechanics": Room("optimizer/mechanics/*.py", ("tests/mechanics", "tests/examples", "tests/reference"), 0.9),
+    "mechanics": Room(
+        "optimizer/mechanics/*.py", ("tests/mechanics", "tests/outputs", "tests/examples", "tests/reference"), 0.9
+    ),
     "program": Room("optimizer/program/**/*.py", ("tests/program", "tests/optimize/test_optimize.py"), 0.9),
     "formulation": Room("optimizer/formulation/*.py", ("tests/optimize",), 0.9),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
