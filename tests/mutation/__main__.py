@@ -32,7 +32,9 @@ class Room(NamedTuple):
 
 
 ROOMS = {
-    "mechanics": Room("optimizer/mechanics/*.py", ("tests/mechanics", "tests/examples", "tests/reference"), 0.9),
+    "mechanics": Room(
+        "optimizer/mechanics/*.py", ("tests/mechanics", "tests/outputs", "tests/examples", "tests/reference"), 0.9
+    ),
     "program": Room("optimizer/program/**/*.py", ("tests/program", "tests/optimize/test_optimize.py"), 0.9),
     "formulation": Room("optimizer/formulation/*.py", ("tests/optimize",), 0.9),
     "verify": Room("examples/client/verify*.py", ("tests/verification",), 0.9),
@@ -56,6 +58,11 @@ def main() -> int:
         copy = copied(Path(folder))
         for name in arguments.room or ROOMS:
             room = ROOMS[name]
+            first = sample(room, 1, arguments.seed)[0][0]
+            if noticed(copy, first, (ROOT / first).read_text(), room.tests):
+                print(f"{name:<12} its tests fail without a fault: nothing can be said", flush=True)
+                short = True
+                continue
             outcomes = Counter(
                 _outcome(copy, file, mutant, room.tests)
                 for file, mutant in sample(room, arguments.count, arguments.seed)
