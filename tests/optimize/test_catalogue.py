@@ -13,7 +13,6 @@ from optimizer.analyze import analyze
 from optimizer.errors import OutOfRange
 from optimizer.optimize import optimize
 from schemas.answer.answers import OptimizeAnswer
-from schemas.front.pareto import ParetoRequest
 from schemas.request.accuracy import AccuracyRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
 from tests.optimize.machines import machine, row, throw, web
@@ -258,8 +257,11 @@ def test_steps_of_angle_need_a_crank_and_a_place_in_the_sector() -> None:
 @pytest.mark.parametrize(
     ("kind", "body", "path"),
     [
-        (OptimizeRequest, {"tolerances": {"mass_relative": 0.01}}, ("tolerances",)),
-        (ParetoRequest, {"responses": ["force", "mass"]}, ("machine", "catalogue")),
+        (
+            OptimizeRequest,
+            {"tolerances": {"mass_relative": 0.01}, "objective": {"force_ceiling_N": 1e5}},
+            ("tolerances", "mass_relative"),
+        ),
         (AccuracyRequest, {}, ("machine", "catalogue")),
     ],
 )
