@@ -55,6 +55,8 @@ class Turn:
             own = row.crank * row.axis.conjugate() * turn
             cosine, sine = own.parts()  # the latter times the sense of rotation
             upright = ONE - row.ratio * row.ratio * sine * sine
+            if upright.low <= 0:
+                raise NotCovered(row.place)
             root, both = _root(upright), row.ratio * cosine * sine
             outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), root, self.place)
             outward = outward + over(row.ratio * both * both, upright * root, self.place)

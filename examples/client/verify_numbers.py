@@ -7,7 +7,7 @@ import re
 import sys
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, isfinite, isqrt
+from math import inf, isfinite, isnan, isqrt
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Sequence
 
@@ -94,6 +94,9 @@ def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
 
 
 def real(number: float | Fraction) -> Number:
+    """Raises OverflowError for what is not finite."""
+    if isinstance(number, float) and isnan(number):
+        raise OverflowError
     top, bottom = number.as_integer_ratio()
     return Number((top << BITS) // bottom, -((-top << BITS) // bottom))
 
