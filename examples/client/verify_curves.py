@@ -94,11 +94,11 @@ class Turn:
             return ONE if kind == "force" else place - self.machine.plane * self.machine.wide
         if self.spans is None:
             raise NotCovered(self.place)
-        place = Fraction(position.low + position.high, 1 << BITS + 1)
+        where = Fraction(position.low + position.high, 1 << BITS + 1)
         if kind == "bearing":
-            exact, size = self.spans.shares(place)[self.bearings[name]], Fraction(1)
+            exact, size = self.spans.shares(where)[self.bearings[name]], Fraction(1)
         else:
-            exact, size = self.spans.bending(Fraction(float(name)), place), self.spans.extent
+            exact, size = self.spans.bending(Fraction(float(name)), where), self.spans.extent
         # the service takes differences of places
         return real(exact) + SPECK * real(abs(exact) + size)
 

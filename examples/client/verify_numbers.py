@@ -246,7 +246,7 @@ class Place:
         """Raises NotCovered where there is a field that is not known, here or to who asks."""
         for name in self.value if isinstance(self.value, dict) else ():
             # a weight of 0 is none
-            nothing = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
+            nothing: tuple[Any, ...] = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
             if f" {name} " not in IDLE and (self / name).value not in nothing:
                 if f" {name} " not in f"{KNOWN} {also} ":
                     raise NotCovered(self / name)
