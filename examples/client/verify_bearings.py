@@ -117,7 +117,9 @@ def main_bearings(request: Place, loads: Loads, answer: Place, fitted: Optional[
     for name, one in zip(names, rows):
         own = asked[name]
         yield "main_bearings", one / "name", ONE, ONE
-        yield within("main_bearings", one / "position_m", *2 * [(own / "position_m").double()], 0.0)
+        yield within(
+            "main_bearings", one / "position_m", (own / "position_m").double(), (own / "position_m").double(), 0.0
+        )
         before = loads.curve(f"bearing:{name}")
         circle = circle_of(before, one)
         yield from _load(loads, own, before, one / "before", circle, angles)
@@ -166,7 +168,8 @@ def _load(loads: Loads, own: Place, curve: Curve, place: Place, circle: Circle, 
         yield within(
             "main_bearings",
             place / name,
-            *2 * [(place / name).double()],
+            (place / name).double(),
+            (place / name).double(),
             circle.high * (1 + 2 * FLOOR) - around.high + off,
         )
 

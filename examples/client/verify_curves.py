@@ -55,6 +55,8 @@ class Turn:
             own = row.crank * row.axis.conjugate() * turn
             cosine, sine = own.parts()  # the latter times the sense of rotation
             upright = ONE - row.ratio * row.ratio * sine * sine
+            if upright.low <= 0:
+                raise NotCovered(row.place)
             root, both = _root(upright), row.ratio * cosine * sine
             outward = cosine + over(row.ratio * (cosine * cosine - sine * sine), root, self.place)
             outward = outward + over(row.ratio * both * both, upright * root, self.place)
@@ -91,11 +93,11 @@ class Turn:
             return self.machine.arm(kind, position, self.machine.wide)
         if self.spans is None:
             raise NotCovered(self.place)
-        place = Fraction(position.low + position.high, 1 << BITS + 1)
+        where = Fraction(position.low + position.high, 1 << BITS + 1)
         if kind == "bearing":
-            exact, size = self.spans.shares(place)[self.bearings[name]], Fraction(1)
+            exact, size = self.spans.shares(where)[self.bearings[name]], Fraction(1)
         else:
-            exact, size = self.spans.bending(Fraction(float(name)), place), self.spans.extent
+            exact, size = self.spans.bending(Fraction(float(name)), where), self.spans.extent
         # the service takes differences of places
         return real(exact) + SPECK * real(abs(exact) + size)
 

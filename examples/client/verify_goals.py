@@ -60,8 +60,8 @@ def values(request: Place, answer: Place, program: Program, fitted: Fitted) -> C
         yield from _worst_case(answer / "worst_case", proof / "objective", there)
     if answer / "price_of_robustness":
         as_given = Part(Case(request, program.machine, ONE, None), first.unweighted, program.named)
-        alone = Value(as_given, fitted, NO_SCATTER).goal(last)
-        yield within("price", answer / "price_of_robustness" / "nominal", alone.low, alone.high, off)
+        as_it_is = Value(as_given, fitted, NO_SCATTER).goal(last)
+        yield within("price", answer / "price_of_robustness" / "nominal", as_it_is.low, as_it_is.high, off)
         yield from _price(answer / "price_of_robustness", program, proof, off)
 
 
@@ -100,7 +100,8 @@ def _goal(name: str, place: Place, found: Range, rest: Range, allowance: float) 
 
 def _worst_case(place: Place, objective: Place, there: Sequence[Value]) -> Claims:
     """Peaks in the worst case, each by itself."""
-    yield within("worst_case", place / "objective", *2 * [objective.double()], 1e-12 * abs(objective.double()))
+    value = objective.double()
+    yield within("worst_case", place / "objective", value, value, 1e-12 * abs(value))
     for name, unit in NAMES.items():
         found = most([one.response(name) if one.part.all else one.of_first_order(name) for one in there])
         yield within("worst_case", place / f"{name}_peak_{unit}", found.low, found.high, WIDE * found.high)

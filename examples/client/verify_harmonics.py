@@ -136,9 +136,9 @@ def rod(ratio: float) -> Optional[Dict[int, float]]:
     a(t) is the acceleration of the piston over r omega^2, b the angle of the rod, sin b = ratio sin t. Their product
     with the mass is what a piston puts on its crank. None where the rod is hardly longer than the crank.
     """
-    if ratio > STEEPEST:
+    if not 0 <= ratio <= STEEPEST:
         return None
-    if ratio == 0:
+    if ratio < SMALLEST:
         return {-1: 0.5, 1: 0.5}
     strip = acosh(1 / ratio) / 2
     wide = cosh(strip)

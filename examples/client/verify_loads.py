@@ -41,7 +41,9 @@ class Loads:
             for shaft in asked / "balance_shafts"
             for _ in shaft / "webs"
         ]
-        places = [one.position for one in (*turn.rows, *turn.turning, *machine.webs)]
+        places = [one.position for one in turn.rows]
+        places += [one.position for one in turn.turning]
+        places += [web.position for web in machine.webs]
         #: planes of loads, webs and bearings, in which the bending moment has its corners [m]
         self.planes = sorted({*(one.middle().real for one in places), *turn.places})
         self._curves: Dict[str, Curve] = {}
@@ -100,7 +102,8 @@ class Loads:
 
     def factor(self, response: str, position: Number) -> float:
         """What a newton in a plane adds to a response."""
-        return self.turn.factor(response, position).middle().real
+        found: float = self.turn.factor(response, position).middle().real
+        return found
 
 
 def _piston(row: Row, square: float) -> Piston:

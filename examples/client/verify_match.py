@@ -9,7 +9,7 @@ from __future__ import annotations
 import copy
 from itertools import combinations, permutations, product
 from math import factorial, perm
-from typing import Any, Dict, Iterator, List, NamedTuple, Optional, Sequence, Tuple
+from typing import Any, Dict, Iterator, List, Mapping, NamedTuple, Sequence, Tuple
 
 from verify_claims import Claims, near, same
 from verify_machine import NAMES, Machine, Responses
@@ -52,8 +52,8 @@ def matching(request: Place, answer: Place) -> Claims:
         for name in ("throw", "row"):
             yield same("rows", one / name, (one / name).value)
         yield same("rows", one / "name", (mine / "name").value)
-        mass = (mine / "reciprocating_mass_kg").number(least=0) + real(matched.get(row, 0.0))
-        yield near("rows", one / "reciprocating_mass_kg", mass * ABOUT_ONE)
+        whole = (mine / "reciprocating_mass_kg").number(least=0) + real(matched.get(row, 0.0))
+        yield near("rows", one / "reciprocating_mass_kg", whole * ABOUT_ONE)
     yield from _evaluated(request, answer, [_with(asked, by_row) for by_row in (listed, matched)], classes, nuts)
 
 
@@ -98,7 +98,7 @@ def _assigned(answer: Place, classes: Sequence[Parts], nuts: Dict[str, float], r
     return matched
 
 
-def _with(asked: Place, by_row: Dict[Optional[Row], float]) -> Place:
+def _with(asked: Place, by_row: Mapping[Any, float]) -> Place:
     """The machine with masses on its rows."""
     body: Any = copy.deepcopy(asked.value)
     for k, throw in enumerate(asked / "throws"):

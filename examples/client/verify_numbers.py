@@ -7,7 +7,7 @@ import re
 import sys
 from fractions import Fraction
 from functools import lru_cache
-from math import inf, isfinite, isqrt
+from math import inf, isfinite, isnan, isqrt
 from pathlib import Path
 from typing import Any, Iterable, Iterator, Sequence
 
@@ -94,6 +94,9 @@ def _product(a: tuple[int, int], b: tuple[int, int]) -> tuple[int, int]:
 
 
 def real(number: float | Fraction) -> Number:
+    """Raises OverflowError for what is not finite."""
+    if isinstance(number, float) and isnan(number):
+        raise OverflowError
     top, bottom = number.as_integer_ratio()
     return Number((top << BITS) // bottom, -((-top << BITS) // bottom))
 
@@ -245,7 +248,7 @@ class Place:
         """Raises NotCovered where there is a field that is not known, here or to who asks."""
         for name in self.value if isinstance(self.value, dict) else ():
             # a weight of 0 is none
-            nothing = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
+            nothing: tuple[Any, ...] = (None, [], {}, 0) if name.endswith("_weight") else (None, [], {})
             if f" {name} " not in IDLE and (self / name).value not in nothing:
                 if f" {name} " not in f"{KNOWN} {also} ":
                     raise NotCovered(self / name)

@@ -237,11 +237,13 @@ class Statement:
 
     def reachable(self, implied: Place) -> Number | None:
         """What all that the limits allow adds to the rows at most; None where there is no limit."""
-        limits = [self.reach(web, implied) for web in self.machine.webs]
-        if None in limits:
-            return None
-        added = (self.change(web, row) * limit for web, limit in zip(self.machine.webs, limits) for row in self.rows)
-        return total(added)
+        added = ZERO
+        for web in self.machine.webs:
+            limit = self.reach(web, implied)
+            if limit is None:
+                return None
+            added = added + total(self.change(web, row) for row in self.rows) * limit
+        return added
 
     def lightest(self, sizes: dict[str, Number]) -> Number | None:
         """The least mass that could cancel one of the rows, of these sizes; None where none can be."""

@@ -113,6 +113,8 @@ class Program:
         """Of the last goal, or of the mass with goals up to ``most``, and whether implied limits are believed."""
         rows = {(one / "name").text(): (one / "value").number(least=0) for one in proof / "rows"}
         group_of = {one.row: one.group for one in terms}
+        if any(group_of[one.row] != one.group for one in terms):
+            raise NotCovered(proof / "terms")
         rows = {name: value for name, value in rows.items() if value.low > 0 and name in group_of}
         sums = {group: total(value for name, value in rows.items() if group_of[name] == group)
                 for group in {group_of[name] for name in rows}}  # fmt: skip
