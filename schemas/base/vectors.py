@@ -18,7 +18,8 @@ class Uniform:
 
     def __get_pydantic_json_schema__(self, schema: CoreSchema, handler: GetJsonSchemaHandler) -> JsonSchemaValue:
         made = dict(handler(schema))
-        return {**made, "items": made.pop("prefixItems")[0]}
+        first, *_ = made.pop("prefixItems")
+        return {**made, "items": first}
 
 
 _Share = Annotated[float, Strict(), symmetric(1e9)]
