@@ -8,7 +8,7 @@ bin := .venv/bin
 kernels := optimizer/program/kernel/__pycache__/kernels
 pip := $(bin)/pip --quiet --disable-pip-version-check
 
-.PHONY: install run test prepared quick bytecode chromium freecad lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
+.PHONY: install run test prepared quick bytecode chromium freecad mono lint bench hard validate nightly lock settings map pictures docs package image image-check smoke sbom licences audit clean
 
 install: $(kernels)
 
@@ -22,7 +22,7 @@ test: .venv/development
 	$(MAKE) --no-print-directory --jobs 2 --output-sync=target prepared
 	$(bin)/pytest --numprocesses 4 --dist loadfile -m "not nightly"
 
-prepared: lint freecad bytecode $(kernels)
+prepared: lint mono bytecode $(kernels)
 
 # what goes wrong first, within a minute: for between the changes, not in place of all tests
 quick: .venv/development $(kernels)
@@ -51,6 +51,10 @@ chromium: .venv/development
 # as the tests of the workbench need FreeCAD: some minutes of installing, once; packages are installed by one at a time
 freecad: chromium
 	$(bin)/python -m tests.freecad.freecad
+
+# as the example of a client in C# needs Mono
+mono: freecad
+	$(bin)/python -m tests.clients.mono
 
 lint: .venv/development
 	$(bin)/ruff check .

@@ -49,6 +49,8 @@ def _shown(request: ShaftRequest) -> Shaft:
     sides = Sides(along, planes_of(request).seen_from(frame), frame.points(other_points(request)))
     found = plates(chain.chain, flanks, sides, tolerance)
     z = along.tips[..., 2]
+    if not np.ptp(z) > tolerance:
+        refuse([FieldProblem(("faces",), "all round faces along the shaft are at one place: they have no length")])
     return Shaft(frame, found, chain.doubts, (float(np.min(z)), float(np.max(z))))
 
 

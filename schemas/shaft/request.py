@@ -6,19 +6,21 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from schemas.base.model import Model
-from schemas.base.quantities import Flag, Length, Name, Position
+from schemas.base.quantities import Flag, Length, Name
 from schemas.base.rules import Rule, Ruled
 from schemas.base.units import Unit, positive, symmetric
-from schemas.base.vectors import Direction, Point, Triple
+from schemas.base.vectors import Direction, Interval, Point, Uniform
 
 MAX_FACES = 5_000
 MAX_BODIES = 250
 MAX_POINTS = 64
 
 _Inertia = Annotated[float, symmetric(1e24), Unit("kg m2")]
-_Row = Annotated[tuple[_Inertia, _Inertia, _Inertia], Triple()]
+_Row = Annotated[tuple[_Inertia, _Inertia, _Inertia], Uniform()]
 #: directions below this share of their length are parallel
 _PARALLEL = 1e-6
+#: planes nearer than this share of their distance from z = 0, or than this in m, are one
+_APART = 1e-9
 
 
 class _Face(Ruled):
@@ -43,7 +45,7 @@ class CylinderFace(_Face):
     centre_m: Point = Field(description="a point of its axis", examples=[[0.14, 0.0, 0.0]])
     axis: Direction = Field(description="direction of its axis, of any length", examples=[[0, 0, 1]])
     radius_m: Length = Field(description="its radius", examples=[0.075])
-    ends_m: Annotated[tuple[Position, Position], Field(min_length=2, max_length=2)] = Field(
+    ends_m: Interval = Field(
         description="where it begins and ends along its axis, from `centre_m`, in either order", examples=[[0.0, 0.14]]
     )
     angle_deg: Annotated[float, positive(360.0), Unit("deg")] = Field(
@@ -86,7 +88,7 @@ class Body(Model):
     name: Name | None = Field(None, description="what the CAD calls it", examples=["Crankshaft"])
     mass_kg: Annotated[float, positive(1e15), Unit("kg")] = Field(description="its mass", examples=[412.0])
     centre_m: Point = Field(description="its centre of mass", examples=[[0.0, 0.0, 0.01]])
-    inertia_kg_m2: Annotated[tuple[_Row, _Row, _Row], Triple()] | None = Field(
+    inertia_kg_m2: Annotated[tuple[_Row, _Row, _Row], Uniform()] | None = Field(
         None,
         description="tensor of inertia about its centre of mass, along the axes of the model, row by row; off the"
         " diagonal stand minus the products of inertia. Null where they are zero, as of a disc across the shaft",
@@ -134,7 +136,7 @@ class ShaftRequest(Ruled):
         description="the frame of the shaft; null is found from the faces: z along the axis, x towards the first pin",
         examples=[None],
     )
-    planes_m: Annotated[tuple[Position, Position], Field(min_length=2, max_length=2)] | None = Field(
+    planes_m: Interval | None = Field(
         None,
         description="planes along the shaft in which the unbalance of the bodies is stated; null is both ends of the"
         " round faces",
@@ -152,5 +154,6 @@ class ShaftRequest(Ruled):
         yield Rule(bare and self.frame is None, ("frame",), "without faces nothing shows where the axis is: give it")
         yield Rule(bare and self.planes_m is None, ("planes_m",), "without faces nothing shows two planes: give them")
         if self.planes_m is not None:
-            same = self.planes_m[0] == self.planes_m[1]
+            low, high = self.planes_m
+            same = abs(high - low) <= _APART * max(1.0, abs(low), abs(high))
             yield Rule(same, ("planes_m",), "two planes at one place bear no couple")

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.clients.conftest import ROOT
+from tests.clients.mono import MISSING, installed
 
 _WRITTEN = "http://127.0.0.1:8000"
 _MONO = ["-r:System.Net.Http", "-r:System.Runtime.Serialization"]
@@ -35,8 +36,8 @@ def ran(language: str, code: str, folder: Path) -> str:
         (folder / "program.ts").write_text(code)
         command = [str(deno), "run", "--no-check", "--no-remote", "--allow-net=127.0.0.1", "program.ts"]
     else:
-        if shutil.which("mcs") is None:
-            pytest.skip("mono is not installed: the example in C# was NOT run")
+        if not installed():
+            pytest.skip(MISSING)
         (folder / "Program.cs").write_text(code)
         helper = ROOT / "examples/csharp/Counterweight.cs"
         subprocess.run(["mcs", *_MONO, "Program.cs", helper, "-out:program.exe"], cwd=folder, check=True, timeout=120)

@@ -1,11 +1,15 @@
 """Lists that are no shaft: each refused at the face that is wrong, or that shows it."""
 
+import contextlib
 import json
 from math import cos, radians, sin
 from typing import Any
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from pydantic import ValidationError
 from starlette.testclient import TestClient
 
 from optimizer.crankshaft.read import read_shaft
@@ -128,3 +132,29 @@ def test_extreme_sizes_are_answered_or_refused(client: TestClient) -> None:
             assert client.post("/v1/shaft", json=body).status_code in (200, 422)
     for tolerance in (1e-12, 1.0, 1e9):
         assert client.post("/v1/shaft", json={"faces": FACES, "tolerance_m": tolerance}).status_code in (200, 422)
+
+
+EXTREMES = st.sampled_from([0.0, 1e-12, 1e-9, 1e-300, 0.14, -0.245, 1e3, 1e6, 1e9, -1e9])
+
+
+@given(st.lists(st.tuples(st.integers(0, len(FACES) - 1), st.integers(0, 20), EXTREMES), min_size=1, max_size=4))
+@settings(max_examples=150)
+def test_any_number_is_answered_refused_or_invalid(changes: list[tuple[int, int, float]]) -> None:
+    """No number of a face leads to one that is none, nor to a fault."""
+    faces = json.loads(json.dumps(FACES))
+    for number, place, value in changes:
+        slots = [
+            (holder, key)
+            for name, holder_or_value in faces[number].items()
+            for holder, key in (
+                [(holder_or_value, k) for k in range(len(holder_or_value)) if name != "points_m"]
+                if isinstance(holder_or_value, list)
+                else [(faces[number], name)]
+            )
+            if isinstance(holder[key], float | int)
+        ]
+        holder, key = slots[place % len(slots)]
+        holder[key] = value
+    # what is no request is invalid, what is no shaft out of range; an answer holds finite numbers only
+    with contextlib.suppress(ValidationError, OutOfRange):
+        read_shaft(ShaftRequest.model_validate({"faces": faces, "bodies": [BODY]}))

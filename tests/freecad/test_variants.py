@@ -33,6 +33,7 @@ MASSES = {"as drawn": "73.083", "STEP in inches": "73.083", "built up": "73.083"
 
 def test_every_variant_is_right_or_refused(run: Run) -> None:
     found = run("variants")
+    forced = found.pop("forced")
     assert found.keys() == RIGHT | REFUSED.keys()
     for name, words in REFUSED.items():
         assert any(words in line for line in found[name]["refused"]), (name, found[name])
@@ -62,3 +63,8 @@ def test_every_variant_is_right_or_refused(run: Run) -> None:
         assert MASSES.get(name, "") in one["said"], one["said"]
     assert any("leans by 3 degrees" in line for line in found["leaning flanks"]["doubts"]), found["leaning flanks"]
     assert any(line.startswith("Warning: ") for line in found["as drawn"]["words"])
+    # what is forced says so, in the verdict and in the status
+    why = "FORCED in spite of: Body: its density is 7.85 kg/m3: shafts have 1000 to 20000"
+    assert forced["held"]
+    assert forced["words"][1].startswith(why)
+    assert why in forced["status"]
