@@ -177,11 +177,14 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
             await to_thread.run_sync(traces.close)
             tasks.cancel_scope.cancel()
 
+    def template(scope: Scope) -> str | None:
+        return methods.template(scope)
+
     app = Application(
         (
             Middleware(HeadAsGet),
             *_behind_proxies(chosen),
-            Middleware(RequestLog, metrics, traces, lambda scope: methods.template(scope), chosen.log_machines),
+            Middleware(RequestLog, metrics, traces, template, chosen.log_machines),
             Middleware(Cut, errors),
             Middleware(SecurityHeaders, chosen.hsts_s),
             Middleware(Cors, chosen.cors_origins, **CORS),
