@@ -39,7 +39,8 @@ from service.http.parameters import of_the_route
 from service.jobs import faults as job_faults
 from service.jobs.desk import JobService
 from service.jobs.events import Watch
-from service.routes import computations, effects, examples, health, portal, problems, reference_page, sweeps
+from service.routes import computations, effects, examples, guide, health, portal, problems, reference_page, sweeps
+from service.routes import faults as route_faults
 from service.routes import metrics as metrics_route
 from service.routes import version as version_route
 from service.settings import Settings
@@ -69,6 +70,7 @@ FAULTS = joined(
     worker_faults.FAULTS,
     watch_faults.FAULTS,
     leaving.FAULTS,
+    route_faults.FAULTS,
     http_faults.FAULTS,
 )
 
@@ -161,6 +163,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         gc.collect()
         gc.freeze()
 
+    def template(scope: Scope) -> str | None:
+        return methods.template(scope)
+
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
@@ -221,14 +226,19 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
     app.state.watch = Watch(desk.of())
     app.state.metrics = metrics
     app.state.computing = Computing(chosen, readiness, pool, metrics, traces)
+    methods = _routes(app, chosen)
+    errors.install(app, methods)
+    return app
+
+
+def _routes(app: FastAPI, chosen: Settings) -> Methods:
+    """All routes into the application, and the methods at their paths."""
     routers = [computations.router(), *(resource.router for resource in _RESOURCES)]
     for router in routers:
         app.include_router(router)
     reference_page.install(app)
-    routes = [route for router in [app, *routers] for route in router.routes]
-    methods = Methods(routes)
-    errors.install(app, methods)
-    return app
+    guide.install(app, chosen.guide_dir)
+    return Methods(route for router in [app, *routers] for route in router.routes)
 
 
 def _behind_proxies(chosen: Settings) -> Sequence[Middleware]:

@@ -271,6 +271,21 @@ COMPUTATIONS: dict[str, Computation] = {
             examples="rating",
         ),
         Computation(
+            name="shaft",
+            path="/v1/shaft",
+            request="schemas.shaft.request:ShaftRequest",
+            answer="schemas.shaft.answer:ShaftAnswer",
+            compute="optimizer.crankshaft.read:read_shaft",
+            summary="The crankshaft that the faces and bodies of any CAD show",
+            remark="Axis, frame, throws, webs and bearings from round and plane faces, unbalances in two planes from"
+            " the masses of bodies. `doubts` holds what a designer should look at. A shaft with serious ones is"
+            " answered with 200 too.",
+            help="Read a crankshaft from the faces and bodies that a CAD lists.",
+            chapters="service.report.chapters.shaft:shown",
+            tag="shaft",
+            examples="shaft",
+        ),
+        Computation(
             name="match",
             path="/v1/match",
             request="schemas.match.request:MatchRequest",
@@ -299,6 +314,21 @@ COMPUTATIONS: dict[str, Computation] = {
                 Form("application/json", "service.computations:given_bytes", ".json"),
                 _workbook("service.workbook.answers:requested", "machine.xlsx"),
             ),
+        ),
+        Computation(
+            name="round",
+            path="/v1/round",
+            request="schemas.request.rounding:RoundRequest",
+            answer="schemas.request.rounding:RoundAnswer",
+            compute="optimizer.studies.rounding.round:round_weights",
+            summary="The best rounding of an optimum to steps of mass and angle, and what the steps cost",
+            remark="Of every counterweight of the optimum mass and angle are on the step on either side, or it is left"
+            " out; the certificate is of all these sets. `rounding` says what the steps cost.",
+            help="Round an optimum to steps of mass and angle, and say what they cost.",
+            chapters="service.report.chapters.rounding:with_rounding",
+            options=("mass_step_kg", "angle_step_deg"),
+            examples="round",
+            later=True,
         ),
         # of answers
         Computation(
@@ -350,6 +380,7 @@ COMPUTATIONS: dict[str, Computation] = {
             examples="drawings",
         ),
         _table("built", "Counterweights as built beside the optimum, with the tolerance that they bear"),
+        _table("order", "The order for a workshop: sizes, pieces, where each goes, and tolerances"),
         _table("foundation_loads", "Forces and couples on the foundation, order by order"),
         _table("pin_loads", "Load of every anti-rotation pin of a scroll over a revolution"),
         _picture("pin_loads", "The load of every anti-rotation pin of a scroll over a revolution"),

@@ -47,10 +47,15 @@ class Catalogue(Ruled):
         both = self.masses_kg is not None and self.mass_step_kg is not None
         yield Rule(both, ("mass_step_kg",), "give either the masses or their step")
         if self.angle_step_deg is not None:
-            steps = 360 / self.angle_step_deg
-            # of the smallest numbers there are infinitely many
-            broken = not isfinite(steps) or abs(steps - round(steps)) > 1e-9 * steps
-            yield Rule(broken, ("angle_step_deg",), "360 degrees must be a whole number of steps")
+            yield from angle_step_rules(("angle_step_deg",), self.angle_step_deg)
+
+
+def angle_step_rules(path: Path, angle_step_deg: float) -> Iterator[Rule]:
+    """What a step of angles has to hold."""
+    steps = 360 / angle_step_deg
+    # of the smallest numbers there are infinitely many
+    broken = not isfinite(steps) or abs(steps - round(steps)) > 1e-9 * steps
+    yield Rule(broken, path, "360 degrees must be a whole number of steps")
 
 
 def in_sector(angle_deg: Any, centre_deg: float, half_angle_deg: float) -> Any:

@@ -79,6 +79,12 @@ _TABLE = (
     ),
     # ---- what is not there
     ("Not Found", 404, "There is nothing at this path.", "`GET /openapi.json` lists the paths."),
+    (
+        "Missing guide",
+        404,
+        "The documents are not built as a site.",
+        f"Ask {_OPERATOR} to run `make docs`, or to set `COUNTERWEIGHT_GUIDE_DIR`.",
+    ),
     ("Unknown example", 404, "There is no example of this name.", "`GET /v1/examples` lists the names."),
     (
         "Unknown sweep",

@@ -26,6 +26,7 @@ _TAGS: Mapping[str, str] = {
     "counterweights": "Choose counterweights, and say what a machine does with them.",
     "scroll": "The anti-rotation pins of scroll machines.",
     "rating": "Thermal design of compressors.",
+    "shaft": "Crankshafts as a CAD lists them.",
     "sweeps": "Many designs of a machine, and other jobs that are answered later.",
     "pictures": "One drawing of an answer.",
     "tables": "One table of an answer.",

@@ -55,7 +55,9 @@ async def read_example(request: Request, name: str) -> Response:
 @in_threads
 def read_template(
     request: Request,
-    example: Annotated[str, Query(description="name of the example", max_length=64)] = "single-horizontal",
+    example: Annotated[
+        str, Query(description="name of the example; `empty` has the heads of all tables alone", max_length=64)
+    ] = "single-horizontal",
 ) -> Response:
     """`POST /v1/optimize` takes it with its media type, and answers with one to who accepts that."""
     return _template(example).answer(request, **{"Content-Disposition": 'attachment; filename="machine.xlsx"'})

@@ -40,5 +40,7 @@ def test_the_examples_print_what_stands_below_them(language: str, url: str, tmp_
 
 def test_every_language_has_an_example_of_every_route() -> None:
     text = (ROOT / "docs/clients.md").read_text()
-    for section in text.split("\n## ")[1:]:
+    # tests/clients/test_typed.py runs those
+    typed = ("TypeScript\n", "C#\n")
+    for section in (one for one in text.split("\n## ")[1:] if not one.startswith(typed)):
         assert {language for language, _, _ in _EXAMPLE.findall(section)} == set(_RUN), section.splitlines()[0]

@@ -8,6 +8,7 @@ from typing import get_args
 import pytest
 
 from optimizer.analyze import analyze
+from optimizer.crankshaft.read import read_shaft
 from optimizer.optimize import optimize
 from optimizer.outputs.descriptions import catalogue
 from optimizer.program import solution
@@ -16,11 +17,15 @@ from optimizer.program.kernel import finer_numbers
 from optimizer.rating.rate import rate
 from optimizer.studies.matching.match import match
 from optimizer.studies.pareto.pareto import pareto
+from optimizer.studies.rounding.round import round_weights
 from schemas.answer.outputs import OutputName
 from schemas.front.pareto import ParetoRequest
 from schemas.match.request import MatchRequest
 from schemas.rating.request import RatingRequest
 from schemas.request.requests import AnalyzeRequest, OptimizeRequest
+from schemas.request.rounding import RoundRequest
+from schemas.shaft.answer import DoubtCode
+from schemas.shaft.request import ShaftRequest
 from service.app import create_app
 from service.documents.examples import bodies
 from service.guard.keys import SCOPES
@@ -134,6 +139,19 @@ def test_the_rating() -> None:
 def test_the_matching() -> None:
     request, shown = blocks(PAGES["match"])
     agrees(shown, match(MatchRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_rounding() -> None:
+    request, shown = blocks(PAGES["round"])
+    agrees(shown, round_weights(RoundRequest.model_validate(request)).model_dump(mode="json"))
+
+
+def test_the_shaft() -> None:
+    pages = blocks(PAGES["shaft"])
+    for request, shown in zip(pages[::2], pages[1::2], strict=True):
+        agrees(shown, read_shaft(ShaftRequest.model_validate(request)).model_dump(mode="json"))
+    table = PAGES["shaft"].split("| doubt |")[1].split("\n\n")[0]
+    assert sorted(re.findall(r"`(\w+)`", table)) == sorted(get_args(DoubtCode))
 
 
 def test_the_effects() -> None:

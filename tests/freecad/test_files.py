@@ -11,7 +11,10 @@ import pytest
 from tests.freecad.freecad import CLIENT, WORKBENCH, packed
 
 FILES = sorted(WORKBENCH.rglob("*.py"))
-PURE = {"__init__", "asking", "first_order", "moments", "plate", "service", "sheets", "verdict"}
+PURE = {
+    "__init__", "asking", "first_order", "moments", "plate", "plausible", "quantities", "service", "shaft", "sheets",
+    "verdict",
+}  # fmt: skip
 WINDOW = {"init_gui", "commands", "panel"}
 OF_FREECAD = {"FreeCAD", "Part", "Import"}
 

@@ -6,14 +6,14 @@ from tests.freecad.conftest import Run
 def test_bad_input_is_said_and_changes_nothing(run: Run) -> None:
     found = run("refusals")
     words = {
-        "a box": "no crankshaft: there is no cylinder",
-        "a bar": "no crankshaft: there is no crank pin",
+        "a box": "no crankshaft: the selected bodies: no outer cylinder is among them",
+        "a bar": "no crankshaft: the selected bodies: there is no crank pin",
         "nothing": "nothing that is selected is a solid",
         "not asked": "there is no answer yet: balance first",
-        "service away": "the service does not answer",
+        "service away": "the service at http://127.0.0.1:9 does not answer: ",
         # what the service refuses, at the cell that it concerns
         "a plate of no thickness": "webs!G3: must be at least",
-        "a text": "webs!G3: envelope.thickness_m: must be a number, not 'thick'",
+        "a text": "webs!G3: envelope.thickness_m: must be a number, or one with a unit such as '180 mm', not 'thick'",
     }
     for name, begins in words.items():
         assert found[name]["lines"][0].startswith(begins), found[name]

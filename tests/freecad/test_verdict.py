@@ -88,14 +88,18 @@ ANSWER = {
 def test_the_same_is_held_in_words() -> None:
     found = verdict(MACHINE, ANSWER, Moments(5.0, 1.0 + 0j, 0j), {"a": Moments(10.0, 1.0 + 0j, 0j)})
     assert found.held
-    assert found.words()[0].startswith("peak force: solids 2 N, service 2 N, without 2 N")
-    assert found.words()[-1].startswith("The solids leave what the service says")
+    first, *others = found.words()
+    assert first == "HELD: the solids leave what the service says: peak force 2 of 2 N, peak moment 0 of 0 N m."
+    assert others[0].startswith("peak force: solids 2 N, service 2 N, without 2 N")
 
 
 def test_what_rounding_leaves_of_nothing_is_no_difference() -> None:
     machine = {**MACHINE, "webs": [{"position_m": 0.1}]}
     found = verdict(machine, ANSWER, Moments(5.0, 1.0 + 0j, 1e-17 + 0j), {"a": Moments(10.0, 1.0 + 0j, 0j)})
     assert found.held
+    # no figure is what rounding leaves
+    assert "e-" not in found.headline
+    assert all("e-" not in line.partition(", difference")[0] for line in found.words())
 
 
 @pytest.mark.parametrize(
@@ -111,4 +115,4 @@ def test_a_difference_is_refused(weights: dict[str, Moments], named: float) -> N
     found = verdict(MACHINE, ANSWER, Moments(5.0, 1.0 + 0j, 0j), weights)
     assert not found.held
     assert found.worst == pytest.approx(named, rel=1e-6)
-    assert "REFUSED" in found.words()[-1]
+    assert "REFUSED" in found.words()[0]

@@ -37,12 +37,19 @@ def test_the_commands_of_the_menu(url: str, tmp_path: Path) -> None:
 
     assert told["workbench"] == "CounterweightWorkbench"
     assert len(told["commands"]) == 6
-    # eccentric round webs were found too, and are not ticked
-    assert told["ticked"] == [False, True, False, False, True, False]
+    # eccentric round webs were found too, and are no pins
+    assert told["ticked"] == [True, True]
+    assert sum("taken for a round web" in line for line in told["shaft"]) == 4
+    # mass and sizes are confirmed before anything is asked
+    assert "confirm first: The shaft weighs " in told["without a confirmation"]
+    assert told["shaft"][0] == f"<b>{told['confirmed']}</b>"
+    assert told["confirmed"].endswith("(1 body of 7,850 kg/m3) and is 970 mm long; crank radius 140 mm.")
+    assert len(set(told["icons"])) == 6
     # what is missing is said at its cell, what was drawn in words
     assert "rows!2 (/machine/throws/0/rows/0/reciprocating_mass_kg): this field is required" in told["without a speed"]
     assert told["status"] == "balanced"
-    assert "The solids leave what the service says" in told["report"]
+    assert "HELD: the solids leave what the service says" in told["report"]
+    assert told["verdict"][0].startswith("<b>HELD: the solids leave what the service says: peak force ")
     assert "nothing is in the way of the counterweights" in told["report"]
-    for name in ("view.png", "window.png"):
+    for name in ("shaft.png", "view.png", "window.png"):
         assert (tmp_path / name).read_bytes().startswith(b"\x89PNG")

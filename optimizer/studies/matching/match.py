@@ -228,7 +228,7 @@ def _evaluated(request: MatchRequest, machine: ReciprocatingMachine) -> _Evaluat
         given = tuple(GivenCounterweight(**one.model_dump()) for one in request.counterweights)
         answer = analyze(AnalyzeRequest(machine=machine, counterweights=given))
     plan = layout(machine)
-    first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)))
+    first = responses(plan, rotating(plan).plus(reciprocating(plan, 1)), goal)
     square = plan.omega**2
     program = cone_program(machine, goal, first, square)
     fitted = answer.counterweights

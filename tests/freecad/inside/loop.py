@@ -14,7 +14,7 @@ ROWS = ((277.79, 0.0), (251.72, 180.0))
 
 def machine_of(kind, document):
     """A shaft that was read, with tables that were completed."""
-    machine = read_shaft(document, getattr(shafts, kind)(document))
+    machine = read_shaft(document, getattr(shafts, kind)(document), service_at(os.environ["URL"]))
     complete(machine)
     document.recompute()
     return machine
@@ -44,6 +44,7 @@ def main():
     document.saveAs(os.path.join(os.environ["FOLDER"], "balanced.FCStd"))
     return {
         "tables": tables,
+        "doubts": list(machine.Doubts),
         "worst": verdict.worst,
         "held": verdict.held,
         "words": verdict.words(),

@@ -16,9 +16,9 @@ def main():
     round_bar = document.addObject("Part::Cylinder", "Bar")
     document.recompute()
     found = {
-        "a box": said(document, lambda: read_shaft(document, [box])),
-        "a bar": said(document, lambda: read_shaft(document, [round_bar])),
-        "nothing": said(document, lambda: read_shaft(document, [])),
+        "a box": said(document, lambda: read_shaft(document, [box], service)),
+        "a bar": said(document, lambda: read_shaft(document, [round_bar], service)),
+        "nothing": said(document, lambda: read_shaft(document, [], service)),
     }
     machine = machine_of("native", document)
     webs = next(sheet for sheet in machine.Tables if sheet.Label == "webs")

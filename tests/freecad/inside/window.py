@@ -25,19 +25,28 @@ def main():
     for body in bodies:
         Gui.Selection.addSelection(body)
     Gui.runCommand("Counterweight_Read")
+    wait(lambda: document.getObject("Machine") is not None)
     machine = document.getObject("Machine")
     boxes = Gui.getMainWindow().findChildren(QtGui.QCheckBox)
     found["pins"] = [box.text() for box in boxes if "radius" in box.text()]
     found["ticked"] = [box.isChecked() for box in boxes if "radius" in box.text()]
-    Gui.Control.closeDialog()
-
+    found["shaft"] = labels()
+    grab("shaft.png")
     Gui.runCommand("Counterweight_Balance")
+    found["without a confirmation"] = report()
+    press("OK")
+    found["confirmed"] = machine.Confirmed
+    Gui.runCommand("Counterweight_Balance")
+    wait(lambda: "this field is required" in report())
     found["without a speed"] = report()
     complete(machine)
     document.recompute()
     Gui.runCommand("Counterweight_Balance")
     wait(lambda: machine.Answer)
     Gui.runCommand("Counterweight_Verify")
+    found["verdict"] = labels()
+    icons = (Gui.Command.get(name).getInfo()["pixmap"] for name in found["commands"])
+    found["icons"] = sorted(os.path.basename(icon) for icon in icons)
     Gui.runCommand("Counterweight_Clearance")
     found["report"] = report()
     found["status"] = machine.Status
@@ -50,10 +59,27 @@ def main():
     view.fitAll()
     wait(lambda: True)
     view.saveImage(os.path.join(os.environ["FOLDER"], "view.png"), 900, 700, "White")
+    grab("window.png")
+    return found
+
+
+def labels():
+    """What the open panel says."""
+    wait(lambda: True)
+    return [label.text() for label in Gui.getMainWindow().findChildren(QtGui.QLabel) if label.wordWrap()]
+
+
+def press(text):
+    """A button of the open panel."""
+    buttons = Gui.getMainWindow().findChildren(QtGui.QPushButton)
+    next(button for button in buttons if button.text().strip("&") == text).click()
+    wait(lambda: True)
+
+
+def grab(name):
     Gui.getMainWindow().resize(1400, 900)
     wait(lambda: True)
-    Gui.getMainWindow().grab().save(os.path.join(os.environ["FOLDER"], "window.png"))
-    return found
+    Gui.getMainWindow().grab().save(os.path.join(os.environ["FOLDER"], name))
 
 
 def report():

@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Dict
+from typing import Any, Dict, List
 
 from .service import Refused, Service
 from .sheets import Asked, Wrong
 
 #: environment variable of the API key; it is never stored
 KEY = "COUNTERWEIGHT_KEY"
+
+#: environment variable: 1 to go on where the shaft cannot be one
+_FORCE = "COUNTERWEIGHT_FORCE"
+
+
+def forced() -> bool:
+    """Whether to go on where the shaft cannot be one; what comes of it says so."""
+    return os.environ.get(_FORCE) == "1"
 
 
 def service_at(url: str, key: str | None = None) -> Service:
@@ -30,7 +38,20 @@ def ask(service: Service, asked: Asked) -> Dict[str, Any]:
         lines = [f"{asked.where(pointer)}: {message}" for pointer, message in refused.fields.items()]
         raise Wrong(lines or [str(refused)]) from None
     except (OSError, ValueError) as error:
-        raise Wrong([f"the service does not answer: {error}"]) from None
+        raise unanswered(service, error) from None
     if answer["status"] == "infeasible":
         raise Wrong(["no counterweights within the limits keep what is asked for: allow more, or ask for less"])
     return answer
+
+
+def unanswered(service: Service, error: Exception) -> Wrong:
+    """Nobody answers, or not as the service does: where it was asked for, and where that is set."""
+    line = (
+        f"the service at {service.url} does not answer: {error}. Its address is set under Preferences, Counterweight."
+    )
+    return Wrong([line])
+
+
+def warnings(answer: Dict[str, Any], asked: Asked) -> List[str]:
+    """What the service adds to its answer, at the cells that it concerns."""
+    return [f"Warning: {asked.where(one['pointer'] or '')}: {one['message']}" for one in answer["warnings"]]

@@ -7,24 +7,24 @@ from __future__ import annotations
 
 import json
 from contextlib import contextmanager
+from dataclasses import replace
+from typing import NamedTuple
 
-import Part
+import FreeCAD as App
 
-from . import cranks
-from .asking import ask
-from .features import Counterweight, Machine, asked, shaft_moments, weight_moments
+from .asking import ask, warnings
+from .faces import MM, body_of, faces_of
+from .features import Counterweight, Machine, asked, shaft_moments, sizes, weight_moments
 from .plate import Plate
-from .sheets import MACHINE, ROD, ROWS, THROW, THROWS, USE, WEBS, Wrong, completed, table
-from .solids import MM, STEEL_KG_M3, shape_of
+from .plausible import reasons, summary, unlike
+from .shaft import ask_shaft, doubts, tables
+from .sheets import Wrong, completed
+from .solids import STEEL_KG_M3, shape_of
 from .tables import write
 from .verdict import verdict
 
 #: below this share of the heaviest a counterweight is none
 _NOTHING = 1e-9
-_ROW_HEADS = (
-    THROW, "name", "axis_deg", "reciprocating_mass_kg", "connecting_rod.length_m", "connecting_rod.mass_kg",
-    "connecting_rod.reciprocating_share", ROD,
-)  # fmt: skip
 
 
 @contextmanager
@@ -42,34 +42,80 @@ def change(document, words):
     document.commitTransaction()
 
 
-def read_shaft(document, bodies, densities=None, frame=None, said=None):
+def read_shaft(document, bodies, service, densities=None, frame=None, said=None, force=False):
     """The machine of some bodies, with tables of what their faces show; it is for the designer to correct and complete.
 
     Parameters
     ----------
+    service : that reads the shaft from the faces.
     densities : of the bodies, kg/m3; steel if not said.
     frame : of the shaft; from its faces if not said: x towards the first crank pin.
     said : a request with what no face shows, if it is known already.
+    force : go on in spite of what shows that this is no shaft, and say so.
 
     Raises
     ------
     Wrong
     """
-    shape = Part.makeCompound([shape_of(body) for body in bodies])
-    if not shape.Solids:
+    selected = listed(bodies, densities, frame)
+    return drawn_from(document, selected, ask_shaft(service, selected.question), said, force)
+
+
+class Selected(NamedTuple):
+    """Bodies, their densities in kg/m3, and what the service is asked about them."""
+
+    bodies: list
+    densities: list
+    question: dict
+
+
+def listed(bodies, densities=None, frame=None):
+    """Faces and bodies as the service is asked about them; of steel if no density is said.
+
+    Raises
+    ------
+    Wrong
+    """
+    densities = list(densities or [STEEL_KG_M3] * len(bodies))
+    shapes = [shape_of(body) for body in bodies]
+    if not any(shape.Solids for shape in shapes):
         raise Wrong(["nothing that is selected is a solid: select the bodies of the shaft"])
-    try:
-        frame = frame or cranks.frame_of(shape)
-        shown = tables(cranks.read(cranks.inside(shape, frame)))
-    except cranks.NoShaft as error:
-        raise Wrong([f"no crankshaft: {error}"]) from None
+    surfaces = [body.Label for body, shape in zip(bodies, shapes) if not shape.Solids or shape.Volume <= 0.0]
+    if surfaces:
+        raise Wrong([f"{label}: a surface without volume: select solids only" for label in surfaces])
+    question = {
+        "faces": [face for body, shape in zip(bodies, shapes) for face in faces_of(shape, body.Label)],
+        "bodies": [body_of(shape, body.Label, density) for body, shape, density in zip(bodies, shapes, densities)],
+    }
+    if frame is not None:
+        x, z = (frame.Rotation.multVec(App.Vector(*axis)) for axis in ((1, 0, 0), (0, 0, 1)))
+        question["frame"] = {"origin_m": [value * MM for value in frame.Base], "x": list(x), "z": list(z)}
+    return Selected(list(bodies), densities, question)
+
+
+def drawn_from(document, selected, answer, said=None, force=False):
+    """The machine that an answer about faces shows, in the document.
+
+    Raises
+    ------
+    Wrong
+        for what has to be corrected first, unless it is forced.
+    """
+    bodies, densities, question = selected
+    serious = doubts(question, answer, serious=True)
+    shown = tables(answer, densities[0] if len(set(densities)) == 1 else STEEL_KG_M3)
+    if said is not None:
+        serious += unlike(answer["throws"], said.get("machine", {}).get("throws", ()))
+    if serious and not force:
+        raise Wrong([f"not the shaft that it seems to be: {line}" for line in serious])
     if said is not None:
         shown = completed(shown, said)
     with change(document, "Read shaft"):
         machine = document.addObject("App::FeaturePython", "Machine")
         Machine(machine)
-        machine.Shaft, machine.Frame = list(bodies), frame
-        machine.Densities = list(densities or [STEEL_KG_M3] * len(bodies))
+        machine.Shaft, machine.Frame = bodies, _placement(answer["frame"])
+        machine.Densities, machine.Doubts = densities, serious + doubts(question, answer, serious=False)
+        machine.Forced = "; ".join(serious)
         sheets = []
         for name, lines in shown.items():
             sheet = document.addObject("Spreadsheet::Sheet", name)
@@ -81,50 +127,46 @@ def read_shaft(document, bodies, densities=None, frame=None, said=None):
     return machine
 
 
-def tables(found):
-    """What the faces show, as the tables that the designer completes."""
-    pins = sorted(found.pins + found.doubtful, key=lambda pin: pin.low)
-    names = {id(pin): str(number) for number, pin in enumerate((pin for pin in pins if pin in found.pins), start=1)}
-    throws = [
-        {
-            USE: "yes" if id(pin) in names else "no",
-            "name": names.get(id(pin), f"web? {pin.radius:g} mm"),
-            "position_m": pin.middle * MM,
-            "crank_radius_m": pin.offset * MM,
-            "crank_angle_deg": pin.angle_deg,
-        }
-        for pin in pins
-    ]
-    webs = [
-        {
-            USE: "yes",
-            "name": f"web {number}",
-            "position_m": (web.low + web.high) / 2 * MM,
-            "envelope.shape": "sector",
-            "envelope.inner_radius_m": web.hub * MM,
-            "envelope.outer_radius_m": web.reach * MM,
-            "envelope.thickness_m": (web.high - web.low) * MM,
-            "envelope.density_kg_m3": STEEL_KG_M3,
-            "envelope.max_half_angle_deg": 90,
-        }
-        for number, web in enumerate(found.webs, start=1)
-    ]
-    rows = [{THROW: name, "name": name, "axis_deg": 0} for name in names.values()]
-    return {
-        MACHINE: [["field", "value"], ["machine.name", "from CAD"], ["machine.speed_rpm", None]],
-        THROWS: table(list(throws[0]), throws),
-        ROWS: table(_ROW_HEADS, rows),
-        WEBS: table(list(webs[0]) if webs else [USE, "name", "position_m"], webs),
-    }
+def _placement(frame):
+    origin = [value / MM for value in frame["origin_m"]]
+    rows = zip(frame["x"], frame["y"], frame["z"], origin)
+    return App.Placement(App.Matrix(*(value for row in rows for value in row), 0, 0, 0, 1))
 
 
-def balance(machine, service):
-    """Ask and draw; the verdict on the solids."""
+def shaft_words(machine):
+    """Mass and sizes of the shaft, for the designer to confirm.
+
+    Raises
+    ------
+    Wrong
+    """
+    return summary(sizes(machine), asked(machine).body["machine"]["throws"])
+
+
+def question_of(machine, force=False):
+    """What is to be asked, if the shaft can be one.
+
+    Raises
+    ------
+    Wrong
+        with what shows that it cannot, unless it is forced; then the machine keeps that.
+    """
     question = asked(machine)
-    return draw(machine, question.body, ask(service, question))
+    why = reasons(sizes(machine), question.body["machine"])
+    if why and not force:
+        raise Wrong([f"not asked: {line}" for line in why])
+    if why:
+        machine.Forced = "; ".join(dict.fromkeys([*filter(None, machine.Forced.split("; ")), *why]))
+    return question
 
 
-def draw(machine, request, answer):
+def balance(machine, service, force=False):
+    """Ask and draw; the verdict on the solids."""
+    question = question_of(machine, force)
+    return draw(machine, question, ask(service, question))
+
+
+def draw(machine, question, answer):
     """Draw the counterweights of an answer; those that were drawn before follow, or go.
 
     Raises
@@ -132,7 +174,7 @@ def draw(machine, request, answer):
     Wrong
         if one cannot be drawn, or the solids do not leave what the answer says.
     """
-    document = machine.Document
+    document, request = machine.Document, question.body
     with change(document, "Balance"):
         drawn = {one.Web: one for one in machine.Counterweights}
         heaviest = max((one["mass_kg"] for one in answer["counterweights"]), default=0.0)
@@ -154,7 +196,7 @@ def draw(machine, request, answer):
         found = verify(machine)
         if not found.held:
             raise Wrong(found.words())
-    return found
+    return replace(found, notes=(*found.notes, *warnings(answer, question)))
 
 
 def verify(machine):
@@ -170,9 +212,10 @@ def verify(machine):
     shaft = shaft_moments(machine)
     first, *others = shaft.values()
     try:
-        return verdict(now, json.loads(machine.Answer), sum(others, first), weight_moments(machine))
+        found = verdict(now, json.loads(machine.Answer), sum(others, first), weight_moments(machine))
     except KeyError as missing:
         raise Wrong([f"the tables no longer say {missing}"]) from None
+    return replace(found, notes=(f"FORCED in spite of: {machine.Forced}",)) if machine.Forced else found
 
 
 def _new(document, web):

@@ -7,6 +7,7 @@ Settings are environment variables, as FreeCAD takes no arguments of others:
                            their order along the shaft, with density_kg_m3 beside them
     COUNTERWEIGHT_FOLDER   where balanced.FCStd, balanced.step, drawings and bill go
     COUNTERWEIGHT_URL      where the service is; COUNTERWEIGHT_KEY its key
+    COUNTERWEIGHT_FORCE    1 to go on where the shaft cannot be one; what is printed says so
 """
 
 from __future__ import annotations
@@ -18,8 +19,8 @@ from pathlib import Path
 import FreeCAD as App
 import Part
 
-from .asking import service_at
-from .balance import balance, read_shaft
+from .asking import forced, service_at
+from .balance import balance, read_shaft, shaft_words
 from .clearance import clearance
 from .export import export
 from .preferences import url
@@ -53,9 +54,12 @@ def _balanced(shaft, machine, folder):
         raise Wrong([f"{machine}: {error}"]) from None
     document = _opened(shaft)
     bodies = [one for one in document.RootObjects if getattr(one, "Shape", None) is not None and one.Shape.Solids]
-    made = read_shaft(document, bodies, [density] * len(bodies), said=said)
     service = service_at(os.environ.get("COUNTERWEIGHT_URL") or url())
-    yield from balance(made, service).words()
+    force = forced()
+    made = read_shaft(document, bodies, service, [density] * len(bodies), said=said, force=force)
+    yield from (f"to look at: {line}" for line in made.Doubts)
+    yield shaft_words(made)
+    yield from balance(made, service, force).words()
     in_the_way = clearance(made)
     if in_the_way:
         raise Wrong(in_the_way)

@@ -10,7 +10,7 @@ from math import asin, cos, degrees, hypot, radians, sin
 import FreeCAD as App
 import Part
 
-from .cranks import inside
+from .faces import inside
 from .features import asked
 from .sheets import Wrong
 from .solids import MM, seen, shape_of

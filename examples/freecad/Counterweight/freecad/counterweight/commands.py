@@ -9,28 +9,29 @@ import FreeCAD as App
 import FreeCADGui as Gui
 from PySide import QtCore, QtGui
 
-from .asking import KEY, ask, service_at
-from .balance import draw, read_shaft, verify
+from .asking import KEY, ask, forced, service_at
+from .balance import draw, drawn_from, listed, question_of, shaft_words, verify
 from .clearance import clearance, overlaps
 from .export import export
-from .features import asked
-from .panel import Pins
+from .panel import Result, Shaft, show
 from .preferences import url
+from .shaft import ask_shaft
 from .sheets import Wrong
 
-_ICON = os.path.join(os.path.dirname(__file__), "resources", "counterweight.svg")
+_ICONS = os.path.join(os.path.dirname(__file__), "resources")
 translate = App.Qt.translate
 
 
 class _Command:
     """A menu entry; what is wrong is said in the report view, line by line."""
 
-    def __init__(self, text, tip, does, on_machine=True):
+    def __init__(self, icon, text, tip, does, on_machine=True):
+        self._icon = os.path.join(_ICONS, f"{icon}.svg")
         self._text, self._tip, self._does, self._on_machine = text, tip, does, on_machine
 
     def GetResources(self):
         text, tip = translate("Counterweight", self._text), translate("Counterweight", self._tip)
-        return {"MenuText": text, "ToolTip": tip, "Pixmap": _ICON}
+        return {"MenuText": text, "ToolTip": tip, "Pixmap": self._icon}
 
     def IsActive(self):
         return App.ActiveDocument is not None
@@ -63,9 +64,14 @@ def _machine():
 
 
 def _read():
-    bodies = [one for one in Gui.Selection.getSelection() if getattr(one, "Shape", None) and one.Shape.Solids]
-    machine = read_shaft(App.ActiveDocument, bodies)
-    Gui.Control.showDialog(Pins(machine))
+    bodies = [one for one in Gui.Selection.getSelection() if getattr(one, "Shape", None) and one.Shape.Faces]
+    document, selected, service = App.ActiveDocument.Name, listed(bodies), _service()
+
+    def drawn(answer):
+        machine = drawn_from(App.getDocument(document), selected, answer, force=forced())
+        show(Shaft(machine))
+
+    _beside(lambda: ask_shaft(service, selected.question), drawn)
 
 
 # ---- asking
@@ -74,14 +80,14 @@ def _read():
 class _Asking(QtCore.QThread):
     """One question to the service, beside the window."""
 
-    def __init__(self, service, question):
+    def __init__(self, question):
         super().__init__()
-        self._service, self.question = service, question
+        self._question = question
         self.answer = self.wrong = None
 
     def run(self):
         try:
-            self.answer = ask(self._service, self.question)
+            self.answer = self._question()
         except Wrong as wrong:
             self.wrong = wrong
 
@@ -90,27 +96,46 @@ class _Asking(QtCore.QThread):
 _RUNNING = set()
 
 
-def _balance(machine):
-    asking = _Asking(_service(), asked(machine))
-    document, name = machine.Document.Name, machine.Name
+def _beside(question, then):
+    """Ask in a thread of its own, and go on with the answer in the window's."""
+    asking = _Asking(question)
 
     def done():
         _RUNNING.discard(asking)
         try:
             if asking.wrong is not None:
                 raise asking.wrong
-            machine = App.getDocument(document).getObject(name)
-            tell(draw(machine, asking.question.body, asking.answer).words())
-            complain(Wrong(overlaps(machine)))
+            then(asking.answer)
         except Wrong as wrong:
             complain(wrong)
-        except (NameError, AttributeError):
+        except (NameError, AttributeError, ReferenceError):
             # closed or deleted while the service was asked
-            complain(Wrong(["the machine is gone: nothing was drawn"]))
+            complain(Wrong(["the document or the machine is gone: nothing was drawn"]))
 
     asking.finished.connect(done)
     _RUNNING.add(asking)
     asking.start()
+
+
+def _balance(machine):
+    words = shaft_words(machine)
+    if machine.Confirmed != words:
+        show(Shaft(machine))
+        raise Wrong([f"confirm first: {words}"])
+    question, service = question_of(machine, forced()), _service()
+    document, name = machine.Document.Name, machine.Name
+
+    def drawn(answer):
+        machine = App.getDocument(document).getObject(name)
+        _result(draw(machine, question, answer).words())
+        complain(Wrong(overlaps(machine)))
+
+    _beside(lambda: ask(service, question), drawn)
+
+
+def _result(words):
+    tell(words)
+    show(Result(words))
 
 
 #: for this session only; a preference would be a file that people send each other
@@ -135,8 +160,9 @@ def _ask_key():
 def _verify(machine):
     found = verify(machine)
     if not found.held:
+        show(Result(found.words()))
         raise Wrong(found.words())
-    tell(found.words())
+    _result(found.words())
 
 
 def _clearance(machine):
@@ -153,10 +179,12 @@ def _export(machine):
 
 
 COMMANDS = {
-    "Counterweight_Read": _Command("Read shaft", "Find axis, pins and webs of the selected bodies", _read, False),
-    "Counterweight_Balance": _Command("Balance", "Ask the service and draw the counterweights", _balance),
-    "Counterweight_Verify": _Command("Verify", "Hold the solids against the answer", _verify),
-    "Counterweight_Clearance": _Command("Clearance", "Find collisions over a revolution", _clearance),
-    "Counterweight_Export": _Command("Export", "STEP, outlines, drawings, bill of material", _export),
-    "Counterweight_Key": _Command("Key", "Key of the service, for this session", _ask_key, False),
+    "Counterweight_Read": _Command(
+        "read", "Read shaft", "Find axis, pins and webs of the selected bodies", _read, False
+    ),
+    "Counterweight_Balance": _Command("balance", "Balance", "Ask the service and draw the counterweights", _balance),
+    "Counterweight_Verify": _Command("verify", "Verify", "Hold the solids against the answer", _verify),
+    "Counterweight_Clearance": _Command("clearance", "Clearance", "Find collisions over a revolution", _clearance),
+    "Counterweight_Export": _Command("export", "Export", "STEP, outlines, drawings, bill of material", _export),
+    "Counterweight_Key": _Command("key", "Key", "Key of the service, for this session", _ask_key, False),
 }

@@ -7,9 +7,10 @@ from math import degrees, radians
 
 import FreeCAD as App
 
-from .cranks import inside
+from .faces import inside
 from .moments import Moments
 from .plate import SHAPES, Plate
+from .plausible import Piece, Sizes
 from .sheets import Wrong, from_tables
 from .solids import MM, extruded, moments, seen
 from .tables import table_of
@@ -44,6 +45,9 @@ class Machine(_Proxy):
         ("App::PropertyString", "Request", "that the answer is to"),
         ("App::PropertyString", "Answer", "of the service"),
         ("App::PropertyString", "Status", "whether the answer is that to the shaft as it is"),
+        ("App::PropertyStringList", "Doubts", "what was seen of the shaft that should be looked at"),
+        ("App::PropertyString", "Confirmed", "mass and sizes that the designer has confirmed"),
+        ("App::PropertyString", "Forced", "why it should not have been balanced, and was"),
     )
 
     def __init__(self, made):
@@ -51,7 +55,8 @@ class Machine(_Proxy):
         made.Clearance = 5.0
         for name in ("Request", "Answer"):
             made.setEditorMode(name, 2)
-        made.setEditorMode("Status", 1)
+        for name in ("Status", "Doubts", "Confirmed", "Forced"):
+            made.setEditorMode(name, 1)
         made.Proxy = self
 
     def execute(self, machine):
@@ -113,6 +118,17 @@ def _add(made, properties):
 # ---- what a machine says now
 
 
+def sizes(machine):
+    """Bodies and length of the shaft as its solids are."""
+    shapes = [seen(body, machine.Frame) for body in machine.Shaft]
+    pieces = tuple(
+        Piece(body.Label, sum(solid.Volume for solid in shape.Solids) * MM**3, density)
+        for body, shape, density in zip(machine.Shaft, shapes, machine.Densities)
+    )
+    low, high = min(shape.BoundBox.ZMin for shape in shapes), max(shape.BoundBox.ZMax for shape in shapes)
+    return Sizes(pieces, (high - low) * MM)
+
+
 def shaft_moments(machine):
     """Moments of every body of the shaft by its label."""
     if len(machine.Densities) != len(machine.Shaft):
@@ -155,7 +171,9 @@ def status(machine):
         return wrong.lines[0]
     if not machine.Answer:
         return "not balanced yet"
-    return "balanced" if alike(now, json.loads(machine.Request)) else "balance again: shaft or tables have changed"
+    if not alike(now, json.loads(machine.Request)):
+        return "balance again: shaft or tables have changed"
+    return f"balanced, FORCED in spite of: {machine.Forced}" if machine.Forced else "balanced"
 
 
 def alike(one, other):

@@ -12,6 +12,8 @@ import json
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Mapping, Sequence, Tuple, Union
 
+from .quantities import quantity
+
 Cell = Union[str, float, int, None]
 Table = List[List[Cell]]
 
@@ -139,7 +141,13 @@ class _Reader:
         elif not isinstance(value, str):
             item[last] = value
         elif last.endswith(_UNITS):
-            self.wrong.append(f"{place}: {name}: must be a number, not {value!r}")
+            number = quantity(last, value)
+            if number is None:
+                self.wrong.append(
+                    f"{place}: {name}: must be a number, or one with a unit such as '180 mm', not {value!r}"
+                )
+            else:
+                item[last] = number
         else:
             item[last] = _parsed(value)
         cells["".join(f"/{key}" for key in (*path, last))] = place

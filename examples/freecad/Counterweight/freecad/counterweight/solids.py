@@ -7,10 +7,9 @@ from math import cos, sin
 import FreeCAD as App
 import Part
 
-from .cranks import inside
+from .faces import MM, inside
 from .moments import Moments
 
-MM = 1e-3
 STEEL_KG_M3 = 7850.0
 
 

@@ -10,8 +10,12 @@ from .moments import Moments
 
 #: relative difference above which the solids are not those of the answer
 TOLERANCE = 1e-9
+#: relative difference that is rounding
+_EQUAL = 1e-12
 #: of all forces together, as if none cancelled another
 _SMALL = 1e-6
+#: of that, what rounding leaves
+_ROUNDING = 1e-3
 
 
 @dataclass(frozen=True)
@@ -19,6 +23,7 @@ class Line:
     """One figure: of the solids, of the service, and without counterweights, by which their difference is measured.
 
     small : below this a figure is what rounding leaves of larger ones, and no measure.
+    headline : whether it is told in the line of the verdict.
     """
 
     what: str
@@ -27,16 +32,29 @@ class Line:
     told: float
     found: float
     small: float
+    headline: bool = False
 
     @property
     def off(self) -> float:
         return abs(self.found - self.told) / (max(self.before, self.told, self.small) or 1.0)
 
     def __str__(self) -> str:
+        solids, service, before = map(self._figure, (self.found, self.told, self.before))
+        difference = "equal" if self.off <= _EQUAL else f"difference {self.off:.1e} of it"
         return (
-            f"{self.what}: solids {self.found:,.6g} {self.unit}, service {self.told:,.6g} {self.unit}, "
-            f"without {self.before:,.6g} {self.unit}, difference {self.off:.1e} of it"
+            f"{self.what}: solids {solids} {self.unit}, service {service} {self.unit}, "
+            f"without {before} {self.unit}, {difference}"
         )
+
+    @property
+    def outcome(self) -> str:
+        """What remains of what there was."""
+        return f"{self.what} {self._figure(self.found)} of {self._figure(self.before)} {self.unit}"
+
+    def _figure(self, value: float) -> str:
+        """Digits; what rounding leaves of larger figures is nothing."""
+        nothing = abs(value) <= max(TOLERANCE * max(self.before, self.told), _ROUNDING * self.small)
+        return "0" if nothing else f"{value:,.6g}"
 
 
 @dataclass(frozen=True)
@@ -44,6 +62,7 @@ class Verdict:
     """What the comparison came to."""
 
     lines: Tuple[Line, ...]
+    notes: Tuple[str, ...] = ()
 
     @property
     def worst(self) -> float:
@@ -53,15 +72,20 @@ class Verdict:
     def held(self) -> bool:
         return self.worst <= TOLERANCE
 
-    def words(self) -> List[str]:
-        if self.held:
-            last = f"The solids leave what the service says, to {self.worst:.1e}."
-        else:
-            last = (
+    @property
+    def headline(self) -> str:
+        """The verdict in a line."""
+        if not self.held:
+            return (
                 f"REFUSED: the solids are not those of the answer, by {self.worst:.1e} (at most {TOLERANCE:g}). "
                 "Shaft, tables or counterweights have changed: balance again."
             )
-        return [*map(str, self.lines), last]
+        outcome = ", ".join(line.outcome for line in self.lines if line.headline)
+        return f"HELD: the solids leave what the service says: {outcome}."
+
+    def words(self) -> List[str]:
+        """The verdict, what is noted beside it, and all figures."""
+        return [self.headline, *self.notes, *map(str, self.lines)]
 
 
 def verdict(
@@ -91,7 +115,7 @@ def verdict(
         ):
             words = f"{part.replace('_', '-')} {name}"
             told = after[name][f"{part}_{unit}"]
-            lines.append(Line(words, unit.replace("Nm", "N m"), scale, told, value, least))
+            lines.append(Line(words, unit.replace("Nm", "N m"), scale, told, value, least, part == "peak"))
     masses: Dict[str, float] = {one["web"]: one["mass_kg"] for one in answer["counterweights"]}
     most = max(masses.values(), default=0.0)
     for web in sorted({*masses, *weights}):

@@ -1,0 +1,8 @@
+"""What a designer should look at."""
+
+from schemas.shaft.answer import Doubt, DoubtCode
+
+
+def doubt(code: DoubtCode, number: int, message: str, serious: bool = False, of: str = "faces") -> Doubt:
+    """A doubt about a face, or a body, of the request."""
+    return Doubt(code=code, message=message, pointer=f"/{of}/{number}", serious=serious)

@@ -1,0 +1,147 @@
+"""Faces of a request as arrays, and the same in another frame."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optimizer.numerics.arrays import Real
+from schemas.shaft.request import CylinderFace, OtherFace, PlaneFace, ShaftRequest
+
+Numbers = NDArray[np.intp]
+
+
+@dataclass(frozen=True)
+class Frame:
+    """An origin (3,) and three directions at right angles, the rows of `across` (3, 3)."""
+
+    origin: Real
+    across: Real
+
+    def points(self, points: Real) -> Real:
+        """Points (..., 3) as seen from the frame."""
+        return (points - self.origin) @ self.across.T
+
+    def directions(self, directions: Real) -> Real:
+        """Directions (..., 3) as seen from the frame."""
+        return directions @ self.across.T
+
+
+@dataclass(frozen=True)
+class Cylinders:
+    """Outer round faces: point and unit direction of their axes (n, 3), radius (n,), ends (n, 2), angle (n,) deg.
+
+    number : of each face in the request (n,).
+    points : of each face's edges, n arrays (k, 3).
+    """
+
+    number: Numbers
+    point: Real
+    direction: Real
+    radius: Real
+    ends: Real
+    angle_deg: Real
+    points: tuple[Real, ...]
+
+    @property
+    def length(self) -> Real:
+        """Along the axes (n,)."""
+        return np.abs(self.ends[:, 1] - self.ends[:, 0])
+
+    @property
+    def area(self) -> Real:
+        """Of the faces (n,)."""
+        return np.deg2rad(self.angle_deg) * self.radius * self.length
+
+    @property
+    def tips(self) -> Real:
+        """Both ends of every axis (n, 2, 3)."""
+        return self.point[:, None] + self.ends[..., None] * self.direction[:, None]
+
+    def seen_from(self, frame: Frame) -> Self:
+        """The same in a frame."""
+        return replace(
+            self,
+            point=frame.points(self.point),
+            direction=frame.directions(self.direction),
+            points=tuple(frame.points(one) for one in self.points),
+        )
+
+    def chosen(self, which: NDArray[np.bool_]) -> Self:
+        """Some of them."""
+        return replace(
+            self,
+            number=self.number[which],
+            point=self.point[which],
+            direction=self.direction[which],
+            radius=self.radius[which],
+            ends=self.ends[which],
+            angle_deg=self.angle_deg[which],
+            points=tuple(one for one, taken in zip(self.points, which, strict=True) if taken),
+        )
+
+
+@dataclass(frozen=True)
+class Planes:
+    """Plane faces: a point and the unit normal out of the material (n, 3), area (n,), NaN where it is not known."""
+
+    number: Numbers
+    point: Real
+    normal: Real
+    area: Real
+    points: tuple[Real, ...]
+
+    def seen_from(self, frame: Frame) -> Self:
+        """The same in a frame."""
+        return replace(
+            self,
+            point=frame.points(self.point),
+            normal=frame.directions(self.normal),
+            points=tuple(frame.points(one) for one in self.points),
+        )
+
+
+def cylinders_of(request: ShaftRequest) -> Cylinders:
+    """The outer round faces; bores show nothing that counts here."""
+    found = [(n, one) for n, one in enumerate(request.faces) if isinstance(one, CylinderFace) and one.outer]
+    faces = [one for _, one in found]
+    return Cylinders(
+        number=np.array([n for n, _ in found], dtype=np.intp),
+        point=_triples([one.centre_m for one in faces]),
+        direction=_units([one.axis for one in faces]),
+        radius=np.array([one.radius_m for one in faces]),
+        ends=np.array([sorted(one.ends_m) for one in faces]).reshape(-1, 2),
+        angle_deg=np.array([one.angle_deg for one in faces]),
+        points=tuple(_triples(one.points_m) for one in faces),
+    )
+
+
+def planes_of(request: ShaftRequest) -> Planes:
+    """The plane faces."""
+    found = [(n, one) for n, one in enumerate(request.faces) if isinstance(one, PlaneFace)]
+    faces = [one for _, one in found]
+    return Planes(
+        number=np.array([n for n, _ in found], dtype=np.intp),
+        point=_triples([one.centre_m for one in faces]),
+        normal=_units([one.normal for one in faces]),
+        area=np.array([np.nan if one.area_m2 is None else one.area_m2 for one in faces]),
+        points=tuple(_triples(one.points_m) for one in faces),
+    )
+
+
+def other_points(request: ShaftRequest) -> Real:
+    """Points (n, 3) of all faces that are neither round nor plane."""
+    return _triples([point for one in request.faces if isinstance(one, OtherFace) for point in one.points_m])
+
+
+def _triples(points: Sequence[Sequence[float]]) -> Real:
+    return np.array(points, dtype=float).reshape(-1, 3)
+
+
+def _units(directions: Sequence[Sequence[float]]) -> Real:
+    """Directions of length 1; scaled first, that no square overflows or vanishes."""
+    found = _triples(directions)
+    found = found / np.max(np.abs(found), axis=-1, keepdims=True, initial=1e-300)
+    return found / np.linalg.norm(found, axis=-1, keepdims=True)

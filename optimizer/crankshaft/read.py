@@ -1,0 +1,74 @@
+"""From faces and bodies to a crankshaft: axis -> frame -> round stretches -> webs -> answer."""
+
+import numpy as np
+
+from optimizer.crankshaft.axis import axis_of, extent, frame_given, frame_on, lean, parallel
+from optimizer.crankshaft.faces import Cylinders, Frame, cylinders_of, other_points, planes_of
+from optimizer.crankshaft.flanks import Flanks
+from optimizer.crankshaft.plates import Plates, Sides, plates
+from optimizer.crankshaft.report import Shaft, report
+from optimizer.crankshaft.rotor import rotor_of
+from optimizer.crankshaft.stretches import Stretches, stretches
+from optimizer.crankshaft.units import unit_problems
+from optimizer.errors import refuse
+from schemas.base.model import FieldProblem
+from schemas.shaft.answer import ShaftAnswer
+from schemas.shaft.request import ShaftRequest
+
+#: of the length between the outermost faces, by which measures of one thing differ at most
+_TOLERANCE = 1e-5
+
+
+def read_shaft(request: ShaftRequest) -> ShaftAnswer:
+    """The crankshaft that faces and bodies show.
+
+    Raises
+    ------
+    OutOfRange
+        if they show none, or more than one, or are in different units.
+    """
+    shaft = _shown(request) if request.faces else _bare(request)
+    rotor = rotor_of(request.bodies, shaft.frame, shaft.ends) if request.bodies else None
+    return report(request, shaft, rotor)
+
+
+def _bare(request: ShaftRequest) -> Shaft:
+    """Without faces there are a frame and bodies, as a rule of the request says."""
+    assert request.frame is not None
+    return Shaft(frame_given(request.frame), Plates((), (), ()), (), None)
+
+
+def _shown(request: ShaftRequest) -> Shaft:
+    cylinders = cylinders_of(request)
+    if not len(cylinders.number):
+        refuse([FieldProblem(("faces",), "no outer cylinder is among them: nothing shows where the axis is")])
+    refuse(unit_problems(cylinders))
+    tolerance = request.tolerance_m or _TOLERANCE * extent(cylinders)
+    frame = _found_frame(request, cylinders, tolerance) if request.frame is None else frame_given(request.frame)
+    along, flanks, chain = _seen(request, cylinders, frame, tolerance)
+    sides = Sides(along, planes_of(request).seen_from(frame), frame.points(other_points(request)))
+    found = plates(chain.chain, flanks, sides, tolerance)
+    z = along.tips[..., 2]
+    return Shaft(frame, found, chain.doubts, (float(np.min(z)), float(np.max(z))))
+
+
+def _found_frame(request: ShaftRequest, cylinders: Cylinders, tolerance: float) -> Frame:
+    """The frame with x towards the first pin."""
+    line = axis_of(cylinders, tolerance)
+    frame = frame_on(line)
+    _, _, chain = _seen(request, cylinders, frame, tolerance)
+    first = next(one for one in chain.chain if not one.journal)
+    towards = frame.origin + np.array([first.centre.real, first.centre.imag, 0.0]) @ frame.across
+    return frame_on(line, towards)
+
+
+def _seen(
+    request: ShaftRequest, cylinders: Cylinders, frame: Frame, tolerance: float
+) -> tuple[Cylinders, Flanks, Stretches]:
+    """Faces along the shaft, flanks across it, and the round stretches that they show."""
+    seen = cylinders.seen_from(frame)
+    along = seen.chosen(lean(seen.direction, np.array([0.0, 0.0, 1.0])) <= parallel(cylinders, tolerance))
+    if not len(along.number):
+        refuse([FieldProblem(("frame", "z"), "no outer cylinder is along it")])
+    flanks = Flanks.of(planes_of(request).seen_from(frame), tolerance)
+    return along, flanks, stretches(along, flanks, tolerance)

@@ -1,0 +1,1 @@
+"""What any CAD lists of a shaft, and the crankshaft that it shows."""

@@ -1,0 +1,56 @@
+"""The crankshaft that faces and bodies show: throws, webs, bearings, unbalance, and what to look at."""
+
+from collections.abc import Iterator
+
+from schemas.shaft.answer import ShaftAnswer
+from schemas.shaft.request import ShaftRequest
+from service.report.blocks import Chapter, Paragraph, facts, table
+
+
+def shown(request: ShaftRequest, answer: ShaftAnswer) -> Iterator[Chapter]:
+    """The answer to a request."""
+    serious = sum(one.serious for one in answer.doubts)
+    if serious:
+        yield Chapter("Verdict", (Paragraph(f"Serious doubts: {serious}. Correct the model first.", "warning"),))
+    frame = answer.frame
+    named = (("origin, m", frame.origin_m), ("x", frame.x), ("y", frame.y), ("z, the axis", frame.z))
+    rows = [(name, x, y, z) for name, (x, y, z) in named]
+    yield Chapter("Frame of the shaft, in the model", (table("", ["", "#x", "#y", "#z"], rows),))
+    if answer.throws:
+        throws = [
+            (throw.name, throw.position_m, throw.crank_radius_m, throw.crank_angle_deg, pin.diameter_m)
+            for throw, pin in zip(answer.throws, answer.pins, strict=True)
+        ]
+        heads = ["throw", "#position, m", "#crank radius, m", "#crank angle, deg", "#pin diameter, m"]
+        yield Chapter("Throws", (table("", heads, throws),))
+    if answer.plates:
+        plates = [
+            (
+                one.web or "no envelope",
+                (one.from_m + one.to_m) / 2,
+                one.thickness_m,
+                "not known" if one.hub_m is None else one.hub_m,
+                "not known" if one.reach_m is None else one.reach_m,
+            )
+            for one in answer.plates
+        ]
+        heads = ["web", "#position, m", "#thickness, m", "#reach opposite its crank, m", "#reach, m"]
+        yield Chapter("Webs", (table("", heads, plates),))
+    if answer.bearings:
+        journals = [(one.name, one.position_m, one.diameter_m, one.length_m) for one in answer.bearings]
+        yield Chapter("Bearings", (table("", ["bearing", "#position, m", "#diameter, m", "#length, m"], journals),))
+    if answer.rotor is not None:
+        mass = facts("", [("mass, kg", answer.rotor.mass_kg), ("unbalance, kg m", answer.rotor.unbalance_kg_m)])
+        planes = [(one.name, one.position_m, one.x_kg_m, one.y_kg_m) for one in answer.unbalances]
+        both = table("In two planes", ["plane", "#position, m", "#x, kg m", "#y, kg m"], planes)
+        yield Chapter("Unbalance of the bodies", (mass, both))
+    if answer.doubts:
+        doubts = [(_name(request, one.pointer), one.code, one.message) for one in answer.doubts]
+        yield Chapter("What to look at", (table("", ["face or body", "about", "<what was seen"], doubts),))
+
+
+def _name(request: ShaftRequest, pointer: str) -> str:
+    """Where a doubt points, with the name that the CAD gives it."""
+    _, kind, number = pointer.split("/")
+    named = (request.faces if kind == "faces" else request.bodies)[int(number)].name
+    return pointer if named is None else f"{named} ({pointer})"
