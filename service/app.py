@@ -163,9 +163,6 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         gc.collect()
         gc.freeze()
 
-    def template(scope: Scope) -> str | None:
-        return methods.template(scope)
-
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
