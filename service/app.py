@@ -163,9 +163,6 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
         gc.collect()
         gc.freeze()
 
-    def template(scope: Scope) -> str | None:
-        return methods.template(scope)
-
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with create_task_group() as tasks:
@@ -181,6 +178,9 @@ def create_app(settings: Settings | None = None, warm: bool = True, jobs: JobSer
             await to_thread.run_sync(pool.close)
             await to_thread.run_sync(traces.close)
             tasks.cancel_scope.cancel()
+
+    def template(scope: Scope) -> str | None:
+        return methods.template(scope)
 
     app = Application(
         (

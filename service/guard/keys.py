@@ -36,6 +36,7 @@ PUBLIC = PROBES | {"/", "/docs", "/docs/guide", "/openapi.json", "/favicon.ico"}
 PUBLIC_FOLDERS = ("/docs/assets/", "/docs/guide/", "/portal/", "/problems/")
 
 _LOG = logging.getLogger(__name__)
+_AUDIT = logging.getLogger("service.audit")
 _KEY = re.compile(r"cw_([0-9a-f]{12})_([A-Za-z0-9_-]{43})")
 #: the file is looked at again after so long [s]: keys come and go without a restart
 _LOOK_S = 1.0
@@ -207,6 +208,7 @@ class Keys:
         self._stamp = self._stamped()
         self._looked = time.monotonic()
         self._nobody = make("nobody", ("read",))[1]
+        self._noted: set[tuple[str, str]] = set()
 
     def caller(self, key: str) -> Caller | None:
         """Whose key it is; None if it is no key, wrong or expired."""
@@ -215,8 +217,12 @@ class Keys:
         record = self._known.get(match[1], self._nobody) if match else self._nobody
         # compared in every case, so that the time tells nothing
         right = hmac.compare_digest(_hash(record.salt, key), record.sha256)
-        if not right or (record.expires is not None and record.expires < time.time()):
+        if not right:
             return None
+        if record.expires is not None and record.expires < time.time():
+            self._note_once("refused, as it has expired", record)
+            return None
+        self._note_once("used for the first time since the start", record)
         return Caller(record.id, record.owner, frozenset(record.scopes), record.rate_limit)
 
     def _look(self) -> None:
@@ -228,11 +234,30 @@ class Keys:
         if stamp == self._stamp:
             return
         try:
-            self._known = {record.id: record for record in read(self._file)}
+            known = {record.id: record for record in read(self._file)}
         except BadKeyFile as error:
             # the keys that are known stay valid until the file is right again
             _LOG.warning("%s", error)
+        else:
+            self._note_changes(known)
+            self._known = known
         self._stamp = stamp
+
+    def _note_changes(self, known: Mapping[str, KeyRecord]) -> None:
+        for identity in sorted(known.keys() | self._known.keys()):
+            before, now = self._known.get(identity), known.get(identity)
+            if before is None and now is not None:
+                _note("added", now)
+            elif now is None and before is not None:
+                _note("revoked", before)
+            elif before is not None and now is not None and before != now:
+                _note("changed", now)
+
+    def _note_once(self, what: str, record: KeyRecord) -> None:
+        # each request is a line of its own, which names the key
+        if (what, record.id) not in self._noted:
+            self._noted.add((what, record.id))
+            _note(what, record)
 
     def _stamped(self) -> tuple[int, int, int]:
         try:
@@ -259,6 +284,12 @@ def keys(settings: Settings) -> Keys | None:
         f"other machines reach {settings.host}: set COUNTERWEIGHT_KEYS_FILE to a file made with `counterweight key`, "
         "or COUNTERWEIGHT_ALLOW_WITHOUT_KEYS=true"
     )
+
+
+def _note(what: str, record: KeyRecord) -> None:
+    """A line of the audit: of a key its public part, never the key."""
+    about = {"key": record.id, "owner": record.owner, "scopes": " ".join(record.scopes)}
+    _AUDIT.info("key %s %s", record.id, what, extra={**about, "about": about})
 
 
 _RECORD = TypeAdapter(KeyRecord)

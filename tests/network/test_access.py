@@ -366,3 +366,25 @@ def test_a_prefix_changes_nothing_about_who_may_what(made: tuple[Path, dict[str,
             assert client.get(f"{prefix}/metrics", headers={"X-API-Key": made[1]["alice"]}).status_code == 403
             assert client.get(f"{prefix}/healthz/../v1/examples").status_code == 401
         assert client.get("/cwhealthz").status_code == 401
+
+
+def test_use_and_change_of_keys_are_noted(
+    tmp_path: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(keys, "_LOOK_S", 0.0)
+    (one, first), (other, second) = keys.make("portal", ("read",)), keys.make("cad", ("compute",))
+    old, expired = keys.make("old", ("read",), expires=1.0)
+    file = tmp_path / "keys.jsonl"
+    keys.write(file, [first, expired])
+    caplog.set_level("INFO", "service.audit")
+    known = keys.Keys(file)
+    for given in (one, one, old, old, "cw_wrong"):
+        known.caller(given)
+    keys.write(file, [second, expired.model_copy(update={"expires": 2.0})])
+    known.caller(one)
+    known.caller(other)
+    said = [(record.getMessage().split(" ", 2)[2], vars(record)["owner"]) for record in caplog.records]
+    assert said[:2] == [("used for the first time since the start", "portal"), ("refused, as it has expired", "old")]
+    assert sorted(said[2:-1]) == [("added", "cad"), ("changed", "old"), ("revoked", "portal")]
+    assert said[-1] == ("used for the first time since the start", "cad")
+    assert not any(secret in caplog.text for secret in (one, other, old, first.sha256))
