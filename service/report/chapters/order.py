@@ -25,11 +25,8 @@ def workshop_order(machine: Machine, answer: OptimizeAnswer) -> Iterator[Chapter
 
 def order_chapter(answer: OptimizeAnswer) -> Iterator[Chapter]:
     """The table, where there is anything to order."""
-    rows = [
-        tuple(Number(float(cell), str(cell)) if place == 1 else cell for place, cell in enumerate(line))
-        for line in order(answer)
-        if isinstance(line[1], int)
+    rows: list[list[Cell | float | None]] = [
+        [Number(cell, str(cell)) if isinstance(cell, int) else cell for cell in line] for line in order(answer)
     ]
-    cells: list[tuple[Cell | float | None, ...]] = [tuple(row) for row in rows]
-    if cells:
-        yield Chapter("Order for the workshop", (Paragraph(_WORDS), table("", _HEADS, cells)))
+    if rows:
+        yield Chapter("Order for the workshop", (Paragraph(_WORDS), table("", _HEADS, rows)))
