@@ -25,10 +25,8 @@ def workshop_order(machine: Machine, answer: OptimizeAnswer) -> Iterator[Chapter
 
 def order_chapter(answer: OptimizeAnswer) -> Iterator[Chapter]:
     """The table, where there is anything to order."""
-    cells: list[tuple[Cell | float | None, ...]] = [
-        (size, Number(quantity, str(quantity)), *rest)
-        for size, quantity, *rest in order(answer)
-        if isinstance(quantity, int)
+    rows: list[list[Cell | float | None]] = [
+        [Number(cell, str(cell)) if isinstance(cell, int) else cell for cell in line] for line in order(answer)
     ]
-    if cells:
-        yield Chapter("Order for the workshop", (Paragraph(_WORDS), table("", _HEADS, cells)))
+    if rows:
+        yield Chapter("Order for the workshop", (Paragraph(_WORDS), table("", _HEADS, rows)))

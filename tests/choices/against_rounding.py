@@ -1,0 +1,246 @@
+"""Choices from steps, two sizes, holes and catalogues beside rounding by hand with local search, on random machines.
+
+``python -m tests.choices.against_rounding [--count 100]`` prints how many answers are worse by more than the asked gap,
+with gaps, masses and times; it ends with 1 where any is. It is a plain search: from the rounded continuous optimum one
+web at a time over all its options, then two, with a price on mass and without.
+"""
+
+import argparse
+import sys
+import time
+from collections.abc import Iterator
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from optimizer.optimize import optimize
+from schemas.answer.answers import OptimizeAnswer
+from schemas.request.requests import OptimizeRequest
+
+MODES = ("steps", "two sizes", "holes", "catalogue")
+#: N a kilogram; options of one web that are tried with all of another
+_PRICES, _PAIRED = (0.0, 1.0), 60
+#: gap that is asked for where nothing is said
+_GAP = 1e-3
+
+Body = dict[str, Any]
+
+
+class Compared(NamedTuple):
+    """One machine both ways."""
+
+    mode: str
+    throws: int
+    value: float
+    by_hand: float
+    mass: float
+    mass_by_hand: float
+    yardstick: float
+    gap: float
+    seconds: float
+
+    @property
+    def worse(self) -> bool:
+        return self.value > self.by_hand + _GAP * self.yardstick * (1 + 1e-6)
+
+
+def machine(rng: np.random.Generator) -> Body:
+    """Two to six throws of one row each, with a web on either side."""
+    count, pitch = int(rng.integers(2, 7)), 0.9
+    throws, webs = [], []
+    for n in range(count):
+        z, crank = (n - 0.5 * (count - 1)) * pitch, float(rng.choice(np.arange(0, 360, 30)))
+        row = {"axis_deg": float(rng.choice([0, 180, 90])), "reciprocating_mass_kg": float(rng.uniform(150, 450))}
+        turning = float(rng.uniform(20, 90))
+        throws.append(
+            {
+                "position_m": z,
+                "crank_radius_m": 0.1,
+                "crank_angle_deg": crank,
+                "rotating_mass_kg": turning,
+                "rows": [row],
+            }
+        )
+        for side, off in (("a", -0.15), ("b", 0.15)):
+            webs.append(
+                {
+                    "name": f"{n}{side}", "position_m": z + off, "counterweight_radius_m": 0.26, "max_mass_kg": 90,
+                    "throw": n, "sector": {"centre_deg": (crank + 180) % 360, "half_angle_deg": 60},
+                }
+            )  # fmt: skip
+    return {"kind": "reciprocating", "speed_rpm": 600, "throws": throws, "webs": webs}
+
+
+def with_choices(free: Body, mode: str, rng: np.random.Generator) -> Body:
+    found: Body = {**free, "webs": [dict(web) for web in free["webs"]]}
+    if mode in ("steps", "two sizes"):
+        found["catalogue"] = {"mass_step_kg": 0.5, "angle_step_deg": 5}
+    elif mode == "holes":
+        found["catalogue"] = {"mass_step_kg": 1.0}
+        for web in found["webs"]:
+            web["hole_angles_deg"] = [web["sector"]["centre_deg"] + off for off in (-45, -15, 15, 45)]
+    else:
+        masses = np.unique(np.round(rng.uniform(2, 90, 12), 1)).tolist()
+        found["catalogue"] = {"masses_kg": masses, "angle_step_deg": 15}
+    if mode == "two sizes":
+        found["catalogue"]["max_part_numbers"] = 2
+    return found
+
+
+class Plain:
+    """Rounding by hand with local search; it knows nothing of the service but the continuous optimum."""
+
+    def __init__(self, body: Body, free: OptimizeAnswer) -> None:
+        self.body, self.plane = body, free.reference_plane_m
+        square = (body["speed_rpm"] * np.pi / 30) ** 2
+        z, co, counter = [], [], []
+        for throw in body["throws"]:
+            phase = np.exp(1j * np.radians(throw["crank_angle_deg"])) * throw["crank_radius_m"]
+            (row,) = throw["rows"]
+            axis, half = np.exp(2j * np.radians(row["axis_deg"])), 0.5 * row["reciprocating_mass_kg"]
+            z.append(throw["position_m"] - self.plane)
+            co.append((throw["rotating_mass_kg"] + half) * phase)
+            counter.append(half * axis * np.conj(phase))
+        levers = np.array(z)
+        places = [w["position_m"] for w in body["webs"]] + [t["position_m"] for t in body["throws"]]
+        weight = 1.0 / (max(places) - min(places))
+        self.weight = np.array([square, square * weight])
+        self.start = np.array([np.sum(co), np.sum(levers * co)])
+        self.still = np.abs([np.sum(counter), np.sum(levers * counter)])
+        self.arms = np.array([[1.0, web["position_m"] - self.plane] for web in body["webs"]])
+        self.options = [self._options(k) for k in range(len(body["webs"]))]
+        self.free = np.array([one.mass_kg * np.exp(1j * np.radians(one.angle_deg)) for one in free.counterweights])
+
+    def _options(self, k: int) -> np.ndarray:
+        """Masses times directions of a web, nothing first."""
+        web, catalogue = self.body["webs"][k], self.body["catalogue"]
+        step = catalogue.get("mass_step_kg")
+        masses = np.arange(step, 90 + step / 2, step) if step else np.array(catalogue["masses_kg"])
+        if "hole_angles_deg" in web:
+            angles = np.array(web["hole_angles_deg"], float)
+        else:
+            crank = self.body["throws"][web["throw"]]["crank_angle_deg"]
+            angles = crank + np.arange(0, 360, catalogue["angle_step_deg"])
+            off = (angles - web["sector"]["centre_deg"] + 180) % 360 - 180
+            angles = angles[np.abs(off) <= web["sector"]["half_angle_deg"] + 1e-9]
+        return np.append(0, np.multiply.outer(masses[masses <= 90], np.exp(1j * np.radians(angles))).ravel())
+
+    def values(self, co: np.ndarray) -> np.ndarray:
+        """Objectives of co-rotating parts (..., 2)."""
+        found: np.ndarray = np.sum(self.weight * (np.abs(co) + self.still), axis=-1)
+        return found
+
+    def best(self, options: list[np.ndarray]) -> tuple[float, float]:
+        """Objective and mass of the best set by moves of one and of two webs."""
+        found = (np.inf, 0.0)
+        for price in _PRICES:
+            taken = [some[np.argmin(np.abs(some - at))] for some, at in zip(options, self.free, strict=True)]
+            found = min(found, self._moved(taken, options, price))
+        return found
+
+    def _moved(self, taken: list[complex], options: list[np.ndarray], price: float) -> tuple[float, float]:
+        rng, effects = (
+            np.random.default_rng(1),
+            [0.26 * some[:, None] * arm for some, arm in zip(options, self.arms, strict=True)],
+        )
+        mass = [np.abs(some) for some in options]
+        at = [int(np.argmin(np.abs(some - one))) for some, one in zip(options, taken, strict=True)]
+        webs, moved, best = len(at), True, np.inf
+
+        def without(*which: int) -> tuple[np.ndarray, float]:
+            rest = [k for k in range(webs) if k not in which]
+            co = self.start + sum((effects[k][at[k]] for k in rest), np.zeros(2))
+            return co, float(sum(mass[k][at[k]] for k in rest))
+
+        while moved:
+            moved = False
+            for k in range(webs):
+                co, weight = without(k)
+                cost = self.values(co + effects[k]) + price * (weight + mass[k])
+                if cost.min() < best * (1 - 1e-12):
+                    best, at[k], moved = float(cost.min()), int(np.argmin(cost)), True
+            if moved:
+                continue
+            for i in range(webs):
+                for j in range(webs):
+                    if i == j:
+                        continue
+                    co, weight = without(i, j)
+                    some = rng.choice(len(options[i]), min(_PAIRED, len(options[i])), replace=False)
+                    cost = self.values(co + effects[i][some][:, None] + effects[j][None])
+                    cost = cost + price * (weight + mass[i][some][:, None] + mass[j][None])
+                    if cost.min() < best * (1 - 1e-12):
+                        a, b = np.unravel_index(int(np.argmin(cost)), cost.shape)
+                        best, at[i], at[j], moved = float(cost.min()), int(some[a]), int(b), True
+        co, weight = without()
+        return float(self.values(co)), weight
+
+    def of_two_sizes(self) -> tuple[float, float]:
+        """Sizes near the masses of the optimum, moved by a step at a time."""
+        used = np.round(np.abs(self.free[np.abs(self.free) > 0.5]) * 2) / 2
+        first = (float(used.max()), float(used.min())) if used.size else (10.0, 1.0)
+        sizes = first if first[0] != first[1] else (first[0], 2.0)
+
+        def value(pair: tuple[float, float]) -> tuple[float, float]:
+            some = [
+                o[(np.abs(o) == 0) | np.isclose(np.abs(o), pair[0]) | np.isclose(np.abs(o), pair[1])]
+                for o in self.options
+            ]
+            return self.best(some)
+
+        found, moved = value(sizes), True
+        for _ in range(6):
+            if not moved:
+                break
+            moved = False
+            for da, db in ((0.5, 0), (-0.5, 0), (0, 0.5), (0, -0.5)):
+                pair = (min(sizes[0] + da, 90.0), max(sizes[1] + db, 0.5))
+                tried = value(pair)
+                if tried[0] < found[0] * (1 - 1e-12):
+                    found, sizes, moved = tried, pair, True
+        return found
+
+
+def compared(seed: int) -> Iterator[Compared]:
+    """One machine in every mode."""
+    rng = np.random.default_rng(seed)
+    free = machine(rng)
+    optimum = optimize(OptimizeRequest.model_validate({"machine": free}))
+    for mode in MODES:
+        body = with_choices(free, mode, rng)
+        start = time.process_time()
+        found = optimize(OptimizeRequest.model_validate({"machine": body}))
+        seconds = time.process_time() - start
+        assert found.certificate is not None
+        plain = Plain(body, optimum)
+        value, mass = plain.of_two_sizes() if mode == "two sizes" else plain.best(plain.options)
+        proof = found.certificate
+        yield Compared(
+            mode, len(free["throws"]), proof.objective, value, found.total_mass_kg or 0.0, mass, proof.yardstick,
+            np.nan if proof.relative_gap is None else proof.relative_gap, seconds,
+        )  # fmt: skip
+
+
+def main(count: int) -> int:
+    every = [one for seed in range(count) for one in compared(seed)]
+    for mode in MODES:
+        some = [one for one in every if one.mode == mode]
+        gaps, seconds = np.array([one.gap for one in some]), np.array([one.seconds for one in some])
+        heavier = np.array([one.mass - one.mass_by_hand for one in some])
+        worse = [one for one in some if one.worse]
+        print(
+            f"{mode:<10} machines {len(some):>4}, worse {len(worse):>3}, better"
+            f" {sum(one.value < one.by_hand - _GAP * one.yardstick for one in some):>3};"
+            f" gap median {np.nanmedian(gaps):.1e}, largest {np.nanmax(gaps):.1e};"
+            f" CPU median {np.median(seconds):.2f} s, largest {np.max(seconds):.1f};"
+            f" mass against by hand, median {np.median(heavier):+.1f} kg"
+        )
+        for one in worse:
+            print(f"    {one}")
+    return int(any(one.worse for one in every))
+
+
+if __name__ == "__main__":
+    reader = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    reader.add_argument("--count", type=int, default=100, help="machines, each in four modes")
+    sys.exit(main(reader.parse_args().count))
